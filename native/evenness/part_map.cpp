@@ -135,7 +135,7 @@ void map_disk(const PartMesh& part, PartMap& map, ExecutionContext& context)
         least_edge, map);
 }
 
-void fit_circles(const PartMesh& part, PartMap& map)
+void fit_each_circle(const PartMesh& part, PartMap& map)
 {
     map.circles.clear();
     for (std::size_t k = 0; k < part.surface.loops.size(); ++k)
@@ -150,7 +150,7 @@ void finish(const PartMesh& part, PartMap& map)
     map.lost_area = 0.0;
     for (std::size_t f = 0; f < map.lost.size(); ++f)
         if (map.lost[f]) map.lost_area += part.areas[static_cast<Eigen::Index>(f)];
-    fit_circles(part, map);
+    fit_each_circle(part, map);
     const bool two = part.surface.loops.size() == 2;
     if (two && map.tube_overflow < 0.0) {
         const Moebius centered = center_circle(map.circles[1 - map.outer]);
@@ -164,7 +164,7 @@ void finish(const PartMesh& part, PartMap& map)
     }
     if (!two || map.circles[1 - map.outer].radius > deep_hole) {
         move_to_even_pole(part.areas, map);
-        fit_circles(part, map);
+        fit_each_circle(part, map);
     }
     const Evenness disk = evenness(map.u, part.areas, map.lost);
     map.kind = PartKind::disk;

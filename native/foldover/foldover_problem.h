@@ -28,6 +28,7 @@ struct FoldoverProblem : FoldoverPlaces {
     VectorXd weight;                         ///< (F) weights of faces in the sum; empty: 1
     std::vector<Mobility> mobility;          ///< (V)
     std::vector<Circle> circles;             ///< (V) circles of sliding and of pulled vertices
+    bool bends = false;                      ///< Newton steps count the curvature of sliding vertices' circles, too
     VectorXd pull;                           ///< (V) pull of free vertices to their circles, dimensionless; empty: 0
     std::vector<char> pull_inside;           ///< (V) 1: pulled to the circle's centre instead; empty: no vertex is
     std::vector<int> track_of;               ///< (V) track of riding vertices; empty: no vertex rides

@@ -221,7 +221,7 @@ void NewtonSystem::clear()
 {
     gradient_ = VectorXd::Zero(unknowns_);
     std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.0);
-    outward_force_.assign(problem_.track_of.size(), 0.0);
+    outward_force_.assign(problem_.bends ? first_unknown_.size() : problem_.track_of.size(), 0.0);
 }
 
 void NewtonSystem::add_face(Eigen::Index f, const FaceDerivatives& face, const WantedShape& shape)
@@ -238,6 +238,8 @@ void NewtonSystem::add_face(Eigen::Index f, const FaceDerivatives& face, const W
             gradient_.segment<2>(first) += g;
         else
             gradient_[first] += g.dot(tangent(v));
+        if (problem_.bends && problem_.mobility[v] == Mobility::sliding)
+            outward_force_[v] -= g.dot(normal_of(tangent(v)));
         add(v, v, 0, face.block(k, k, shape));
         if (places_[f][k] < 0) continue;
         const int l = (k + 1) % 3, column = first < first_unknown_[problem_.triangles(f, l)] ? k : l;
@@ -254,10 +256,13 @@ void NewtonSystem::add_vertex(Index vertex, const Eigen::Vector2d& gradient, con
 
 void NewtonSystem::add_bends()
 {
-    for (Index v = 0; v < static_cast<Index>(outward_force_.size()); ++v)
-        if (rides(v) && !track_of(v).straight)
-            hessian_.valuePtr()[hessian_.outerIndexPtr()[first_unknown_[v]]] +=
-                std::max(outward_force_[v], 0.0) / track_of(v).circle.radius;
+    for (Index v = 0; v < static_cast<Index>(outward_force_.size()); ++v) {
+        const bool slides = problem_.bends && problem_.mobility[v] == Mobility::sliding;
+        if (!slides && !(rides(v) && !track_of(v).straight)) continue;
+        const Circle& circle = slides ? problem_.circles[v] : track_of(v).circle;
+        hessian_.valuePtr()[hessian_.outerIndexPtr()[first_unknown_[v]]] +=
+            std::max(outward_force_[v], 0.0) / circle.radius;
+    }
 }
 
 std::pair<VectorXd, double> NewtonSystem::descent()

@@ -66,7 +66,8 @@ private:
     Index unknowns_ = 0;
     std::vector<std::array<Index, 3>> places_;  // per face and corner: set by set_pattern
     VectorXd gradient_;
-    std::vector<double> outward_force_;  // (V) of riding vertices: minus the gradient, along the radius
+    std::vector<double>
+        outward_force_;  // (V) of riding, or bending sliding, vertices: minus the gradient, along the radius
     SparseMatrix hessian_;
     std::optional<SparseCholesky> solver_;
 };

@@ -12,6 +12,7 @@
 #include "core/warning.h"
 #include "cut/open_surface.h"
 #include "execution/execution.h"
+#include "fit/fit_circles.h"
 #include "flatten/flatten.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"

@@ -12,6 +12,8 @@ void bind_surface(pybind11::module_& m);
 /// Maps to domains other than the disk, and to parts.
 void bind_domains(pybind11::module_& m);
 
+/// Maps to given circle domains.
+void bind_fit(pybind11::module_& m);
 /// Patterns on surfaces.
 void bind_lift(pybind11::module_& m);
 /// Single steps: loops, holes, triangles, harmonic, disk and annulus maps, distortion.

@@ -19,6 +19,7 @@ PYBIND11_MODULE(_koebe, m)
     bind_uniformize(m);
     bind_surface(m);
     bind_domains(m);
+    bind_fit(m);
     bind_lift(m);
     bind_steps(m);
     bind_shapes(m);

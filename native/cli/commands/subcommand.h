@@ -20,6 +20,7 @@ struct Subcommand {
     X(module)                                                                                                          \
     X(compare)                                                                                                         \
     X(transfer)                                                                                                        \
+    X(fit)                                                                                                             \
     X(lift)                                                                                                            \
     X(ricci)                                                                                                           \
     X(parts)                                                                                                           \

@@ -11,11 +11,17 @@
 
 namespace koebe::cli {
 
-std::string read_words(const std::string& path)
+std::string read_text(const std::string& path)
 {
     std::ifstream file(std::filesystem::path(path), std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     if (!file.good() && !file.eof()) throw FileError("cannot read " + path + " (" + std::strerror(errno) + ")");
+    return text;
+}
+
+std::string read_words(const std::string& path)
+{
+    std::string text = read_text(path);
     std::ranges::replace(text, ',', ' ');
     return text;
 }

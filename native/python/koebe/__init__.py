@@ -18,6 +18,7 @@ from ._certified import CertifiedModuli, certified_moduli
 from ._cut_result import CutResult
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
+from ._fit import FitResult, fit_circles
 from ._flatten import FlattenResult, flatten
 from ._koebe import CancelToken, __version__
 from ._layout import fit_circle, mirror_image, pack_disks
@@ -53,6 +54,7 @@ __all__ = [
     "CutResult",
     "DomainAlignment",
     "Family",
+    "FitResult",
     "FlattenResult",
     "InputError",
     "KoebeError",
@@ -88,6 +90,7 @@ __all__ = [
     "family",
     "fill_holes",
     "fit_circle",
+    "fit_circles",
     "flatten",
     "harmonic_map",
     "lift",

@@ -10,6 +10,7 @@ import numpy as np
 
 from ._cut_result import CutResult
 from ._domain_map import DomainMap
+from ._fit import FitResult
 from ._parts import PartsResult
 from ._result import Source, UniformizeResult
 from .errors import InputError
@@ -28,6 +29,8 @@ def load(path: str | os.PathLike[str]) -> Any:
             kind = str(file["kind"]) if "kind" in file else before
             if kind == "UniformizeResult":
                 return UniformizeResult(report, uv, flipped, list(file["step_maps"]), source)
+            if kind == "FitResult":
+                return FitResult(report, uv, flipped, file["mu"], source)
             if kind == "CutResult":
                 return CutResult(report, uv, flipped, source)
             if kind == "PartsResult":

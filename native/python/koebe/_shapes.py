@@ -118,11 +118,11 @@ def module_distance(a: Any, b: Any) -> float:
     return math.dist(first, second)
 
 
-def mapped_surface(result: UniformizeResult) -> "_koebe.MappedSurface":
-    """The result for the native module."""
+def mapped_surface(result: UniformizeResult, own: bool = False) -> "_koebe.MappedSurface":
+    """The result for the native module. own: all circles count as the surface's own."""
     off = [np.sort(vertices).tolist() for vertices in result.off_circle]
     loops = [loop.tolist() for loop in result.loops]
-    circles = result.centers, result.radii, result.own_circle.tolist()
+    circles = result.centers, result.radii, (result.own_circle | own).tolist()
     return _koebe.MappedSurface(*result.surface, result.uv, loops, off, *circles)
 
 

@@ -1,6 +1,6 @@
 """The options of the maps for type checkers, equal to the table options.json (tests compare them)."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypedDict
 
 from ._native import _koebe
@@ -134,3 +134,15 @@ class CertifiedOptions(RunOptions, total=False):
     max_faces: int
     threads: int
     between: Any
+
+
+class FitOptions(RunOptions, total=False):
+    """Options of `fit_circles`."""
+
+    tolerance: float
+    max_sweeps: int
+    threads: int
+    names: Sequence[str] | None
+    pins: Mapping[int, tuple[int, float]] | None
+    fixed: Sequence[int]
+    extremal: bool

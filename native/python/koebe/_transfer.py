@@ -10,6 +10,7 @@ from typing import Any, overload
 import numpy as np
 
 from ._arrays import as_indices, as_numbers
+from ._fit import FitResult
 from ._native import _koebe
 from ._options import flag, vertex
 from ._result import Beltrami, UniformizeResult, Warning
@@ -105,6 +106,7 @@ def transfer(
                least fourth power of |mu| over the surface. On a rim landmarks are vertices of both
     Holes that could not be bent onto each other give a RuntimeWarning, too. Without a hole, or with one, landmarks also
     choose the automorphism of the disk: the one that brings them nearest.
+    Two results of fit_circles with the same circles already lie over each other: circle k corresponds to circle k.
     Raises InputError, also if circles are not the surface's own and for landmarks that exclude each other, and
     SolverError if no such map was found: `elements` are the landmarks, by their places in the list.
     """
@@ -116,13 +118,24 @@ def transfer(
         raise InputError("the match must name each of the loops of a once, the outer one first")
     pairs = _pairs(landmarks)
     on_a, on_b = (_places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
-    found = _koebe.correspond(mapped_surface(b), mapped_surface(a), chosen, flag(fit, "fit"), on_b, on_a)
+    same = _on_one_template(a, b)
+    if same and match is None:
+        chosen = list(range(len(a.loops)))
+    surfaces = mapped_surface(b, same), mapped_surface(a, same)
+    found = _koebe.correspond(*surfaces, chosen, flag(fit, "fit"), on_b, on_a)
     found["alignment"] = DomainAlignment(found["alignment"], b.radii)
     found["warnings"] = [Warning(warning) for warning in found["warnings"]]
     for warning in found["warnings"]:
         warnings.warn(str(warning), RuntimeWarning, stacklevel=2)
     places = Correspondence(**found, triangles=a.surface[1])
     return places if field is None else places.carry(field)
+
+
+def _on_one_template(a: UniformizeResult, b: UniformizeResult) -> bool:
+    """Whether both are fits with the same circles."""
+    if not (isinstance(a, FitResult) and isinstance(b, FitResult)) or len(a.radii) != len(b.radii):
+        return False
+    return bool(np.allclose(a.centers, b.centers, 0.0, 1e-9) and np.allclose(a.radii, b.radii, 0.0, 1e-9))
 
 
 def _pairs(landmarks: Any) -> list[Any]:

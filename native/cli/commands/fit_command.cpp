@@ -1,0 +1,71 @@
+// koebe fit IN TEMPLATE OUT
+#include "cli/commands/map_run.h"
+#include "cli/commands/subcommand.h"
+#include "cli/files/template_file.h"
+#include "cli/options/option_table.h"
+
+#include "core/counted.h"
+#include "fit/fit_circles.h"
+#include "report/fit_json.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace koebe::cli {
+namespace {
+
+struct FitRequest : MapRequest {
+    std::string wanted;
+    bool extremal = false;
+};
+
+int run_fit(const FitRequest& request)
+{
+    const CircleTemplate wanted = read_template(request.wanted);
+    const MapKind<UniformizeResult> disk = disk_map(request);
+    MapKind<FitResult> kind;
+    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        FitResult result = with_filed_faces(input, [&] {
+            return fit_circles(input.polygons.vertices, input.triangulation.triangles, wanted,
+                               {.map = request.options, .extremal = request.extremal}, context);
+        });
+        add_input_warnings(input, result.warnings);
+        return result;
+    };
+    kind.write_mesh = disk.write_mesh;
+    kind.draw = disk.draw;
+    kind.report = [](const FitResult& result) { return to_json(result); };
+    kind.first_words = [](const FitResult& result) {
+        return counted(result.loops.size() - 1, "circle") + ", |mu| " + formatted("%.2g", result.of_faces.mean) +
+               ", at most " + formatted("%.2g", result.of_faces.max);
+    };
+    return run_map_of(request, kind);
+}
+
+}  // namespace
+
+Subcommand add_fit(CLI::App& app)
+{
+    auto request = std::make_shared<FitRequest>();
+    CLI::App* options = app.add_subcommand("fit", "map a surface with holes to circles at given places");
+    options->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL")->required();
+    options->add_option("TEMPLATE", request->wanted, "JSON file: centres and radii of the circles (docs/fit.md)")
+        ->required();
+    options
+        ->add_option("OUT", request->output,
+                     "OBJ or PLY to write: the same vertices and faces, with texture coordinates in [0, 1]^2")
+        ->required();
+    options->add_flag("--extremal", request->extremal, "least largest |mu|, nearly; takes longer");
+    add_options(*options, "shapes", request->options);
+    add_report_options(*options, *request, "write a picture of the template there");
+    options->callback([request] {
+        check_map_files(*request);
+        require_different_files(map_files(*request), {request->input, request->wanted}, !request->quiet);
+        request->entries["options"] = option_report("shapes", request->options);
+        request->entries["options"]["extremal"] = request->extremal;
+    });
+    return {options, [request] { return run_fit(*request); }};
+}
+
+}  // namespace koebe::cli

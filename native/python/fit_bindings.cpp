@@ -1,0 +1,56 @@
+// Maps to given circle domains.
+#include "array_conversion.h"
+#include "bindings.h"
+#include "native_call.h"
+#include "report_object.h"
+
+#include "fit/fit_circles.h"
+#include "report/fit_json.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+
+namespace koebe::python {
+namespace {
+
+/// @param vertices one for each rim, the outer one first; -1: no pin @param angles their places, radians
+std::vector<TemplateRim> rims_of(const std::vector<bool>& rotates, const std::vector<Index>& vertices,
+                                 const std::vector<double>& angles)
+{
+    std::vector<TemplateRim> rims;
+    for (std::size_t k = 0; k < rotates.size(); ++k) {
+        rims.push_back({rotates[k], {}});
+        if (vertices[k] >= 0) rims.back().pin = RimPin{vertices[k], angles[k]};
+    }
+    return rims;
+}
+
+}  // namespace
+
+void bind_fit(py::module_& m)
+{
+    py::class_<CircleTemplate>(m, "CircleTemplate")
+        .def(py::init([](const PlanarPoints& centers, const VectorXd& radii, const std::vector<std::string>& names,
+                         const std::vector<int>& loops, const std::vector<bool>& rotates,
+                         const std::vector<Index>& vertices, const std::vector<double>& angles) {
+            CircleTemplate wanted{.circles = circles_of(centers, radii), .names = names, .loops = loops};
+            wanted.rims = rims_of(rotates, vertices, angles);
+            wanted.outer = wanted.rims.front();
+            wanted.rims.erase(wanted.rims.begin());
+            return wanted;
+        }));
+    py::class_<FitResult, UniformizeResult>(m, "FitResult")
+        .def_property_readonly("mu", [](const FitResult& r) { return r.mu; })
+        .def("report", [](const FitResult& r) { return to_object(to_json(r)); });
+    m.def("fit_circles", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                            const CircleTemplate& wanted, const UniformizeOptions& options, bool extremal,
+                            const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return fit_circles(vertices, triangles, wanted, {.map = options, .extremal = extremal}, context);
+        });
+    });
+}
+
+}  // namespace koebe::python
