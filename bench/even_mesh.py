@@ -2,25 +2,30 @@
 """Triangle meshes on a curved surface made even, the boundary held: edges flip until they are Delaunay, vertices move
 to the weighted centroids of their stars [Du, Faber, Gunzburger 1999]. NumPy alone, reruns are bit-identical."""
 
+import sys
+from pathlib import Path
+
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parent.parent / "blend_samples"))
+
+from triangle_edges import (  # noqa: E402
+    area_vectors,
+    corners,
+    edge_keys,
+    excess_angles,
+    flip,
+    inner_edges,
+    largest_of_neighbours,
+)  # fmt: skip
+
 GRADATION = 0.25  # by how much the edge length changes per unit of distance from the boundary
-
-
-def corners(triangles):
-    """Directed edges (3F, 2): all first ones of the triangles, then all second ones, then all third ones."""
-    return np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
 
 
 def boundary_vertices(triangles):
     edges = np.sort(corners(triangles), axis=1)
     once, count = np.unique(edges, axis=0, return_counts=True)
     return np.unique(once[count == 1])
-
-
-def area_vectors(points, triangles):
-    p, q, r = (points[triangles[:, k]] for k in range(3))
-    return np.cross(q - p, r - p) / 2
 
 
 def angles(points, triangles):
@@ -43,37 +48,26 @@ def flipped_to_delaunay(points, triangles, limit=60):
     on_rim = np.zeros(len(points), bool)
     on_rim[boundary_vertices(triangles)] = True
     for _ in range(limit):
-        left, right, a, b, c, d = _flips(points, triangles, on_rim)
-        if not len(left):
+        flips = _flips(points, triangles, on_rim)
+        if not len(flips[0]):
             break
-        triangles[left] = np.stack([a, d, c], axis=1)
-        triangles[right] = np.stack([d, b, c], axis=1)
+        flip(triangles, *flips)
     return triangles
 
 
 def _flips(points, triangles, on_rim):
     """Edges a-b to flip, no two with a triangle in common: left and right triangle, ends, apexes."""
     count = len(triangles)
-    edges = corners(triangles)
-    key = edges.min(axis=1).astype(np.int64) * len(points) + edges.max(axis=1)
-    order = np.argsort(key, kind="stable")
-    twins = np.flatnonzero(key[order][1:] == key[order][:-1])
-    first, second = order[twins], order[twins + 1]
-    apex = np.concatenate([triangles[:, (k + 2) % 3] for k in range(3)])
-    a, b = edges[first].T
-    c, d = apex[first], apex[second]
-    left, right = first % count, second % count
-    excess = -_cotangents(points, c, a, b) - _cotangents(points, d, a, b)
-    new_key = np.minimum(c, d).astype(np.int64) * len(points) + np.maximum(c, d)
+    left, right, a, b, c, d = inner_edges(triangles, len(points))
+    excess = excess_angles(points, a, b, c, d)
+    key = edge_keys(*corners(triangles).T, len(points))
+    new_key = edge_keys(c, d, len(points))
     before = area_vectors(points, np.stack([a, b, c], axis=1)) + area_vectors(points, np.stack([b, a, d], axis=1))
     folds = np.min(
         [np.sum(before * area_vectors(points, np.stack(t, axis=1)), axis=1) for t in ((a, d, c), (d, b, c))], axis=0
     )
     excess[(folds <= 0) | np.isin(new_key, key) | (on_rim[c] & on_rim[d])] = 0.0
-    worst = np.zeros(count)
-    np.maximum.at(worst, left, excess)
-    np.maximum.at(worst, right, excess)
-    chosen = np.flatnonzero((excess > 1e-9) & (excess == worst[left]) & (excess == worst[right]))
+    chosen = np.flatnonzero(largest_of_neighbours(excess, left, right, count))
     # Equal excesses side by side: the first of them. And of two flips to one new edge, the first.
     owner = np.full(count, -1)
     owner[right[chosen][::-1]] = chosen[::-1]
@@ -85,11 +79,6 @@ def _flips(points, triangles, on_rim):
     _, once = np.unique(new_key[chosen], return_index=True)
     chosen = chosen[once]
     return [x[chosen] for x in (left, right, a, b, c, d)]
-
-
-def _cotangents(points, apex, a, b):
-    u, v = points[a] - points[apex], points[b] - points[apex]
-    return np.sum(u * v, axis=1) / np.maximum(np.linalg.norm(np.cross(u, v), axis=1), 1e-300)
 
 
 # ---------------------------------------------------------------- fewer vertices

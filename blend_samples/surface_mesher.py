@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from mathutils import Vector, kdtree
 from mathutils.geometry import delaunay_2d_cdt
+from triangle_edges import area_vectors, corners, edge_keys, excess_angles, flip, inner_edges, largest_of_neighbours
 
 
 @dataclass
@@ -46,7 +47,7 @@ def mesh_surface(surface, outer, holes, rounds=60, seed=1):
 
 def refine(points, triangles, project):
     """Each triangle cut in four; midpoints of boundary edges by the four-point rule, so that the loops stay smooth."""
-    edges, owners = np.unique(np.sort(_corners(triangles), axis=1), axis=0, return_inverse=True)
+    edges, owners = np.unique(np.sort(corners(triangles), axis=1), axis=0, return_inverse=True)
     owners = owners.reshape(-1)
     middle = points[edges].mean(axis=1)
     on_loop = np.bincount(owners) == 1
@@ -136,11 +137,6 @@ def _triangulate(plane, rings, surface):
     return triangles[_inside(plane[triangles].mean(axis=1), outlines)]
 
 
-def _corners(triangles):
-    """Directed edges (3F, 2): all first ones of the triangles, then all second ones, then all third ones."""
-    return np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-
-
 def _flip_to_delaunay(points, triangles, limit=50):
     """Inner edges flipped, independent ones at a time, until the two angles that face each sum to at most pi."""
     triangles = triangles.copy()
@@ -148,54 +144,30 @@ def _flip_to_delaunay(points, triangles, limit=50):
         flips = _flippable(points, triangles)
         if not len(flips[0]):
             break
-        left, right, a, b, c, d = flips
-        triangles[left] = np.stack([a, d, c], axis=1)
-        triangles[right] = np.stack([d, b, c], axis=1)
+        flip(triangles, *flips)
     return triangles
 
 
 def _flippable(points, triangles):
     """Edges to flip, no two with a triangle in common: left and right triangle, ends a and b, apexes c and d."""
-    count = len(triangles)
-    edges = _corners(triangles)
-    key = edges.min(axis=1) * len(points) + edges.max(axis=1)
-    order = np.argsort(key, kind="stable")
-    twins = np.flatnonzero(key[order][1:] == key[order][:-1])
-    first, second = order[twins], order[twins + 1]
-    apex = np.concatenate([triangles[:, (k + 2) % 3] for k in range(3)])
-    a, b = edges[first].T
-    c, d = apex[first], apex[second]
-    left, right = first % count, second % count
-    excess = -_cotangent(points, c, a, b) - _cotangent(points, d, a, b)
+    left, right, a, b, c, d = inner_edges(triangles, len(points))
+    excess = excess_angles(points, a, b, c, d)
     folds = np.minimum(_same_side(points, (a, b, c), (a, d, c)), _same_side(points, (a, b, c), (d, b, c)))
-    new_key = np.minimum(c, d) * len(points) + np.maximum(c, d)
-    excess[(folds <= 0) | np.isin(new_key, key)] = 0.0
-    worst = np.zeros(count)
-    np.maximum.at(worst, left, excess)
-    np.maximum.at(worst, right, excess)
-    chosen = (excess > 1e-9) & (excess == worst[left]) & (excess == worst[right])
+    key = edge_keys(*corners(triangles).T, len(points))
+    excess[(folds <= 0) | np.isin(edge_keys(c, d, len(points)), key)] = 0.0
+    chosen = largest_of_neighbours(excess, left, right, len(triangles))
     return [x[chosen] for x in (left, right, a, b, c, d)]
-
-
-def _cotangent(points, apex, a, b):
-    u, v = points[a] - points[apex], points[b] - points[apex]
-    return np.sum(u * v, axis=1) / np.linalg.norm(np.cross(u, v), axis=1)
 
 
 def _same_side(points, one, other):
     """Inner product of the two triangles' area vectors."""
-    return np.sum(_area_vectors(points, np.stack(one, axis=1)) * _area_vectors(points, np.stack(other, axis=1)), axis=1)
-
-
-def _area_vectors(points, triangles):
-    p, q, r = (points[triangles[:, k]] for k in range(3))
-    return np.cross(q - p, r - p) / 2
+    return np.sum(area_vectors(points, np.stack(one, axis=1)) * area_vectors(points, np.stack(other, axis=1)), axis=1)
 
 
 def _relaxed(surface, points, triangles):
     """Every vertex at the centroid of its triangles, each weighted by area / spacing^4, moved back to the surface."""
     centers = points[triangles].mean(axis=1)
-    weight = np.linalg.norm(_area_vectors(points, triangles), axis=1) / surface.spacing(centers) ** 4
+    weight = np.linalg.norm(area_vectors(points, triangles), axis=1) / surface.spacing(centers) ** 4
     moved = np.zeros_like(points)
     total = np.zeros(len(points))
     for k in range(3):

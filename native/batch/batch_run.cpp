@@ -24,7 +24,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t beat_ms = 10000;     // a claim is renewed at this interval
 constexpr std::uint64_t look_ms = 500;       // another run's claim is looked at in this interval
 constexpr std::uint64_t patience_ms = 5000;  // for a process that was asked to end
 constexpr std::uint64_t grace_ms = 300;      // time in which the signal that ended a process may reach this one
@@ -116,7 +115,7 @@ private:
         }
         for (uv_timer_t* timer : {&beat_, &patience_}) uv_unref(reinterpret_cast<uv_handle_t*>(timer));
         uv_timer_start(
-            &beat_, [](uv_timer_t* timer) { of(timer).beat(); }, beat_ms, beat_ms);
+            &beat_, [](uv_timer_t* timer) { of(timer).beat(); }, Claims::beat_ms, Claims::beat_ms);
         constexpr std::array numbers{SIGINT, SIGTERM, SIGHUP};
         for (std::size_t i = 0; i < numbers.size(); ++i) {
             uv_signal_init(&loop_, &signals_[i]);

@@ -18,6 +18,8 @@ namespace koebe::batch {
 /// measures that, as the clocks of hosts differ.
 class Claims {
 public:
+    static constexpr unsigned beat_ms = 10000;  ///< the owner renews a claim at this interval
+
     /// @param stale seconds without a beat after which another host's claim is dead
     Claims(std::filesystem::path folder, double stale);
 

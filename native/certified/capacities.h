@@ -3,6 +3,7 @@
 
 #include "certified/interval.h"
 #include "core/api.h"
+#include "core/option_list.h"
 #include "core/types.h"
 #include "execution/execution.h"
 
@@ -22,13 +23,7 @@ struct CapacityOptions {
     int max_faces = 300000;       ///< refine to this many triangles at most
     int threads = 0;              ///< 0: all cores. Any number gives the same bounds
 
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        visit("width", &CapacityOptions::width);
-        visit("max_faces", &CapacityOptions::max_faces);
-        visit("threads", &CapacityOptions::threads);
-    }
+    KOEBE_OPTIONS(CapacityOptions, width, max_faces, threads)
 };
 
 struct Capacity {

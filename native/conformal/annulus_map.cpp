@@ -6,12 +6,11 @@
 #include "flow/yamabe_flow.h"
 #include "linear/sparse_cholesky.h"
 #include "mesh/connectivity.h"
+#include "mesh/nearest_first.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <queue>
 #include <utility>
 
 namespace koebe {
@@ -37,18 +36,10 @@ std::vector<Index> shortest_cut(const Triangles& triangles, const EdgeLengths& l
     const OutgoingHalfedges outgoing(triangles, vertex_count);
     std::vector<char> goal(vertex_count, 0);
     for (const Index v : inner) goal[v] = 1;
-    std::vector<double> distance(vertex_count, std::numeric_limits<double>::infinity());
     std::vector<Index> arrival(vertex_count, -1);
-    using Entry = std::pair<double, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (const Index v : outer) {
-        distance[v] = 0.0;
-        queue.emplace(0.0, v);
-    }
-    while (!queue.empty()) {
-        const auto [reached, v] = queue.top();
-        queue.pop();
-        if (reached > distance[v]) continue;
+    NearestFirst nearest(vertex_count);
+    for (const Index v : outer) nearest.reach(v, 0.0);
+    for (Index v = nearest.take(); v >= 0; v = nearest.take()) {
         if (goal[v]) {
             std::vector<Index> cut;
             for (Index u = v; arrival[u] >= 0; u = origin(triangles, arrival[u])) cut.push_back(arrival[u]);
@@ -58,12 +49,7 @@ std::vector<Index> shortest_cut(const Triangles& triangles, const EdgeLengths& l
         for (Index i = outgoing.begin[v]; i < outgoing.begin[v + 1]; ++i) {
             const Index h = outgoing.halfedges[i];
             const Index w = target(triangles, h);
-            const double length = reached + lengths.data()[h];
-            if (length < distance[w]) {
-                distance[w] = length;
-                arrival[w] = h;
-                queue.emplace(length, w);
-            }
+            if (nearest.reach(w, nearest.distance()[v] + lengths.data()[h])) arrival[w] = h;
         }
     }
     throw TopologyError(TopologyKind::disconnected, "no path joins the two loops (vertices of the inner one listed)",

@@ -1,18 +1,14 @@
 #include "core/errors.h"
 
+#include "core/enum_words.h"
+
+#include <array>
 namespace koebe {
 
 const char* to_string(TopologyKind kind) noexcept
 {
-    switch (kind) {
-    case TopologyKind::closed: return "closed";
-    case TopologyKind::genus: return "genus";
-    case TopologyKind::nonmanifold_edge: return "nonmanifold_edge";
-    case TopologyKind::nonmanifold_vertex: return "nonmanifold_vertex";
-    case TopologyKind::nonorientable: return "nonorientable";
-    case TopologyKind::disconnected: return "disconnected";
-    }
-    return "unknown";
+    return word_of(
+        kind, std::array{"closed", "genus", "nonmanifold_edge", "nonmanifold_vertex", "nonorientable", "disconnected"});
 }
 
 ElementKind elements_of(TopologyKind kind) noexcept

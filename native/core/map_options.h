@@ -1,6 +1,11 @@
-// The options of every map, and of every map that iterates. options/options.json describes them to users; the defaults
-// agree with it (tests/python/test_option_table.py).
+// The options of every map, of every map that iterates, and of groups of maps. options/options.json describes them to
+// users; the defaults agree with it (tests/python/test_option_table.py).
 #pragma once
+
+#include "core/option_list.h"
+#include "core/types.h"
+
+#include <vector>
 
 namespace koebe {
 
@@ -11,26 +16,29 @@ enum class LoopForm { automatic, round, free };
 struct MapOptions {
     double most_lost = 0.01;  ///< share of the surface's area that may be lost when stored (quality/take_verdict.h)
 
-    /// Calls visit(name, pointer to member) for each option. All option structs have such a function: the command's
-    /// flags, the reports and the Python binding are made of it.
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        visit("most_lost", &MapOptions::most_lost);
-    }
+    KOEBE_OPTIONS(MapOptions, most_lost)
 };
 
 struct SweepOptions : MapOptions {
     double tolerance = 1e-6;  ///< on the change of the map in a sweep; for circles in units of the unit disk
     int max_sweeps = 50;
 
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        visit("tolerance", &SweepOptions::tolerance);
-        visit("max_sweeps", &SweepOptions::max_sweeps);
-        MapOptions::each_option(visit);
-    }
+    KOEBE_OPTIONS_OVER(MapOptions, SweepOptions, tolerance, max_sweeps)
+};
+
+/// Of a map to a domain whose UVs are cut along edges.
+struct CutDomainOptions : SweepOptions {
+    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each face by itself
+
+    KOEBE_OPTIONS_OVER(SweepOptions, CutDomainOptions, polygon)
+};
+
+/// Of a map that can be made more even.
+struct EvennessOptions {
+    double even = 0.0;                     ///< 0: conformal, 1: true to size (relax/even_map.h)
+    LoopForm loops = LoopForm::automatic;  ///< with `even`
+
+    KOEBE_OPTIONS(EvennessOptions, even, loops)
 };
 
 }  // namespace koebe

@@ -12,7 +12,7 @@ void require_weights(const std::string& name, const std::vector<double>& weights
                          std::to_string(weights.size()));
     std::vector<Index> bad;
     for (Index v = 0; v < vertex_count; ++v)
-        if (!(weights[v] >= 0.0 && weights[v] <= 1.0)) bad.push_back(v);
+        if (!is_weight(weights[v])) bad.push_back(v);
     if (!bad.empty())
         throw InputError(std::to_string(bad.size()) + " vertices have " + name + " that is not from 0 to 1",
                          ElementKind::vertices, bad);

@@ -1,5 +1,6 @@
 #include "cut/open_surface.h"
 
+#include "core/enum_words.h"
 #include "core/errors.h"
 #include "cut/edge_chains.h"
 #include "cut/handle_loops.h"
@@ -8,6 +9,7 @@
 #include "cut/slit.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -149,14 +151,7 @@ SurfacePiece to_piece(const SeamedMesh& mesh, const Vertices& vertices)
 
 const char* to_string(CutKind kind) noexcept
 {
-    switch (kind) {
-    case CutKind::crowded_edge: return "crowded_edge";
-    case CutKind::orientation: return "orientation";
-    case CutKind::bow_tie: return "bow_tie";
-    case CutKind::handle: return "handle";
-    case CutKind::opening: return "opening";
-    }
-    return "unknown";
+    return word_of(kind, std::array{"crowded_edge", "orientation", "bow_tie", "handle", "opening"});
 }
 
 OpenedSurface open_surface(const Vertices& vertices, const Triangles& triangles, const OpenOptions& options,

@@ -3,6 +3,7 @@
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
 #include "conformal/annulus_map.h"
+#include "core/enum_words.h"
 #include "core/errors.h"
 #include "evenness/even_pole.h"
 #include "mesh/connectivity.h"
@@ -11,6 +12,7 @@
 #include "surface/loop_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -178,10 +180,7 @@ void finish(const PartMesh& part, PartMap& map)
 
 }  // namespace
 
-const char* to_string(PartKind kind) noexcept
-{
-    return kind == PartKind::disk ? "disk" : kind == PartKind::tube ? "tube" : "cone";
-}
+const char* to_string(PartKind kind) noexcept { return word_of(kind, std::array{"disk", "tube", "cone"}); }
 
 PartMap map_part(const PartMesh& part, ExecutionContext& context)
 {

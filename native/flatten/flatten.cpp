@@ -7,7 +7,7 @@
 #include "execution/peak_memory.h"
 #include "execution/side_by_side.h"
 #include "flatten/allowance.h"
-#include "flatten/labels.h"
+#include "flatten/notches.h"
 #include "flatten/seams.h"
 #include "flatten/sheets.h"
 #include "flatten/stretch.h"

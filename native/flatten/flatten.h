@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/api.h"
+#include "core/option_list.h"
 #include "core/types.h"
 #include "evenness/part_map.h"
 #include "execution/execution.h"
@@ -26,16 +27,7 @@ struct FlattenOptions {
     std::vector<Index> polygon = {};  ///< (F) faces with one number stay together; empty: no faces do
     int threads = 0;                  ///< at most; 0: as many as the machine has
 
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        visit("units", &FlattenOptions::units);
-        visit("page", &FlattenOptions::page);
-        visit("allowance", &FlattenOptions::allowance);
-        visit("price", &FlattenOptions::price);
-        visit("darts", &FlattenOptions::darts);
-        visit("polygon", &FlattenOptions::polygon);
-    }
+    KOEBE_OPTIONS(FlattenOptions, units, page, allowance, price, darts, polygon)
 };
 
 /// By how much lengths in a face differ from lengths on the surface, in per cent, in the direction of the largest

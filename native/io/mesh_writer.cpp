@@ -26,14 +26,10 @@ bool has_format(const FiledMesh& filed, WrittenFormat format)
     return filed.file.extension == (format == WrittenFormat::ply ? ".ply" : ".obj");
 }
 
-FiledObj obj_of(const FiledMesh& filed)
+/// Empty if the file has another format.
+FiledText text_of(const FiledMesh& filed, WrittenFormat format)
 {
-    return has_format(filed, WrittenFormat::obj) ? FiledObj{filed.file.bytes, filed.moved} : FiledObj{};
-}
-
-FiledPly ply_of(const FiledMesh& filed)
-{
-    return has_format(filed, WrittenFormat::ply) ? FiledPly{filed.file.bytes, filed.moved} : FiledPly{};
+    return has_format(filed, format) ? FiledText{filed.file.bytes, filed.moved} : FiledText{};
 }
 
 /// @param losses if the format is kept
@@ -47,18 +43,15 @@ std::vector<Warning> warnings_after(const FiledMesh& filed, WrittenFormat format
 std::vector<Warning> write_with_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
                                     const PlanarPoints& disk_points, const FiledMesh& filed)
 {
-    return warnings_after(filed, format,
-                          format == WrittenFormat::ply ? write_ply_with_uvs(file, mesh, disk_points, ply_of(filed))
-                                                       : write_obj_with_uvs(file, mesh, disk_points, obj_of(filed)));
+    const auto write = format == WrittenFormat::ply ? write_ply_with_uvs : write_obj_with_uvs;
+    return warnings_after(filed, format, write(file, mesh, disk_points, text_of(filed, format)));
 }
 
 std::vector<Warning> write_with_corner_uvs(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
                                            const PlanarPoints& corner_uvs, const FiledMesh& filed)
 {
-    return warnings_after(filed, format,
-                          format == WrittenFormat::ply
-                              ? write_ply_with_corner_uvs(file, mesh, corner_uvs, ply_of(filed))
-                              : write_obj_with_corner_uvs(file, mesh, corner_uvs, obj_of(filed)));
+    const auto write = format == WrittenFormat::ply ? write_ply_with_corner_uvs : write_obj_with_corner_uvs;
+    return warnings_after(filed, format, write(file, mesh, corner_uvs, text_of(filed, format)));
 }
 
 std::vector<Warning> write_with_patches(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
@@ -74,7 +67,7 @@ std::vector<Warning> write_with_patches(AtomicFile& file, WrittenFormat format, 
         std::vector<std::string> names{"surface"};
         for (Index k = 0; !patch.empty() && k <= std::ranges::max(patch); ++k)
             names.push_back("patch_" + std::to_string(k));
-        write_obj_with_groups(file, mesh, group, names, obj_of(filed), turned);
+        write_obj_with_groups(file, mesh, group, names, text_of(filed, format), turned);
     }
     return kept ? std::vector<Warning>{} : loss_warnings(io::losses_of_all(filed.file, false));
 }

@@ -6,6 +6,8 @@
 #include "io/texture_coordinates.h"
 
 #include <algorithm>
+#include <span>
+#include <string_view>
 #include <utility>
 
 namespace koebe {
@@ -70,11 +72,11 @@ void add_face(TextWriter& text, const PolygonMesh& mesh, Index f, std::span<cons
 /// @param texture (C) numbers of texture coordinates
 template <class AddTextureCoordinates>
 io::FileLosses write_obj(AtomicFile& file, const PolygonMesh& mesh, std::span<const Index> texture,
-                         const FiledObj& filed, const AddTextureCoordinates& add_texture_coordinates)
+                         const FiledText& filed, const AddTextureCoordinates& add_texture_coordinates)
 {
     TextWriter text(file);
     text.add(first_line);
-    if (filed.text.empty()) {
+    if (filed.bytes.empty()) {
         text.add('\n');
         add_vertices(text, mesh.vertices, 0);
         add_texture_coordinates(text, "\n");
@@ -82,7 +84,7 @@ io::FileLosses write_obj(AtomicFile& file, const PolygonMesh& mesh, std::span<co
         text.flush();
         return {};
     }
-    const io::ObjText own(filed.text);
+    const io::ObjText own(filed.bytes);
     const io::ObjChange change{.mesh = mesh, .texture = texture, .moved = filed.moved};
     text.add(own.end_of_line());
     own.add_head(text, change);
@@ -99,7 +101,7 @@ io::FileLosses write_obj(AtomicFile& file, const PolygonMesh& mesh, std::span<co
 }  // namespace
 
 io::FileLosses write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points,
-                                  const FiledObj& filed)
+                                  const FiledText& filed)
 {
     io::require_point_for_each_vertex(mesh, disk_points);
     return write_obj(file, mesh, mesh.corners, filed, [&](TextWriter& text, std::string_view end_of_line) {
@@ -111,7 +113,7 @@ io::FileLosses write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, con
 }
 
 io::FileLosses write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs,
-                                         const FiledObj& filed)
+                                         const FiledText& filed)
 {
     io::require_point_for_each_corner(mesh, corner_uvs);
     const std::vector<Index> place = places_of_corners(mesh, corner_uvs);
@@ -127,7 +129,7 @@ io::FileLosses write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& me
 }
 
 void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std::vector<Index>& group,
-                           const std::vector<std::string>& names, const FiledObj& filed,
+                           const std::vector<std::string>& names, const FiledText& filed,
                            const std::vector<char>& turned)
 {
     TextWriter text(file);
@@ -141,8 +143,8 @@ void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std:
         text.add('\n');
     };
     Index first_vertex = 0, first_face = 0;
-    if (!filed.text.empty()) {
-        const io::ObjText own(filed.text);
+    if (!filed.bytes.empty()) {
+        const io::ObjText own(filed.bytes);
         const io::ObjChange change{.mesh = mesh, .texture = {}, .turned = turned};
         own.add_head(text, change);
         if (!own.holds("groups")) add_group(0);

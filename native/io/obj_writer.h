@@ -3,35 +3,31 @@
 
 #include "io/atomic_file.h"
 #include "io/file_losses.h"
+#include "io/filed_text.h"
 #include "io/polygon_mesh.h"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace koebe {
 
-/// The text of the OBJ file that a mesh was read from, or empty. All its contents are written again unchanged, except
-/// for texture coordinates: they are replaced, and left out in `l`.
-struct FiledObj {
-    std::string_view text = {};
-    bool moved = false;  ///< the mesh has other positions: normals are left out
-};
-
 /// Writes the mesh with one `vt` for each vertex: u = (1 + x) / 2, v = (1 + y) / 2, clamped to [0, 1]. New numbers
 /// are the shortest that read back to the same 64-bit float. The caller commits the file.
+///
+/// All contents of a filed OBJ file are written again unchanged, except for texture coordinates: they are replaced, and
+/// left out in `l`.
 /// @param disk_points (V, 2) points of the closed unit disk
 /// @throws InputError disk_points does not have one row per vertex
 /// @throws FileError
 io::FileLosses write_obj_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points,
-                                  const FiledObj& filed = {});
+                                  const FiledText& filed = {});
 
 /// Writes the mesh with a `vt` for each place of a vertex: corners of one vertex at one place share it.
 /// @param corner_uvs (C, 2) in [0, 1]^2, in the order of mesh.corners
 /// @throws InputError corner_uvs does not have one row per corner
 /// @throws FileError
 io::FileLosses write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs,
-                                         const FiledObj& filed = {});
+                                         const FiledText& filed = {});
 
 /// Writes the mesh with a `g` line wherever the group changes from face to face. The caller commits the file. The mesh
 /// may have more vertices and faces than the text, after the text's own. If the text has groups or objects, its faces
@@ -41,7 +37,7 @@ io::FileLosses write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& me
 /// @param turned (F) 1 for faces of the text that the mesh has in the reverse order
 /// @throws FileError
 void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std::vector<Index>& group,
-                           const std::vector<std::string>& names, const FiledObj& filed = {},
+                           const std::vector<std::string>& names, const FiledText& filed = {},
                            const std::vector<char>& turned = {});
 
 }  // namespace koebe

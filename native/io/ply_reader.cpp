@@ -1,6 +1,6 @@
 #include "core/errors.h"
-#include "io/binary_ply.h"
 #include "io/format_readers.h"
+#include "io/little_endian_ply.h"
 #include "io/ply_file.h"
 #include "io/refusals.h"
 
@@ -91,7 +91,7 @@ bool is_among(const std::string& name, std::initializer_list<const char*> names)
 PolygonMesh read_ply(std::string_view bytes)
 {
     const PlyFile file = parse_ply(bytes);
-    if (std::optional<PolygonMesh> mesh = read_binary_ply(file)) return *std::move(mesh);
+    if (std::optional<PolygonMesh> mesh = read_little_endian_ply(file)) return *std::move(mesh);
     return PlyReader(file).take();
 }
 

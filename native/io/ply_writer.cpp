@@ -52,7 +52,7 @@ struct Column {
 
 class PlyWriter {
 public:
-    PlyWriter(AtomicFile& file, const PolygonMesh& mesh, const FiledPly& filed, const Added& added)
+    PlyWriter(AtomicFile& file, const PolygonMesh& mesh, const FiledText& filed, const Added& added)
         : text_(file),
           mesh_(mesh),
           added_(added),
@@ -183,7 +183,7 @@ void add_after_blank(TextWriter& text, double number)
 }  // namespace
 
 io::FileLosses write_ply_with_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& disk_points,
-                                  const FiledPly& filed)
+                                  const FiledText& filed)
 {
     io::require_point_for_each_vertex(mesh, disk_points);
     Added added;
@@ -196,7 +196,7 @@ io::FileLosses write_ply_with_uvs(AtomicFile& file, const PolygonMesh& mesh, con
 }
 
 io::FileLosses write_ply_with_corner_uvs(AtomicFile& file, const PolygonMesh& mesh, const PlanarPoints& corner_uvs,
-                                         const FiledPly& filed)
+                                         const FiledText& filed)
 {
     io::require_point_for_each_corner(mesh, corner_uvs);
     Added added;

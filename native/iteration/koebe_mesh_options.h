@@ -2,6 +2,7 @@
 #pragma once
 
 #include "conformal/annulus_map.h"
+#include "core/option_list.h"
 #include "iteration/disk_patch.h"
 #include "iteration/sweep_order.h"
 
@@ -29,15 +30,7 @@ struct KoebeMeshOptions {
     bool record_steps = false;  ///< keep each step's own image (KoebeOutcome::step_images)
     DiskPatchOptions patch;
 
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        visit("partners", &KoebeMeshOptions::partners);
-        visit("schedule", &KoebeMeshOptions::schedule);
-        visit("metric", &KoebeMeshOptions::metric);
-        visit("annulus", &KoebeMeshOptions::annulus);
-        visit("record_steps", &KoebeMeshOptions::record_steps);
-    }
+    KOEBE_OPTIONS(KoebeMeshOptions, partners, schedule, metric, annulus, record_steps)
 };
 
 }  // namespace koebe

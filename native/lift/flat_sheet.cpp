@@ -122,25 +122,6 @@ Eigen::RowVector3d FlatSheet::weights_of(Index f, Complex place) const
     return weights;
 }
 
-LiftedFrame lifted_frame(const FlatSheet& sheet, Index f, Complex place)
-{
-    const Complex b = sheet.corner(f, 1) - sheet.corner(f, 0), c = sheet.corner(f, 2) - sheet.corner(f, 0);
-    const Eigen::RowVector3d a = sheet.vertices.row(sheet.triangles(f, 0));
-    const Eigen::RowVector3d edge = sheet.vertices.row(sheet.triangles(f, 1)) - a;
-    const Eigen::RowVector3d other = sheet.vertices.row(sheet.triangles(f, 2)) - a;
-    const double whole = cross(b, c);
-    const Eigen::RowVector3d weights = sheet.weights_of(f, place);
-    LiftedFrame frame;
-    frame.position = sheet.position_at(f, weights);
-    frame.along_u = (c.imag() * edge - b.imag() * other) / whole;
-    frame.along_v = (b.real() * other - c.real() * edge) / whole;
-    frame.normal = Eigen::RowVector3d::Zero();
-    for (int k = 0; k < 3; ++k) frame.normal += weights[k] * sheet.normals.row(sheet.triangles(f, k));
-    frame.normal.normalize();
-    frame.scale = sheet.scale_at(f, weights);
-    return frame;
-}
-
 FlatSheet flat_sheet(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& corner_uvs, double grid,
                      std::vector<Complex> periods)
 {

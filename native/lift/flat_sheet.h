@@ -36,15 +36,6 @@ struct FlatSheet {
     Eigen::RowVector3d weights_of(Index face, Complex place) const;
 };
 
-/// The lifted frame of a point of the UVs: the surface's tangents along u and v, its normal, and the local scale.
-struct LiftedFrame {
-    Eigen::RowVector3d position, along_u, along_v, normal;
-    double scale = 0.0;
-};
-
-/// @param place in the face's chart
-LiftedFrame lifted_frame(const FlatSheet& sheet, Index face, Complex place);
-
 /// @param triangles all of one orientation @param corner_uvs (3F, 2)
 /// @throws TopologyError nonmanifold_edge
 FlatSheet flat_sheet(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& corner_uvs,

@@ -1,6 +1,7 @@
 #include "lift/lift.h"
 
 #include "core/counted.h"
+#include "core/enum_words.h"
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
@@ -16,6 +17,7 @@
 #include "lift/svg_drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -328,16 +330,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
 
 }  // namespace
 
-const char* to_string(LiftShape shape) noexcept
-{
-    switch (shape) {
-    case LiftShape::disk: return "disk";
-    case LiftShape::ring: return "ring";
-    case LiftShape::torus: return "torus";
-    case LiftShape::parts: return "parts";
-    }
-    return "disk";
-}
+const char* to_string(LiftShape shape) noexcept { return word_of(shape, std::array{"disk", "ring", "torus", "parts"}); }
 
 LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,
                 const LiftOptions& options, ExecutionContext& context)

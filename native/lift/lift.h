@@ -3,6 +3,7 @@
 
 #include "core/api.h"
 #include "core/map_options.h"
+#include "core/option_list.h"
 #include "execution/execution.h"
 #include "lift/overlay.h"
 #include "quality/report.h"
@@ -31,20 +32,7 @@ struct LiftOptions {
     std::optional<double> height = {};     ///< raise them; below 0: sink them
     std::optional<double> thickness = {};  ///< of a closed solid; none: the surface stays a sheet
 
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        visit("shape", &LiftOptions::shape);
-        visit("even", &LiftOptions::even);
-        visit("size", &LiftOptions::size);
-        visit("bridge", &LiftOptions::bridge);
-        visit("repeats", &LiftOptions::repeats);
-        visit("seed", &LiftOptions::seed);
-        visit("turn", &LiftOptions::turn);
-        visit("perforate", &LiftOptions::perforate);
-        visit("height", &LiftOptions::height);
-        visit("thickness", &LiftOptions::thickness);
-    }
+    KOEBE_OPTIONS(LiftOptions, shape, even, size, bridge, repeats, seed, turn, perforate, height, thickness)
 };
 
 /// `vertex_count` and `face_count` count the result. All figures of a map are for the map that the pattern is drawn in.

@@ -3,6 +3,7 @@
 
 #include "core/api.h"
 #include "core/map_options.h"
+#include "core/option_list.h"
 #include "core/types.h"
 #include "evenness/part_map.h"
 #include "execution/execution.h"
@@ -42,16 +43,9 @@ struct PartsOptions : MapOptions {
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
-        visit("price", &PartsOptions::price);
-        visit("even", &PartsOptions::even);
-        visit("loops", &PartsOptions::loops);
-        visit("darts", &PartsOptions::darts);
-        visit("show", &PartsOptions::show);
-        visit("round_cuts", &PartsOptions::round_cuts);
+        KOEBE_VISIT(PartsOptions, price, even, loops, darts, show, round_cuts)
         MapOptions::each_option(visit);
-        visit("cut", &PartsOptions::cut);
-        visit("polygon", &PartsOptions::polygon);
-        visit("slits", &PartsOptions::slits);
+        KOEBE_VISIT(PartsOptions, cut, polygon, slits)
     }
 };
 

@@ -2,12 +2,12 @@
 
 #include "core/length.h"
 #include "mesh/connectivity.h"
+#include "mesh/nearest_first.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <queue>
 #include <utility>
 
 namespace koebe {
@@ -36,25 +36,17 @@ std::vector<char> slit_edges(const Part& part, double& slit_length)
     const Triangles& triangles = surface.triangles;
     const Index count = surface.vertex_count;
     std::vector<char> is_end(count, 0);
-    std::vector<double> distance(count, std::numeric_limits<double>::infinity());
     std::vector<Index> arrived(count, no_twin);  // half-edge by which a vertex is reached
     std::vector<std::vector<Index>> leaving(count);
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
         if (const Index t = surface.twin[h]; t != no_twin && !within_polygon(part.mesh, h, t))
             leaving[origin(triangles, h)].push_back(h);
-    using Entry = std::pair<double, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    NearestFirst nearest(count);
     for (const Index v : surface.loops[1]) is_end[v] = 1;
-    for (const Index v : surface.loops[0]) {
-        distance[v] = 0.0;
-        queue.emplace(0.0, v);
-    }
-    Index end = -1;
-    while (!queue.empty() && end < 0) {
-        const auto [d, v] = queue.top();
-        queue.pop();
-        if (d > distance[v]) continue;
-        if (is_end[v]) end = v;
+    for (const Index v : surface.loops[0]) nearest.reach(v, 0.0);
+    Index end = nearest.take();
+    for (; end >= 0 && !is_end[end]; end = nearest.take()) {
+        const Index v = end;
         for (const Index h : leaving[v]) {
             const Index w = target(triangles, h);
             const Complex a = part.map.strip[v], b = part.map.strip[w];
@@ -64,11 +56,7 @@ std::vector<char> slit_edges(const Part& part, double& slit_length)
                 length_of(part.mesh.vertices.row(w) - part.mesh.vertices.row(v)) * price_of_edge(part.mesh.shown, v, w);
             const double whole = std::hypot(along, across);
             const double crooked = whole > 0.0 ? (along + price_of_turning * across) / whole : 1.0;
-            const double cost = d + share * crooked * length;
-            if (cost >= distance[w]) continue;
-            distance[w] = cost;
-            arrived[w] = h;
-            queue.emplace(cost, w);
+            if (nearest.reach(w, nearest.distance()[v] + share * crooked * length)) arrived[w] = h;
         }
     }
     if (end < 0) return {};

@@ -1,6 +1,7 @@
 // The options of a uniformization.
 #pragma once
 
+#include "core/option_list.h"
 #include "core/types.h"
 #include "iteration/iteration_options.h"
 #include "iteration/koebe_mesh_options.h"
@@ -14,7 +15,7 @@ enum class Engine { condensed, mesh };  ///< docs/method.md: eliminated once, or
 enum class OuterLoop { automatic, longest, vertex };
 enum class Balance { none, area };  ///< area: the disk automorphism with the least area distortion
 
-struct UniformizeOptions : IterationOptions {
+struct UniformizeOptions : IterationOptions, EvennessOptions {
     Engine engine = Engine::condensed;
     KoebeMeshOptions mesh;  ///< with Engine::mesh
     OuterLoop outer = OuterLoop::automatic;
@@ -24,10 +25,8 @@ struct UniformizeOptions : IterationOptions {
     /// With Balance::area: importance of each vertex, 0 to 1. The balance counts lengths around a vertex of importance
     /// w most_important^w times, so that it gets more texels. Empty or all equal: no effect.
     std::vector<double> importance = {};
-    bool polish = false;                   ///< at the end, least angle error with the circles kept (angle_polish.h)
-    double even = 0.0;                     ///< 0: conformal, 1: true to size (pipeline/even_disk.h)
-    LoopForm loops = LoopForm::automatic;  ///< with `even`
-    bool repair = true;                    ///< false: leave flipped faces as they are; for maps that are only judged
+    bool polish = false;  ///< at the end, least angle error with the circles kept (angle_polish.h)
+    bool repair = true;   ///< false: leave flipped faces as they are; for maps that are only judged
     /// Names of vertices and faces in warnings, where the surface is a piece of another; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh
@@ -37,18 +36,11 @@ struct UniformizeOptions : IterationOptions {
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
-        visit("method", &UniformizeOptions::method);
-        visit("engine", &UniformizeOptions::engine);
-        visit("outer", &UniformizeOptions::outer);
-        visit("center", &UniformizeOptions::center);
-        visit("point", &UniformizeOptions::point);
+        KOEBE_VISIT(UniformizeOptions, method, engine, outer, center, point)
         SweepOptions::each_option(visit);
-        visit("balance", &UniformizeOptions::balance);
-        visit("importance", &UniformizeOptions::importance);
-        visit("polish", &UniformizeOptions::polish);
-        visit("even", &UniformizeOptions::even);
-        visit("loops", &UniformizeOptions::loops);
-        visit("threads", &UniformizeOptions::threads);
+        KOEBE_VISIT(UniformizeOptions, balance, importance, polish)
+        EvennessOptions::each_option(visit);
+        KOEBE_VISIT(UniformizeOptions, threads)
     }
 };
 

@@ -1,6 +1,8 @@
 // The result of a uniformization: the map and its report.
 #pragma once
 
+#include "circles/circle.h"
+#include "circles/mapped_loop.h"
 #include "core/types.h"
 #include "iteration/koebe_outcome.h"
 #include "pipeline/options.h"
@@ -11,12 +13,9 @@
 
 namespace koebe {
 
-struct LoopReport {
-    VertexLoop vertices;               ///< in order, the surface on the left
+struct LoopReport : MappedLoop {
     Circle circle;                     ///< in the unit disk
-    Roundness roundness;               ///< of the loop's image, before the projection onto the circle
     double roundness_projected = 0.0;  ///< deviation from the circle after the projection
-    std::vector<Index> off_circle;     ///< vertices that are not on the circle
     bool shrunk = false;  ///< whether the circle differs from the surface's own: replaced, or lost in rounding
 };
 

@@ -75,27 +75,20 @@ void bind_domains(py::module_& m)
     bind_map<FlattenOptions, FlattenResult>(m, "flatten", flatten);
     m.def("page_problem", [](const std::string& name) { return page_named(name) ? std::string() : page_help(name); });
 
-    py::enum_<RingHoles>(m, "RingHoles")
-        .value("circles", RingHoles::circles)
-        .value("concentric", RingHoles::concentric)
-        .value("radial", RingHoles::radial);
+    bind_words(m, "RingHoles", {RingHoles::circles, RingHoles::concentric, RingHoles::radial});
     bind_options<TileOptions>(m, "TileOptions");
     bind_result<TileResult>(m, "TileResult").def("report", &report_of<TileResult>);
     bind_map<TileOptions, TileResult>(m, "torus_map", torus_map);
     bind_map<TileOptions, TileResult>(m, "ring_map", ring_map);
 
-    py::enum_<SphereLayout>(m, "SphereLayout")
-        .value("equirectangular", SphereLayout::equirectangular)
-        .value("octahedral", SphereLayout::octahedral);
+    bind_words(m, "SphereLayout", {SphereLayout::equirectangular, SphereLayout::octahedral});
     bind_options<SphereOptions>(m, "SphereOptions");
     bind_result<SphereResult>(m, "SphereResult")
         .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
         .def("report", &report_of<SphereResult>);
     bind_map<SphereOptions, SphereResult>(m, "sphere_map", sphere_map);
 
-    py::enum_<SchottkyNormalization>(m, "SchottkyNormalization")
-        .value("area", SchottkyNormalization::area)
-        .value("circles", SchottkyNormalization::circles);
+    bind_words(m, "SchottkyNormalization", {SchottkyNormalization::area, SchottkyNormalization::circles});
     bind_options<SchottkyOptions>(m, "SchottkyOptions");
     bind_result<SchottkyResult>(m, "SchottkyResult").def("report", &report_of<SchottkyResult>);
     bind_map<SchottkyOptions, SchottkyResult>(m, "schottky_map", schottky_map);

@@ -20,11 +20,7 @@ namespace koebe::python {
 
 void bind_lift(py::module_& m)
 {
-    py::enum_<LiftShape>(m, "LiftShape")
-        .value("disk", LiftShape::disk)
-        .value("ring", LiftShape::ring)
-        .value("torus", LiftShape::torus)
-        .value("parts", LiftShape::parts);
+    bind_words(m, "LiftShape", {LiftShape::disk, LiftShape::ring, LiftShape::torus, LiftShape::parts});
     bind_options<LiftOptions>(m, "LiftOptions");
     py::class_<LiftResult>(m, "LiftResult")
         .def_property_readonly("vertices", [](const LiftResult& r) { return r.vertices; })

@@ -39,11 +39,7 @@ void bind_shapes(py::module_& m)
             MappedSurface surface{vertices, triangles, uv, {}};
             const std::vector<Circle> circles = circles_of(centers, radii);
             for (std::size_t k = 0; k < loops.size(); ++k)
-                surface.loops.push_back({.vertices = loops[k],
-                                         .circle = circles[k],
-                                         .roundness = {},
-                                         .off_circle = off_circle[k],
-                                         .shrunk = !own[k]});
+                surface.loops.push_back({{loops[k], {}, off_circle[k]}, circles[k], 0.0, !own[k]});
             return surface;
         }));
     m.def("conformal_module", [](const PlanarPoints& centers, const VectorXd& radii, const std::vector<int>& order) {

@@ -40,11 +40,8 @@ py::tuple opened_tuple(const OpenedSurface& opened)
 
 void bind_uniformize(py::module_& m)
 {
-    py::enum_<Method>(m, "Method")
-        .value("gk", Method::gk)
-        .value("ck", Method::ck)
-        .value("against-outer", Method::against_outer);
-    py::enum_<Engine>(m, "Engine").value("condensed", Engine::condensed).value("mesh", Engine::mesh);
+    bind_words(m, "Method", {Method::gk, Method::ck, Method::against_outer});
+    bind_words(m, "Engine", {Engine::condensed, Engine::mesh});
     py::enum_<OuterLoop>(m, "OuterLoop")
         .value("automatic", OuterLoop::automatic)
         .value("longest", OuterLoop::longest)

@@ -45,4 +45,10 @@ struct CornerMapReport : MapReport {
     std::vector<Index> turned;  ///< faces that were turned to the orientation of the others
 };
 
+/// Of a map whose circles move in sweeps.
+struct SweptMapReport : CornerMapReport {
+    int sweeps = 0;
+    std::vector<double> changes;  ///< of the circles or the points, in each sweep
+};
+
 }  // namespace koebe

@@ -1,5 +1,8 @@
 #include "report/json.h"
 
+#include "core/enum_words.h"
+
+#include <array>
 namespace koebe {
 namespace {
 
@@ -14,16 +17,22 @@ Json step_json(const KoebeStep& step)
             {"mean_roundness_holes", step.mean_roundness.holes.paper}};
 }
 
-Json loop_json(const LoopReport& loop)
+/// Without off_circle.
+Json mapped_json(const MappedLoop& loop, const Json& circle)
 {
-    return {{"vertices", loop.vertices},
-            {"center", {loop.circle.center.real(), loop.circle.center.imag()}},
-            {"radius", loop.circle.radius},
-            {"roundness", loop.roundness.paper},
-            {"roundness_least_squares", loop.roundness.least_squares},
-            {"roundness_projected", loop.roundness_projected},
-            {"off_circle", loop.off_circle},
-            {"own_circle", !loop.shrunk}};
+    Json json{{"vertices", loop.vertices}};
+    json.update(circle);
+    json.update(to_json(loop.roundness));
+    return json;
+}
+
+Json disk_loop_json(const LoopReport& loop)
+{
+    Json json = mapped_json(loop, to_json(loop.circle));
+    json.update({{"roundness_projected", loop.roundness_projected},
+                 {"off_circle", loop.off_circle},
+                 {"own_circle", !loop.shrunk}});
+    return json;
 }
 
 Json mean_roundness_json(const std::vector<LoopReport>& loops)
@@ -34,14 +43,6 @@ Json mean_roundness_json(const std::vector<LoopReport>& loops)
     return {{"all", mean.all.paper},
             {"holes", mean.holes.paper},
             {"least_squares", {{"all", mean.all.least_squares}, {"holes", mean.holes.least_squares}}}};
-}
-
-template <typename T>
-Json array_json(const std::vector<T>& items, Json (*item_json)(const T&))
-{
-    Json array = Json::array();
-    for (const T& item : items) array.push_back(item_json(item));
-    return array;
 }
 
 Json area_json(const AreaDistortion& area)
@@ -58,17 +59,9 @@ Json warning_json(const Warning& warning)
 
 }  // namespace
 
-const char* to_string(Method method) noexcept
-{
-    switch (method) {
-    case Method::gk: return "gk";
-    case Method::ck: return "ck";
-    case Method::against_outer: return "against-outer";
-    }
-    return "";
-}
+const char* to_string(Method method) noexcept { return word_of(method, std::array{"gk", "ck", "against-outer"}); }
 
-const char* to_string(Engine engine) noexcept { return engine == Engine::condensed ? "condensed" : "mesh"; }
+const char* to_string(Engine engine) noexcept { return word_of(engine, std::array{"condensed", "mesh"}); }
 
 Json to_json(const Distortion& distortion)
 {
@@ -104,6 +97,30 @@ Json report_json(const MapReport& map, const Json& own)
     return report;
 }
 
+Json report_json(const SweptMapReport& map, const Json& own)
+{
+    Json all{{"converged", map.converged}, {"sweeps", map.sweeps}, {"changes", map.changes}};
+    all.update(own);
+    return report_json(static_cast<const MapReport&>(map), all);
+}
+
+Json to_json(const Circle& circle)
+{
+    return {{"center", {circle.center.real(), circle.center.imag()}}, {"radius", circle.radius}};
+}
+
+Json to_json(const Roundness& roundness)
+{
+    return {{"roundness", roundness.paper}, {"roundness_least_squares", roundness.least_squares}};
+}
+
+Json loop_json(const MappedLoop& loop, const Json& circle)
+{
+    Json json = mapped_json(loop, circle);
+    json["off_circle"] = loop.off_circle;
+    return json;
+}
+
 Json to_json(const UniformizeResult& result)
 {
     Json own{
@@ -114,7 +131,7 @@ Json to_json(const UniformizeResult& result)
                 {"sweeps", result.sweeps},
                 {"steps", result.steps},
                 {"history", array_json(result.history, step_json)},
-                {"loops", array_json(result.loops, loop_json)},
+                {"loops", array_json(result.loops, disk_loop_json)},
                 {"mean_roundness", mean_roundness_json(result.loops)}});
     Json report = report_json(result, own);
     if (result.unbalanced_area) report["area_distortion"]["before_balance"] = area_json(*result.unbalanced_area);

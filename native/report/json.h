@@ -1,12 +1,15 @@
 // The JSON report, in one form for the command and for Python.
 #pragma once
 
+#include "circles/mapped_loop.h"
 #include "core/api.h"
 #include "pipeline/result.h"
+#include "quality/report.h"
 
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <vector>
 
 namespace koebe {
 
@@ -20,6 +23,23 @@ KOEBE_API nlohmann::ordered_json to_json(const UniformizeResult& result);
 /// The report of every map, around its own entries: version, input, vertices, faces; own entries; converged, unless
 /// these have it; the distortion, seconds, peak_memory_mb, warnings.
 nlohmann::ordered_json report_json(const MapReport& map, const nlohmann::ordered_json& own);
+/// The own entries begin with converged, sweeps and changes.
+nlohmann::ordered_json report_json(const SweptMapReport& map, const nlohmann::ordered_json& own);
+
+/// {"center": [x, y], "radius"}
+nlohmann::ordered_json to_json(const Circle& circle);
+/// {"roundness", "roundness_least_squares"}
+nlohmann::ordered_json to_json(const Roundness& roundness);
+/// vertices, the circle, roundness, off_circle
+nlohmann::ordered_json loop_json(const MappedLoop& loop, const nlohmann::ordered_json& circle);
+
+template <typename T>
+nlohmann::ordered_json array_json(const std::vector<T>& items, nlohmann::ordered_json (*item_json)(const T&))
+{
+    nlohmann::ordered_json array = nlohmann::ordered_json::array();
+    for (const T& item : items) array.push_back(item_json(item));
+    return array;
+}
 
 /// The report's part that judges a map: angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion,
 /// conformal_energy, flipped, below_resolution (the last two as counts).

@@ -9,25 +9,16 @@ using Json = nlohmann::ordered_json;
 
 Json cap_json(const SphereLoop& loop)
 {
-    return {{"vertices", loop.vertices},
-            {"center", {loop.cap.center[0], loop.cap.center[1], loop.cap.center[2]}},
-            {"radius", loop.cap.radius},
-            {"roundness", loop.roundness.paper},
-            {"roundness_least_squares", loop.roundness.least_squares},
-            {"off_circle", loop.off_circle}};
+    const Cap& cap = loop.cap;
+    return loop_json(loop, {{"center", {cap.center[0], cap.center[1], cap.center[2]}}, {"radius", cap.radius}});
 }
 
 }  // namespace
 
 Json to_json(const SphereResult& result)
 {
-    Json loops = Json::array();
-    for (const SphereLoop& loop : result.loops) loops.push_back(cap_json(loop));
-    return report_json(result, {{"converged", result.converged},
-                                {"sweeps", result.sweeps},
-                                {"changes", result.changes},
-                                {"mean_point", result.mean_point},
-                                {"loops", std::move(loops)},
+    return report_json(result, {{"mean_point", result.mean_point},
+                                {"loops", array_json(result.loops, cap_json)},
                                 {"turned", result.turned},
                                 {"on_sphere",
                                  {{"flipped", result.flipped_on_sphere.size()},

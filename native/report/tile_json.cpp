@@ -7,14 +7,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json loop_json(const TileLoop& loop)
+Json tile_loop_json(const TileLoop& loop)
 {
     Json json{{"vertices", loop.vertices}, {"rim", loop.rim}};
     if (loop.has_circle) {
-        json["center"] = {loop.circle.center.real(), loop.circle.center.imag()};
-        json["radius"] = loop.circle.radius;
-        json["roundness"] = loop.roundness.paper;
-        json["roundness_least_squares"] = loop.roundness.least_squares;
+        json.update(to_json(loop.circle));
+        json.update(to_json(loop.roundness));
     }
     if (loop.is_slit) json["slit"] = loop.slit;
     json["off_circle"] = loop.off_circle;
@@ -25,14 +23,9 @@ Json loop_json(const TileLoop& loop)
 
 Json to_json(const TileResult& result)
 {
-    Json loops = Json::array();
-    for (const TileLoop& loop : result.loops) loops.push_back(loop_json(loop));
-    return report_json(result, {{"converged", result.converged},
-                                {"sweeps", result.sweeps},
-                                {"changes", result.changes},
-                                {"periods", result.periods},
+    return report_json(result, {{"periods", result.periods},
                                 {"modulus", {result.modulus.real(), result.modulus.imag()}},
-                                {"loops", std::move(loops)},
+                                {"loops", array_json(result.loops, tile_loop_json)},
                                 {"turned", result.turned},
                                 {"cut_length", result.cut_length}});
 }

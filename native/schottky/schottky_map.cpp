@@ -2,6 +2,7 @@
 
 #include "canonical/corner_map.h"
 #include "core/counted.h"
+#include "core/enum_words.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"
 #include "linear/dense_spd.h"
@@ -13,6 +14,7 @@
 #include "schottky/laid_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -198,7 +200,7 @@ void name_schottky(const CanonicalMesh& mesh, SchottkyResult& result)
 
 const char* to_string(SchottkyNormalization normalization) noexcept
 {
-    return normalization == SchottkyNormalization::area ? "area" : "circles";
+    return word_of(normalization, std::array{"area", "circles"});
 }
 
 SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,

@@ -1,7 +1,7 @@
 // Schottky uniformization: a surface with handles in the plane; Moebius maps take one side of each cut to the other.
 #pragma once
 
-#include "circles/circle_fit.h"
+#include "circles/mapped_loop.h"
 #include "core/api.h"
 #include "core/map_options.h"
 #include "core/warning.h"
@@ -24,17 +24,10 @@ enum class SchottkyNormalization {
 KOEBE_API const char* to_string(SchottkyNormalization normalization) noexcept;
 
 /// The tolerance is on the relative change, in a sweep, of the matrices of the disks that fill the loops.
-struct SchottkyOptions : SweepOptions {
+struct SchottkyOptions : CutDomainOptions {
     SchottkyNormalization normalization = SchottkyNormalization::area;
-    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each face by itself
 
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        visit("normalization", &SchottkyOptions::normalization);
-        SweepOptions::each_option(visit);
-        visit("polygon", &SchottkyOptions::polygon);
-    }
+    KOEBE_OPTIONS_OVER(CutDomainOptions, SchottkyOptions, normalization)
 };
 
 /// A handle, in the plane of the unit disk, z = 2 (u + i v) - 1 - i.
@@ -47,21 +40,16 @@ struct SchottkyHandle {
 };
 
 /// A hole of the surface.
-struct SchottkyHole {
-    VertexLoop vertices;            ///< in order, the surface on the left
-    Circle circle;                  ///< in the UVs; in the map if the cut of the UVs tears it
-    Roundness roundness;            ///< of the image before it was put on its circle
-    std::vector<Index> off_circle;  ///< vertices off the circle, ascending
+struct SchottkyHole : MappedLoop {
+    Circle circle;  ///< in the UVs; in the map if the cut of the UVs tears it
 };
 
 /// The UVs lie in [0, 1]^2.
-struct SchottkyResult : CornerMapReport {
+struct SchottkyResult : SweptMapReport {
     std::vector<SchottkyHole> holes;      ///< by falling length, the first on the unit circle
     std::vector<SchottkyHandle> handles;  ///< by falling length of their cuts
     bool by_circles = false;  ///< the UVs are cut along the pairs of circles, as closely as faces allow; else along the
                               ///< edges of the cuts, as the circles meet each other or a hole
-    int sweeps = 0;
-    std::vector<double> changes;  ///< in each sweep
 };
 
 /// Maps a surface of genus at least 1 with any number of holes conformally to a fundamental domain of a Schottky group,

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "linear/sparse_cholesky.h"
 #include "mesh/connectivity.h"
+#include "mesh/nearest_first.h"
 #include "sphere/spherical_balance.h"
 #include "sphere/spherical_points.h"
 #include "surface/intrinsic_metric.h"
@@ -15,7 +16,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <queue>
 #include <utility>
 
 namespace koebe {
@@ -97,22 +97,11 @@ VectorXd edge_distances(const IntrinsicMetric& metric, Index vertex_count, Index
             neighbours[a].emplace_back(b, metric.lengths(f, k));
             neighbours[b].emplace_back(a, metric.lengths(f, k));
         }
-    VectorXd distance = VectorXd::Constant(vertex_count, std::numeric_limits<double>::infinity());
-    using Entry = std::pair<double, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    distance[source] = 0.0;
-    queue.emplace(0.0, source);
-    while (!queue.empty()) {
-        const auto [far, v] = queue.top();
-        queue.pop();
-        if (far > distance[v]) continue;
-        for (const auto& [w, length] : neighbours[v])
-            if (far + length < distance[w]) {
-                distance[w] = far + length;
-                queue.emplace(distance[w], w);
-            }
-    }
-    return distance;
+    NearestFirst nearest(vertex_count);
+    nearest.reach(source, 0.0);
+    for (Index v = nearest.take(); v >= 0; v = nearest.take())
+        for (const auto& [w, length] : neighbours[v]) nearest.reach(w, nearest.distance()[v] + length);
+    return VectorXd::Map(nearest.distance().data(), vertex_count);
 }
 
 /// Area over the sum of the squared edges: larger is rounder.

@@ -2,6 +2,7 @@
 
 #include "canonical/corner_map.h"
 #include "core/counted.h"
+#include "core/enum_words.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
 #include "pipeline/loop_numbers.h"
@@ -20,6 +21,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -220,13 +222,8 @@ std::vector<SphereLoop> loops_on_sphere(const PeriodicSurface& domain, const Pla
     std::vector<SphereLoop> loops;
     for (std::size_t k = 0; k < domain.loops.size(); ++k) {
         SphereLoop& loop = loops.emplace_back();
-        std::vector<Index> off;
-        for (const Index v : domain.loops[k]) {
-            loop.vertices.push_back(domain.original[v]);
-            if (std::ranges::binary_search(sphere.off_circle, v)) off.push_back(v);
-        }
-        std::rotate(loop.vertices.begin(), std::ranges::min_element(loop.vertices), loop.vertices.end());
-        loop.off_circle = named(domain, off);
+        loop.vertices = domain.named_loop(k);
+        loop.off_circle = domain.named_on_loop(k, sphere.off_circle);
         loop.cap = sphere.caps[k];
         loop.roundness = map.roundness[k];
     }
@@ -378,7 +375,7 @@ void name_sphere(const CanonicalMesh& mesh, SphereResult& result)
 
 const char* to_string(SphereLayout layout) noexcept
 {
-    return layout == SphereLayout::octahedral ? "octahedral" : "equirectangular";
+    return word_of(layout, std::array{"equirectangular", "octahedral"});
 }
 
 SphereResult sphere_map(const Vertices& vertices, const Triangles& triangles, const SphereOptions& options,

@@ -1,7 +1,7 @@
 // Maps a surface of genus 0 to the unit sphere, with round caps as holes.
 #pragma once
 
-#include "circles/circle_fit.h"
+#include "circles/mapped_loop.h"
 #include "core/api.h"
 #include "core/map_options.h"
 #include "core/warning.h"
@@ -23,25 +23,15 @@ enum class SphereLayout {
 KOEBE_API const char* to_string(SphereLayout layout) noexcept;
 
 /// For a closed surface the tolerance is on the change of the points.
-struct SphereOptions : SweepOptions {
+struct SphereOptions : CutDomainOptions {
     SphereLayout layout = SphereLayout::equirectangular;
-    std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each face by itself
 
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        visit("layout", &SphereOptions::layout);
-        SweepOptions::each_option(visit);
-        visit("polygon", &SphereOptions::polygon);
-    }
+    KOEBE_OPTIONS_OVER(CutDomainOptions, SphereOptions, layout)
 };
 
-/// A loop on the sphere.
-struct SphereLoop {
-    VertexLoop vertices;            ///< in order, the surface on the left
-    Cap cap;                        ///< the hole
-    Roundness roundness;            ///< of the image in the disk, before it was put on its circle
-    std::vector<Index> off_circle;  ///< vertices off the cap's circle, ascending
+/// A loop on the sphere. Its roundness is measured in the disk.
+struct SphereLoop : MappedLoop {
+    Cap cap;  ///< the hole
 };
 
 /// Faces with special UVs.
@@ -55,13 +45,11 @@ struct SphereLayoutReport {
 };
 
 /// angle_error_deg and similar measures are of flat faces between the corners on the sphere. The verdict, with flipped
-/// and below_resolution, is on the UVs.
-struct SphereResult : CornerMapReport {
+/// and below_resolution, is on the UVs. With holes the changes are those of each step.
+struct SphereResult : SweptMapReport {
     Vertices points;                ///< (V, 3) unit vectors in the input's order; unused vertices at (0, 0, 1)
     std::vector<SphereLoop> loops;  ///< by falling length
     double mean_point = 0.0;  ///< length of the area-weighted mean of the points: 0 except for moves after the balance
-    int sweeps = 0;
-    std::vector<double> changes;  ///< in each sweep; with holes in each of its steps
     /// Faces that are not upright on the sphere in exact arithmetic; among them those whose longest edge is under
     /// sphere_resolution.
     std::vector<Index> flipped_on_sphere, below_sphere_resolution;

@@ -3,14 +3,13 @@
 #include "core/errors.h"
 #include "execution/side_by_side.h"
 #include "mesh/connectivity.h"
+#include "mesh/nearest_first.h"
 #include "splitting/concavity.h"
 #include "splitting/dual_cut.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <queue>
 #include <set>
 #include <utility>
 
@@ -36,26 +35,15 @@ std::vector<double> border_distance(const PartMesh& both, const std::vector<int>
                 3.0)
             .eval();
     };
-    std::vector<double> distance(label.size(), std::numeric_limits<double>::infinity());
-    using Entry = std::pair<double, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    NearestFirst nearest(static_cast<Index>(label.size()));
     for (Index h = 0; h < static_cast<Index>(both.surface.twin.size()); ++h)
-        if (const Index t = both.surface.twin[h]; t != no_twin && label[face_of(t)] != label[face_of(h)]) {
-            const double d = 0.5 * (middle(face_of(h)) - middle(face_of(t))).norm();
-            if (d < distance[face_of(h)]) queue.emplace(distance[face_of(h)] = d, face_of(h));
-        }
-    while (!queue.empty()) {
-        const auto [d, f] = queue.top();
-        queue.pop();
-        if (d > distance[f]) continue;
-        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-            const Index t = both.surface.twin[h];
-            if (t == no_twin) continue;
-            const double next = d + (middle(f) - middle(face_of(t))).norm();
-            if (next < distance[face_of(t)]) queue.emplace(distance[face_of(t)] = next, face_of(t));
-        }
-    }
-    return distance;
+        if (const Index t = both.surface.twin[h]; t != no_twin && label[face_of(t)] != label[face_of(h)])
+            nearest.reach(face_of(h), 0.5 * (middle(face_of(h)) - middle(face_of(t))).norm());
+    for (Index f = nearest.take(); f >= 0; f = nearest.take())
+        for (Index h = 3 * f; h < 3 * f + 3; ++h)
+            if (const Index t = both.surface.twin[h]; t != no_twin)
+                nearest.reach(face_of(t), nearest.distance()[f] + (middle(f) - middle(face_of(t))).norm());
+    return nearest.distance();
 }
 
 /// The width within which neither part loses too much.

@@ -15,6 +15,15 @@
 namespace koebe {
 namespace {
 
+/// @throws TopologyError genus
+void require_genus(const Surface& surface, int genus, const std::string& needs)
+{
+    if (surface.genus != genus)
+        throw TopologyError(TopologyKind::genus, "the surface has " +
+                                                     counted(static_cast<std::size_t>(surface.genus), "handle") + ": " +
+                                                     needs);
+}
+
 /// The dual graph: its nodes are the faces and, after them, the boundary loops.
 class DualGraph {
 public:
@@ -205,14 +214,28 @@ std::array<int, 2> PeriodicSurface::shift(Index halfedge) const
     return result;
 }
 
+VertexLoop PeriodicSurface::named_loop(std::size_t k) const
+{
+    VertexLoop named;
+    for (const Index v : loops[k]) named.push_back(original[v]);
+    std::rotate(named.begin(), std::ranges::min_element(named), named.end());
+    return named;
+}
+
+std::vector<Index> PeriodicSurface::named_on_loop(std::size_t k, const std::vector<Index>& vertices) const
+{
+    std::vector<Index> named;
+    for (const Index v : loops[k])
+        if (std::ranges::binary_search(vertices, v)) named.push_back(original[v]);
+    std::ranges::sort(named);
+    return named;
+}
+
 PeriodicSurface periodic_torus(const Vertices& vertices, const Triangles& triangles)
 {
     PeriodicSurface domain = prepared(vertices, triangles);
     const Surface& surface = domain.surface;
-    if (surface.genus != 1)
-        throw TopologyError(TopologyKind::genus, "the surface has " +
-                                                     counted(static_cast<std::size_t>(surface.genus), "handle") +
-                                                     ": a map to a flat torus needs exactly one");
+    require_genus(surface, 1, "a map to a flat torus needs exactly one");
     order_loops(domain, {});
     const DualGraph dual(surface);
     std::vector<char> closed = vertex_tree(surface);
@@ -240,9 +263,7 @@ PeriodicSurface periodic_torus(const Vertices& vertices, const Triangles& triang
 PeriodicSurface periodless_sphere(const Vertices& vertices, const Triangles& triangles)
 {
     PeriodicSurface domain = prepared(vertices, triangles);
-    if (domain.surface.genus != 0)
-        throw TopologyError(TopologyKind::genus, "the surface has " + std::to_string(domain.surface.genus) +
-                                                     " handles: a map to the sphere needs a surface without handles");
+    require_genus(domain.surface, 0, "a map to the sphere needs a surface without handles");
     order_loops(domain, {});
     return domain;
 }
@@ -251,10 +272,7 @@ PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangl
 {
     PeriodicSurface domain = prepared(vertices, triangles);
     const Surface& surface = domain.surface;
-    if (surface.genus != 0)
-        throw TopologyError(TopologyKind::genus, "the surface has " +
-                                                     counted(static_cast<std::size_t>(surface.genus), "handle") +
-                                                     ": a ring needs a surface without handles");
+    require_genus(surface, 0, "a ring needs a surface without handles");
     if (surface.loops.size() < 2)
         throw TopologyError(TopologyKind::closed,
                             "a ring needs two boundary loops, the surface has " + std::to_string(surface.loops.size()));

@@ -24,9 +24,12 @@ struct PeriodicSurface {
     std::vector<OneForm> metric_shifts;  ///< the same forms on the metric's half-edges
     std::vector<Index> polygon;          ///< (F) a tile keeps faces of one number together; empty: each face by itself
 
-    std::size_t period_count() const { return shifts.size(); }
     /// The shifts of a half-edge of the surface.
     std::array<int, 2> shift(Index halfedge) const;
+    /// The input's vertices on a loop, in order from the lowest.
+    VertexLoop named_loop(std::size_t k) const;
+    /// The input's vertices on a loop, ascending, that are among these of the surface. @param vertices ascending
+    std::vector<Index> named_on_loop(std::size_t k, const std::vector<Index>& vertices) const;
 };
 
 /// Makes a periodic surface of genus 1 with any number of holes. The forms are dual to two loops that generate the

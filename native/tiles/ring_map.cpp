@@ -12,7 +12,9 @@
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
 
+#include "core/enum_words.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -182,12 +184,7 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
 
 const char* to_string(RingHoles holes) noexcept
 {
-    switch (holes) {
-    case RingHoles::circles: return "circles";
-    case RingHoles::concentric: return "concentric";
-    case RingHoles::radial: return "radial";
-    }
-    return "";
+    return word_of(holes, std::array{"circles", "concentric", "radial"});
 }
 
 TileResult ring_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,

@@ -1,9 +1,10 @@
 // Maps surfaces to a flat torus or a cylinder.
 #pragma once
 
-#include "circles/circle_fit.h"
+#include "circles/mapped_loop.h"
 #include "core/api.h"
 #include "core/map_options.h"
+#include "core/option_list.h"
 #include "core/warning.h"
 #include "execution/execution.h"
 #include "quality/report.h"
@@ -23,49 +24,38 @@ enum class RingHoles {
 /// The enumerator's name, as in the JSON report.
 KOEBE_API const char* to_string(RingHoles holes) noexcept;
 
-/// On a torus the change of the circles is measured with its shortest period scaled to 1.
-struct TileOptions : SweepOptions {
+/// On a torus the change of the circles is measured with its shortest period scaled to 1. EvennessOptions::loops is of
+/// the holes.
+struct TileOptions : CutDomainOptions, EvennessOptions {
     RingHoles holes = RingHoles::circles;  ///< of a ring
     Index outer = -1, inner = -1;          ///< of a ring: a vertex of each rim; -1: the longest loops
-    double even = 0.0;                     ///< 0: conformal, 1: true to size (tiles/even_tile.h)
-    LoopForm loops = LoopForm::automatic;  ///< of the holes, with `even`
-    std::vector<Index> polygon = {};       ///< (F) faces of one number are not cut apart; empty: each face by itself
 
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
-        visit("outer", &TileOptions::outer);
-        visit("inner", &TileOptions::inner);
-        visit("holes", &TileOptions::holes);
-        SweepOptions::each_option(visit);
-        visit("even", &TileOptions::even);
-        visit("loops", &TileOptions::loops);
-        visit("polygon", &TileOptions::polygon);
+        KOEBE_VISIT(TileOptions, outer, inner, holes)
+        CutDomainOptions::each_option(visit);
+        EvennessOptions::each_option(visit);
     }
 };
 
 /// A loop in the tile.
-struct TileLoop {
-    VertexLoop vertices;  ///< in order, the surface on the left
-    bool rim = false;     ///< of a ring: a straight line from one side of the tile to the other
+struct TileLoop : MappedLoop {
+    bool rim = false;  ///< of a ring: a straight line from one side of the tile to the other
     bool has_circle = false;
-    Circle circle;                  ///< in UVs for a torus or a tile made more even, in the unit disk for other rings
-    Roundness roundness;            ///< of the image before it was put on its circle
-    std::vector<Index> off_circle;  ///< vertices off the circle or the slit, ascending
-    bool is_slit = false;
+    Circle circle;         ///< in UVs for a torus or a tile made more even, in the unit disk for other rings
+    bool is_slit = false;  ///< then off_circle has the vertices off the slit
     std::array<std::array<double, 2>, 2> slit{};  ///< its ends in UVs
 };
 
 /// The distortion is measured on the tile, in UV units: 32-bit floats in [0, 1]^2.
-struct TileResult : CornerMapReport {
+struct TileResult : SweptMapReport {
     std::vector<std::array<double, 2>> periods;  ///< in UVs: two for a torus, one along u for a ring
     /// For a torus the ratio of its periods, reduced if the map is conformal. For a ring i times height over period,
     /// log(R / r) / 2 pi.
     Complex modulus;
     std::vector<TileLoop> loops;  ///< by falling length; of a ring the outer and the inner rim come first
     double cut_length = 0.0;      ///< of the cut in the UVs, over the square root of the surface's area
-    int sweeps = 0;
-    std::vector<double> changes;  ///< change of the circles in each sweep
 };
 
 /// Maps a surface of genus 1 with any number of holes conformally to a flat torus with round holes. The UVs are a

@@ -45,12 +45,8 @@ TileLoop loop_report(const PeriodicSurface& domain, const FlatMap& map, std::siz
 {
     TileLoop loop;
     loop.rim = k < domain.first_hole;
-    for (const Index v : domain.loops[k]) {
-        loop.vertices.push_back(domain.original[v]);
-        if (std::ranges::binary_search(map.off_circle, v)) loop.off_circle.push_back(domain.original[v]);
-    }
-    std::rotate(loop.vertices.begin(), std::ranges::min_element(loop.vertices), loop.vertices.end());
-    std::ranges::sort(loop.off_circle);
+    loop.vertices = domain.named_loop(k);
+    loop.off_circle = domain.named_on_loop(k, map.off_circle);
     return loop;
 }
 

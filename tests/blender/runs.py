@@ -67,6 +67,17 @@ def flipped():
     scenes.select(other)
 
 
+def in_edit_mode(start):
+    """The same start in Edit Mode, with all selected."""
+
+    def begin():
+        start()
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+
+    return begin
+
+
 def tori():
     """Tori, one of them with materials, one with a layer of the name, and a panel that is none."""
     states.new_file()
@@ -77,13 +88,6 @@ def tori():
     objects = [plain, other, worn, states.plain()]
     states.consistent(objects)
     scenes.select(*objects)
-
-
-def tori_in_edit_mode():
-    """The same in Edit Mode."""
-    tori()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
 
 
 def mapped_tori():
@@ -180,16 +184,9 @@ def disk_and_closed():
     scenes.select(*objects)
 
 
-def disk_and_closed_in_edit_mode():
-    """The same in Edit Mode."""
-    disk_and_closed()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-
-
 RUNS = {
     "unwrap": (disk_and_closed, "uv.koebe_unwrap", {}),
-    "unwrap in Edit Mode": (disk_and_closed_in_edit_mode, "uv.koebe_unwrap", {}),
+    "unwrap in Edit Mode": (in_edit_mode(disk_and_closed), "uv.koebe_unwrap", {}),
     "uniformize": (states.many, "uv.koebe_uniformize", {}),
     "uniformize what is worn": (states.worn, "uv.koebe_uniformize", {"checker_size": 5.0, "checker_even": False}),
     "uniformize in Edit Mode": (states.edited, "uv.koebe_uniformize", {}),
@@ -203,7 +200,7 @@ RUNS = {
     "parts with seams in Edit Mode": (states.edited, "uv.koebe_parts", {"write_seams": True, "evenness": 1.0}),
     "torus": (tori, "uv.koebe_torus", {}),
     "torus of what is worn": (mapped_tori, "uv.koebe_torus", {"fit": "period", "checker_size": 16.0}),
-    "torus in Edit Mode": (tori_in_edit_mode, "uv.koebe_torus", {"fit": "square"}),
+    "torus in Edit Mode": (in_edit_mode(tori), "uv.koebe_torus", {"fit": "square"}),
     "ring": (states.many, "uv.koebe_ring", {}),
     "ring of what is worn": (states.worn, "uv.koebe_ring", {"holes": "radial", "fit": "square"}),
     "ring in Edit Mode": (states.edited, "uv.koebe_ring", {"holes": "concentric", "checker": False}),
@@ -214,7 +211,7 @@ RUNS = {
     "sphere added in Edit Mode": (states.edited, "uv.koebe_sphere", {"add_sphere": True}),
     "handles": (tori, "uv.koebe_schottky", {}),
     "handles of what is worn": (mapped_tori, "uv.koebe_schottky", {"normalization": "circles", "checker_size": 16.0}),
-    "handles in Edit Mode": (tori_in_edit_mode, "uv.koebe_schottky", {"checker": False}),
+    "handles in Edit Mode": (in_edit_mode(tori), "uv.koebe_schottky", {"checker": False}),
     "sequence of frames": (moving, "uv.koebe_sequence", {"frame_end": 3}),
     "sequence of frames in Edit Mode": (moving_in_edit_mode, "uv.koebe_sequence", {"frame_end": 3, "target": "LAYERS"}),
     "sequence of keys": (moving, "uv.koebe_sequence", {"source": "SHAPE_KEYS", "target": "LAYERS"}),

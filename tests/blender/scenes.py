@@ -252,3 +252,15 @@ def assert_circle_domain(obj, layer="Koebe", holes=3):
     assert outer[0] == pytest.approx((0.5, 0.5), abs=CIRCLE_TOLERANCE)
     assert outer[1] == pytest.approx(0.5, abs=CIRCLE_TOLERANCE)
     assert (signed_areas(obj.data, layer) > 0.0).all()
+
+
+def checker_pattern(obj):
+    """The matrix (2, 2) by which the checker's nodes take UVs to squares of side 1."""
+    nodes = obj.material_slots[0].material.node_tree.nodes
+    scale = nodes["Fine"].inputs["Scale"].default_value
+    assert nodes["Coarse"].inputs["Scale"].default_value == pytest.approx(scale / 4)
+    if "Across" not in nodes:
+        return scale * np.eye(2)
+    for name in ("Fine", "Coarse"):
+        assert nodes[name].inputs["Vector"].links[0].from_node.type == "COMBXYZ"
+    return scale * np.array([nodes[name].inputs[1].default_value[:2] for name in ("Across", "Up")])

@@ -10,7 +10,7 @@ import pytest
 import scenes
 import wild
 from test_bad_meshes import FAN, moebius_strip, torus_with_hole
-from test_parts import added
+from test_parts import MODELS, added
 
 
 def klein(around=24, along=12):
@@ -60,8 +60,8 @@ def doubled():
 
 ANY = {
     "cube": lambda: scenes.add_cube(),
-    "sphere": lambda: added(bpy.ops.mesh.primitive_uv_sphere_add, segments=24, ring_count=12),
-    "torus": lambda: added(bpy.ops.mesh.primitive_torus_add, major_segments=24, minor_segments=12),
+    "sphere": MODELS["sphere"],
+    "torus": MODELS["torus"],
     "torus with a hole": lambda: scenes.add_object("Bad", *torus_with_hole()),
     "klein": lambda: scenes.add_object("Bad", *klein()),
     "moebius": lambda: scenes.add_object("Bad", *moebius_strip()),

@@ -73,16 +73,6 @@ def test_a_face_without_three_corners_apart_is_no_obstacle(layout):
 # ---------------------------------------------------------------- the checker
 
 
-def pattern_of(obj):
-    """The matrix (2, 2) by which the checker's nodes take UVs to squares of side 1."""
-    nodes = obj.material_slots[0].material.node_tree.nodes
-    scale = nodes["Fine"].inputs["Scale"].default_value
-    assert nodes["Coarse"].inputs["Scale"].default_value == pytest.approx(scale / 4)
-    if "Across" not in nodes:
-        return scale * np.eye(2)
-    return scale * np.array([nodes[name].inputs[1].default_value[:2] for name in ("Across", "Up")])
-
-
 def colors(matrix, uv):
     """What the checker of squares, and the coarse one of 4, show at UVs (n, 2)."""
     at = uv @ matrix.T
@@ -98,7 +88,7 @@ def test_the_checker_runs_over_the_cuts(holes, layout, size):
     upright = (0.0, 0.0) if holes and holes[0][1] == -1 else None
     obj = add_ball(holes=holes, turn=upright)
     assert sphere(layout=layout, checker_size=size) == {"FINISHED"}
-    matrix, uv = pattern_of(obj), scenes.corner_uv(obj.data, "Koebe").astype(float)
+    matrix, uv = scenes.checker_pattern(obj), scenes.corner_uv(obj.data, "Koebe").astype(float)
     torn = json.loads(last_run().torn_faces)
     ends, faces = sides_of_edges(obj.data, uv)
     cut = (ends[:, :, 0] != ends[:, :, 1]).any(axis=(1, 2)) & ~np.isin(faces, torn).any(axis=1)
@@ -111,18 +101,18 @@ def test_the_checker_runs_over_the_cuts(holes, layout, size):
     values = np.diag(matrix)
     assert (np.diag(values) == matrix).all() and size / 1.6 < values[0] < 1.6 * size and values[0] % 8 == 0
     assert values[1] == (values[0] / 2 if layout == "equirectangular" else values[0])
-    before = pattern_of(obj)
+    before = scenes.checker_pattern(obj)
     bpy.ops.uv.koebe_checker()
     assert len(obj.material_slots) == 0
     bpy.ops.uv.koebe_checker(checker_size=size)
-    assert np.allclose(pattern_of(obj), before, rtol=1e-6)
+    assert np.allclose(scenes.checker_pattern(obj), before, rtol=1e-6)
 
 
 def test_a_cylinder_keeps_its_own_checker():
     """With the period 1 its cuts are those of longitudes."""
     obj = add_ball(holes=((0, -1), (0, 9)))
     assert bpy.ops.uv.koebe_ring(fit="period") == {"FINISHED"}
-    matrix = pattern_of(obj)
+    matrix = scenes.checker_pattern(obj)
     assert matrix[0, 0] == matrix[1, 1]
 
 

@@ -138,21 +138,9 @@ def test_only_the_unit_square_is_not_conformal(fit):
 # ---------------------------------------------------------------- the checker
 
 
-def after_the_nodes(obj):
-    """The matrix (2, 2) by which the checker's nodes take UVs to squares of side 1."""
-    nodes = obj.material_slots[0].material.node_tree.nodes
-    scale = nodes["Fine"].inputs["Scale"].default_value
-    assert nodes["Coarse"].inputs["Scale"].default_value == pytest.approx(scale / 4)
-    if "Across" not in nodes:
-        return scale * np.eye(2)
-    for name in ("Fine", "Coarse"):
-        assert nodes[name].inputs["Vector"].links[0].from_node.type == "COMBXYZ"
-    return scale * np.array([nodes[name].inputs[1].default_value[:2] for name in ("Across", "Up")])
-
-
 def assert_runs_over_the_cuts(obj):
     """After every shift the checker of squares and the coarse one of 4 are the same."""
-    matrix = after_the_nodes(obj)
+    matrix = scenes.checker_pattern(obj)
     found = shifts(obj, grid_points(obj)) - {(0, 0)}
     assert found
     for shift in found:
@@ -171,11 +159,11 @@ def test_the_checker_runs_over_the_cut(kind, fit):
     assert stretch < 1.12 and 32 / 1.5 < size < 32 * 1.5
     if kind == "ring" or fit == "square":
         assert stretch == 1.0
-    before = after_the_nodes(obj)
+    before = scenes.checker_pattern(obj)
     bpy.ops.uv.koebe_checker()
     assert len(obj.material_slots) == 0
     bpy.ops.uv.koebe_checker()
-    assert np.allclose(after_the_nodes(obj), before, rtol=1e-6)
+    assert np.allclose(scenes.checker_pattern(obj), before, rtol=1e-6)
 
 
 def test_a_checker_of_a_tile_is_no_other_objects():

@@ -37,9 +37,7 @@ def open_sample(window):
         )
         window.workspace("Layout")
         window.run("bpy.context.window_manager.koebe_uv.islands.clear(); heart.silences.clear()")
-        window.open_tab("VIEW_3D")
-        window.move(*window.middle("VIEW_3D"))
-        window.key("KP_1", "KP_Decimal")
+        window.look_at_model()
         return name
 
     return opened

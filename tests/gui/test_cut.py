@@ -1,22 +1,12 @@
 """Koebe Uniformize of a model that is closed: its button, the report's cuts, and a circle tool on the result."""
 
-from window import ENTRY
-
-MODEL = """
-for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
-bpy.ops.mesh.primitive_torus_add(major_segments=64, minor_segments=24)
-obj = bpy.context.object
-while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
-bpy.ops.object.shade_smooth()
-"""
+from window import ENTRY, only
 
 
 def test_a_closed_model_is_mapped_by_the_button_and_its_cuts_are_shown(window):
-    window.run(MODEL)
+    window.run(only("primitive_torus_add(major_segments=64, minor_segments=24)"))
     window.workspace("UV Editing")
-    window.open_tab("VIEW_3D")
-    window.move(*window.middle("VIEW_3D"))
-    window.key("KP_1", "KP_Decimal")
+    window.look_at_model()
     window.choose(shape="DISK")
     window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1", 30.0)

@@ -43,9 +43,7 @@ def fill(window, **options):
     window.run(GRID.format(folder=str(ROOT / "tests" / "blender"), **options))
     window.workspace("Layout")
     window.run("bpy.context.window_manager.koebe_uv.islands.clear()")
-    window.open_tab("VIEW_3D")
-    window.move(*window.middle("VIEW_3D"))
-    window.key("KP_1", "KP_Decimal")
+    window.look_at_model()
 
 
 def run_all(window, count):

@@ -1,22 +1,16 @@
 """Parts, which Automatic takes, by the button on a closed model: the checker on it and the parts in the UV Editor."""
 
-MODEL = """
-for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
-bpy.ops.mesh.primitive_monkey_add()
-obj = bpy.context.object
-while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
-obj.modifiers.new("Smooth", "SUBSURF").levels = 2
-bpy.ops.object.modifier_apply(modifier="Smooth")
-bpy.ops.object.shade_smooth()
-"""
+from window import only
+
+MODEL = only("primitive_monkey_add()",
+             'obj.modifiers.new("Smooth", "SUBSURF").levels = 2',
+             'bpy.ops.object.modifier_apply(modifier="Smooth")')  # fmt: skip
 
 
 def test_the_button_cuts_a_model_into_parts(window):
     window.run(MODEL)
     window.workspace("UV Editing")
-    window.open_tab("VIEW_3D")
-    window.move(*window.middle("VIEW_3D"))
-    window.key("KP_1", "KP_Decimal")
+    window.look_at_model()
     window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1 "
                 "and bpy.context.window_manager.koebe_uv.islands[0].parts > 1", 30.0)  # fmt: skip
@@ -29,11 +23,8 @@ def test_the_button_cuts_a_model_into_parts(window):
 def test_a_sample_in_parts_and_one_step_back(window, open_sample):
     open_sample("hand")
     window.workspace("UV Editing")
-    window.open_tab("VIEW_3D")
-    window.move(*window.middle("VIEW_3D"))
-    if window.ask("bpy.context.view_layer.objects.active.mode") == "EDIT":
-        window.key("Tab")  # the outlines are shown in Object Mode
-    window.key("KP_1", "KP_Decimal")
+    in_edit_mode = window.ask("bpy.context.view_layer.objects.active.mode") == "EDIT"
+    window.look_at_model(*["Tab"] * in_edit_mode, "KP_1", "KP_Decimal")  # the outlines are shown in Object Mode
     window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.picture("61_hand_at_work")
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1 "

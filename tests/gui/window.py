@@ -33,6 +33,18 @@ TAB_OPEN = """next((r.active_panel_category for a in bpy.context.window_manager.
     if a.type == '{area}' for r in a.regions if r.type == 'UI' and hasattr(r, 'active_panel_category')), '')"""
 
 
+def only(make, *finish):
+    """Code that makes this model the only object: without UVs, smooth."""
+    return "\n".join([
+        "for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)",
+        f"bpy.ops.mesh.{make}",
+        "obj = bpy.context.object",
+        "while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])",
+        *finish,
+        "bpy.ops.object.shade_smooth()",
+    ])  # fmt: skip
+
+
 class Window:
     """Starts Blender; `ask` looks inside, everything else is what a hand does."""
 
@@ -134,9 +146,14 @@ class Window:
         self.workspace("UV Editing")
         self.run(model)
         self.run("bpy.ops.ed.undo_push(message='made')\nbpy.context.window_manager.koebe_uv.islands.clear()")
+        self.look_at_model("KP_Decimal")
+
+    def look_at_model(self, *keys):
+        """The sidebar of the 3D View open, the hand above the view, these keys pressed: the view from the front, with
+        all of the model in it."""
         self.open_tab("VIEW_3D")
         self.move(*self.middle("VIEW_3D"))
-        self.key("KP_Decimal")
+        self.key(*(keys or ("KP_1", "KP_Decimal")))
 
     def follow_offer(self, refusing, taking, name):
         """Press the operator of a domain that refuses the model, keep a picture, and click the operator of another

@@ -23,8 +23,7 @@ MappedSurface flat_domain(Index faces)
     MappedSurface surface{test::lift(domain.points, test::Lift::plane), domain.triangles, {}, {}};
     surface.uv = surface.vertices.leftCols<2>();
     for (std::size_t k = 0; k < domain.loops.size(); ++k)
-        surface.loops.push_back(
-            {.vertices = domain.loops[k], .circle = domain.circles[k], .roundness = {}, .off_circle = {}});
+        surface.loops.push_back({{.vertices = domain.loops[k], .roundness = {}, .off_circle = {}}, domain.circles[k]});
     return surface;
 }
 

@@ -1,4 +1,5 @@
 #include "core/errors.h"
+#include "cut_samples.h"
 #include "evenness/evenness.h"
 #include "parts/flat_part.h"
 #include "parts/free_rims.h"
@@ -7,10 +8,7 @@
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
 #include "splitting/coarse_surface.h"
-#include "splitting/concavity.h"
-#include "splitting/dual_cut.h"
 #include "splitting/fine_labels.h"
-#include "splitting/hidden_cuts.h"
 #include "splitting/mirror_symmetry.h"
 
 #include <Eigen/Geometry>
@@ -22,89 +20,14 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <random>
 #include <set>
 
 using namespace koebe;
+using namespace koebe::test;
 
 namespace {
-
-struct Mesh {
-    Vertices vertices;
-    Triangles triangles;
-};
-
-constexpr double pi = std::numbers::pi;
-
-/// A surface of revolution: rings of vertices at (radius, height), each pair of neighbours joined; a point closes an
-/// end of radius 0.
-Mesh revolved(const std::vector<std::pair<double, double>>& profile, int around)
-{
-    std::vector<Eigen::RowVector3d> points;
-    std::vector<std::vector<Index>> rings;
-    for (const auto& [radius, height] : profile) {
-        std::vector<Index> ring;
-        for (int i = 0; i < (radius > 0.0 ? around : 1); ++i) {
-            const double angle = 2.0 * pi * i / around;
-            ring.push_back(static_cast<Index>(points.size()));
-            points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), height);
-        }
-        rings.push_back(std::move(ring));
-    }
-    std::vector<Eigen::RowVector3i> faces;
-    for (std::size_t r = 0; r + 1 < rings.size(); ++r)
-        for (int i = 0; i < around; ++i) {
-            const auto at = [&](std::size_t ring, int k) {
-                return rings[ring][rings[ring].size() > 1 ? k % around : 0];
-            };
-            const Index a = at(r, i), b = at(r, i + 1), c = at(r + 1, i), d = at(r + 1, i + 1);
-            if (a != b) faces.emplace_back(a, b, c == d ? c : d);
-            if (c != d) faces.emplace_back(a, d, c);
-        }
-    Mesh mesh{Vertices(points.size(), 3), Triangles(faces.size(), 3)};
-    for (std::size_t v = 0; v < points.size(); ++v) mesh.vertices.row(v) = points[v];
-    for (std::size_t f = 0; f < faces.size(); ++f) mesh.triangles.row(f) = faces[f];
-    return mesh;
-}
-
-/// A finger: a tube of radius 1, open below, with half a sphere on top.
-Mesh finger(double length = 10.0, int around = 24)
-{
-    std::vector<std::pair<double, double>> profile;
-    const double step = 2.0 * pi / around;
-    for (double h = 0.0; h < length; h += step) profile.emplace_back(1.0, h);
-    const int rings = around / 4;
-    for (int k = 0; k < rings; ++k)
-        profile.emplace_back(std::cos(0.5 * pi * k / rings), length + std::sin(0.5 * pi * k / rings));
-    profile.emplace_back(0.0, length + 1.0);
-    return revolved(profile, around);
-}
-
-/// A flat ring of radii 1/4 and 1.
-Mesh flat_ring()
-{
-    std::vector<std::pair<double, double>> profile;
-    for (int k = 0; k <= 10; ++k) profile.emplace_back(1.0 - 0.075 * k, 0.0);
-    return revolved(profile, 48);
-}
-
-/// @param radius of the circle of the tube's middle; the tube's own is 1
-Mesh torus(int n = 40, int m = 20, double radius = 2.0)
-{
-    Mesh mesh{Vertices(n * m, 3), Triangles(2 * n * m, 3)};
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < m; ++j) {
-            const double a = 2.0 * pi * i / n, b = 2.0 * pi * j / m, r = radius + std::cos(b);
-            mesh.vertices.row(i * m + j) << r * std::cos(a), r * std::sin(a), std::sin(b);
-            const Index p = i * m + j, q = (i + 1) % n * m + j, s = i * m + (j + 1) % m,
-                        t = (i + 1) % n * m + (j + 1) % m;
-            mesh.triangles.row(2 * p) << p, q, t;
-            mesh.triangles.row(2 * p + 1) << p, t, s;
-        }
-    return mesh;
-}
 
 PartsResult parts(const Mesh& mesh, const PartsOptions& options = {})
 {
@@ -610,84 +533,6 @@ TEST(Evenness, finds_the_best_window)
     EXPECT_NEAR(rough_overflow(u, areas), least, 2e-2 * least);
 }
 
-namespace {
-
-/// A body whose radius falls from 1 to 0.8 along a groove at height 0.
-Mesh grooved(double groove)
-{
-    std::vector<std::pair<double, double>> profile;
-    for (int k = -40; k <= 40; ++k) {
-        const double h = 0.05 * k;
-        profile.emplace_back(1.0 - groove * std::exp(-h * h / 0.02), h);
-    }
-    return revolved(profile, 64);
-}
-
-}  // namespace
-
-TEST(Concavity, is_that_of_spheres_and_grooves_whichever_way_the_faces_look)
-{
-    std::vector<std::pair<double, double>> profile{{0.0, -1.0}};
-    for (int k = 1; k < 40; ++k) profile.emplace_back(std::sin(pi * k / 40), -std::cos(pi * k / 40));
-    profile.emplace_back(0.0, 1.0);
-    const Mesh sphere = revolved(profile, 80);
-    for (const double radius : {0.5, 1.0, 3.0}) {
-        const Vertices points = radius * sphere.vertices;
-        const CutSurface whole =
-            cut_surface(points, analyze_surface(sphere.triangles, static_cast<Index>(points.rows())), {});
-        const VectorXd curvature = mean_curvature(whole, 0.1 * radius);
-        EXPECT_NEAR(curvature.mean(), 1.0 / radius, 0.02 / radius);
-    }
-    Mesh mesh = grooved(0.2);
-    for (int side = 0; side < 2; ++side) {
-        const CutSurface whole = cut_surface(mesh.vertices, mesh.triangles, {});
-        const VectorXd curvature = mean_curvature(whole, 0.05);
-        for (Eigen::Index v = 0; v < curvature.size(); ++v) {
-            const double h = std::abs(mesh.vertices(v, 2));
-            if (h < 0.04) EXPECT_LT(curvature[v], -0.5) << v;
-            if (h > 0.8 && h < 1.7) EXPECT_NEAR(curvature[v], 0.5, 0.1) << v;
-        }
-        mesh.triangles.col(1).swap(mesh.triangles.col(2));
-    }
-}
-
-TEST(HiddenCuts, go_into_a_groove_nearby_and_nowhere_without_one)
-{
-    for (const double groove : {0.1, 0.0}) {
-        const Mesh mesh = grooved(groove);
-        const CutSurface whole = cut_surface(mesh.vertices / 5.0, mesh.triangles, {});
-        std::vector<std::vector<Index>> faces(2);
-        for (Index f = 0; f < static_cast<Index>(mesh.triangles.rows()); ++f)
-            faces[mesh.vertices(mesh.triangles.row(f), 2).mean() < 0.25 ? 0 : 1].push_back(f);
-        ExecutionContext context;
-        SplitEffort effort;
-        std::vector<PartPointer> parts = first_parts(whole, faces, context, effort);
-        hide_cuts(whole, {}, parts, context, effort);
-        ASSERT_EQ(parts.size(), 2U);
-        double low = 10.0, high = -10.0;
-        std::size_t count = 0;
-        for (const PartPointer& part : parts) {
-            EXPECT_TRUE(part->map.measured);
-            EXPECT_EQ(part->mesh.surface.loops.size(), 2U);
-            count += part->mesh.faces.size();
-            for (const VertexLoop& loop : part->mesh.surface.loops)
-                for (const Index v : loop)
-                    if (const double h = mesh.vertices(part->mesh.original[v], 2); std::abs(h) < 1.9) {
-                        low = std::min(low, h);
-                        high = std::max(high, h);
-                    }
-        }
-        EXPECT_EQ(count, static_cast<std::size_t>(mesh.triangles.rows()));
-        if (groove > 0.0) {
-            EXPECT_GT(low, -0.06);
-            EXPECT_LT(high, 0.06);
-        } else {
-            EXPECT_GT(low, 0.2);
-            EXPECT_LT(high, 0.3);
-        }
-    }
-}
-
 TEST(Parts, a_large_closed_surface_is_cut_in_two_as_well)
 {
     // An ellipsoid of more than 100,000 faces: no slit but those of tubes.
@@ -711,80 +556,6 @@ TEST(Parts, a_large_closed_surface_is_cut_in_two_as_well)
                 around += (mesh.vertices.row(edge.first) - mesh.vertices.row(edge.second)).norm();
         }
     EXPECT_NEAR(result.cut_length, around / std::sqrt(area) + result.slit_length + result.dart_length, 1e-6);
-}
-
-TEST(DualCut, is_shortest_at_the_waist)
-{
-    std::vector<std::pair<double, double>> profile;
-    for (int k = 0; k <= 20; ++k) profile.emplace_back(k == 12 ? 0.5 : 1.0, 0.3 * k);
-    const Mesh mesh = revolved(profile, 16);
-    std::vector<Index> all(mesh.triangles.rows());
-    for (std::size_t f = 0; f < all.size(); ++f) all[f] = static_cast<Index>(f);
-    const PartMesh part = part_mesh(cut_surface(mesh.vertices, mesh.triangles, {}), all);
-    std::vector<Side> sides(all.size(), Side::free);
-    for (int f = 0; f < 32; ++f) {
-        sides[f] = Side::inside;
-        sides[sides.size() - 1 - f] = Side::outside;
-    }
-    const std::vector<int> label = minimum_cut(part, sides);
-    ASSERT_EQ(label.size(), all.size());
-    for (std::size_t f = 0; f < label.size(); ++f) EXPECT_EQ(label[f], f < 12U * 32U) << f;
-}
-
-/// A trunk with two arms, open at its neck: a grid of squares on boxes, each vertex rounded a little. Mirrored exactly:
-/// the half x > 0 is made, and its image with the faces in another order.
-Mesh figure()
-{
-    // Voxels of the right half: the trunk, 3 wide of 6, and an arm that leaves it sideways.
-    const auto solid = [](int x, int y, int z) {
-        x = x < 0 ? -1 - x : x;
-        const bool trunk = x < 3 && y >= 0 && y < 5 && z >= 0 && z < 12;
-        const bool arm = x >= 3 && x < 22 && y >= 1 && y < 4 && z >= 8 && z < 11;
-        return trunk || arm;
-    };
-    std::map<std::array<int, 3>, Index> number;
-    std::vector<std::array<int, 3>> places;
-    std::vector<std::array<Index, 4>> quads;
-    const auto vertex = [&](int x, int y, int z) {
-        const auto [it, isnew] = number.try_emplace({x, y, z}, static_cast<Index>(places.size()));
-        if (isnew) places.push_back({x, y, z});
-        return it->second;
-    };
-    for (int x = -22; x < 22; ++x)
-        for (int y = 0; y < 5; ++y)
-            for (int z = 0; z < 12; ++z) {
-                if (!solid(x, y, z)) continue;
-                if (!solid(x + 1, y, z))
-                    quads.push_back({vertex(x + 1, y, z), vertex(x + 1, y + 1, z), vertex(x + 1, y + 1, z + 1),
-                                     vertex(x + 1, y, z + 1)});
-                if (!solid(x - 1, y, z))
-                    quads.push_back(
-                        {vertex(x, y, z), vertex(x, y, z + 1), vertex(x, y + 1, z + 1), vertex(x, y + 1, z)});
-                if (!solid(x, y + 1, z))
-                    quads.push_back({vertex(x, y + 1, z), vertex(x, y + 1, z + 1), vertex(x + 1, y + 1, z + 1),
-                                     vertex(x + 1, y + 1, z)});
-                if (!solid(x, y - 1, z))
-                    quads.push_back(
-                        {vertex(x, y, z), vertex(x + 1, y, z), vertex(x + 1, y, z + 1), vertex(x, y, z + 1)});
-                if (!solid(x, y, z + 1) && z + 1 < 12)  // the neck is open
-                    quads.push_back({vertex(x, y, z + 1), vertex(x + 1, y, z + 1), vertex(x + 1, y + 1, z + 1),
-                                     vertex(x, y + 1, z + 1)});
-                if (!solid(x, y, z - 1))
-                    quads.push_back(
-                        {vertex(x, y, z), vertex(x, y + 1, z), vertex(x + 1, y + 1, z), vertex(x + 1, y, z)});
-            }
-    Mesh mesh{Vertices(places.size(), 3), Triangles(2 * quads.size(), 3)};
-    for (std::size_t v = 0; v < places.size(); ++v) {
-        const auto [x, y, z] = places[v];
-        const double wide = 1.0 + 0.15 * std::sin(0.7 * std::abs(x) + 0.4 * z);  // of both sides alike
-        mesh.vertices.row(v) << x, 2.5 + (y - 2.5) * wide, z + 0.1 * std::sin(0.9 * y);
-    }
-    for (std::size_t q = 0; q < quads.size(); ++q) {  // the same diagonal on both sides: not mirrored
-        const auto& c = quads[q];
-        mesh.triangles.row(2 * q) << c[0], c[1], c[2];
-        mesh.triangles.row(2 * q + 1) << c[0], c[2], c[3];
-    }
-    return mesh;
 }
 
 /// The cut edges, by their ends' places. @param turned x is turned over
@@ -845,72 +616,4 @@ TEST(Parts, darts_make_texels_more_even_at_no_island_and_are_what_the_cuts_grow_
         cuts = result.cut_length;
     }
     EXPECT_EQ(parts(mesh, {.even = 0.0, .darts = 1.0}).darts, 0);
-}
-
-TEST(Mirror, of_a_flat_sheet_is_not_its_own_plane_and_a_strip_is_its_own_image_lengthwise)
-{
-    // Quadrilaterals in a row: each is its own image across the strip, but its corners change places.
-    Vertices vertices(12, 3);
-    Triangles triangles(10, 3);
-    std::vector<Index> polygon;
-    for (Index i = 0; i < 6; ++i) {
-        const double x = i * (1.0 + 0.1 * i);
-        vertices.row(2 * i) << x, 0.0, 0.0;
-        vertices.row(2 * i + 1) << x, 1.0, 0.0;
-    }
-    for (Index i = 0; i < 5; ++i) {
-        triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
-        triangles.row(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
-        polygon.insert(polygon.end(), 2, i);
-    }
-    const Mirror mirror = find_mirror(vertices, triangles, polygon);
-    ASSERT_EQ(mirror.vertex.size(), 12U);
-    for (Index v = 0; v < 12; ++v) EXPECT_EQ(mirror.vertex[v], v ^ 1);
-    vertices(1, 1) = 1.01;  // of one corner: no longer
-    EXPECT_TRUE(find_mirror(vertices, triangles, polygon).image.empty());
-}
-
-TEST(Mirror, of_a_surface_torn_on_one_side_has_polygons_but_no_vertices)
-{
-    Mesh mesh = figure();
-    std::vector<Index> polygon;
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) polygon.push_back(static_cast<Index>(f / 2));
-    const Mirror whole = find_mirror(mesh.vertices, mesh.triangles, polygon);
-    Index torn_at = 0;
-    while (whole.vertex[torn_at] == torn_at) ++torn_at;
-    const Index copy = static_cast<Index>(mesh.vertices.rows());
-    mesh.vertices.conservativeResize(copy + 1, 3);
-    mesh.vertices.row(copy) = Eigen::RowVector3d(mesh.vertices.row(torn_at));
-    Eigen::Index face = 0;
-    while ((mesh.triangles.row(face).array() != torn_at).all()) ++face;
-    for (const Eigen::Index f : {face, face ^ 1})  // both triangles of one polygon have the copy
-        for (int k = 0; k < 3; ++k)
-            if (mesh.triangles(f, k) == torn_at) mesh.triangles(f, k) = copy;
-    const Mirror torn = find_mirror(mesh.vertices, mesh.triangles, polygon);
-    EXPECT_FALSE(torn.image.empty());
-    EXPECT_TRUE(torn.vertex.empty());
-}
-
-TEST(Mirror, is_found_in_any_pose_and_not_where_there_is_none)
-{
-    Mesh mesh = figure();
-    std::vector<Index> polygon;
-    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) polygon.push_back(static_cast<Index>(f / 2));
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
-    const Vertices unit = mesh.vertices / std::sqrt(face_areas(mesh.vertices, mesh.triangles).sum());
-    for (const bool turned : {false, true}) {
-        const Vertices posed = turned ? Vertices(unit * turn.transpose()) : unit;
-        const Mirror mirror = find_mirror(posed, mesh.triangles, polygon);
-        ASSERT_EQ(mirror.image.size(), static_cast<std::size_t>(mesh.triangles.rows() / 2));
-        for (std::size_t g = 0; g < mirror.image.size(); ++g) {
-            EXPECT_EQ(mirror.image[mirror.image[g]], static_cast<Index>(g));
-            EXPECT_EQ(mirror.side[g], -mirror.side[mirror.image[g]]);
-        }
-        ASSERT_EQ(mirror.vertex.size(), static_cast<std::size_t>(posed.rows()));
-        for (Index v = 0; v < static_cast<Index>(posed.rows()); ++v) EXPECT_EQ(mirror.vertex[mirror.vertex[v]], v);
-    }
-    Vertices bent = unit;
-    bent.col(2).array() += 0.01 * (3.0 * unit.col(0).array() + unit.col(1).array()).sin();
-    EXPECT_TRUE(find_mirror(bent, mesh.triangles, polygon).image.empty());
 }

@@ -203,3 +203,14 @@ def damaged(random, vertices, triangles, noise=0.03):
     if random.random() < 0.1:
         vertices = np.concatenate([vertices, vertices[:2]])
     return vertices, triangles
+
+
+def renumbered(vertices, triangles, seed=5):
+    """The surface turned and 1e5 times as large, its vertices and faces in another order. Also the new number of each
+    vertex, and the turn (3, 3): rows @ turn.T."""
+    random = np.random.default_rng(seed)
+    order = random.permutation(len(vertices))
+    number = np.argsort(order)
+    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    return 1e5 * vertices[order] @ turn.T, number[triangles][::-1].astype(np.int32), number, turn

@@ -8,7 +8,7 @@ import koebe
 import numpy as np
 import pytest
 from cli_support import COMMAND
-from domain_surfaces import damaged, holed_ring, holed_torus
+from domain_surfaces import damaged, holed_ring, holed_torus, renumbered
 from sphere_surfaces import (
     areas_around,
     best_turned,
@@ -146,12 +146,8 @@ def test_the_map_turns_with_the_surface_and_knows_no_scale_and_no_numbers(kind):
     vertices, triangles = icosphere(12) if kind == "closed" else holed_ring(8, holes=HOLES)[:2]
     vertices = vertices * [1.0, 0.7, 1.6] + 0.1 * np.sin(3 * vertices[:, [1, 2, 0]] + [0.4, 1.1, 0.2])
     first = koebe.sphere_map(vertices, triangles)
-    random = np.random.default_rng(5)
-    order = random.permutation(len(vertices))
-    number = np.argsort(order)
-    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
-    turn *= np.sign(np.linalg.det(turn))
-    other = koebe.sphere_map(1e5 * vertices[order] @ turn.T + 3.0, number[triangles][::-1].astype(np.int32))
+    moved, faces, number, turn = renumbered(vertices, triangles)
+    other = koebe.sphere_map(moved + 3.0, faces)
     assert first.converged and other.converged
     assert np.abs(other.points[number] - first.points @ turn.T).max() < 2e-5
     assert np.abs(np.sort(first.caps[:, 3]) - np.sort(other.caps[:, 3])).max(initial=0) < 1e-5

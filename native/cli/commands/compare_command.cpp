@@ -3,6 +3,7 @@
 #include "cli/commands/shape_input.h"
 #include "cli/commands/subcommand.h"
 #include "cli/files/output_files.h"
+#include "cli/options/map_request.h"
 #include "cli/options/option_table.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
@@ -124,8 +125,8 @@ Subcommand add_compare(CLI::App& app)
 {
     auto request = std::make_shared<CompareRequest>();
     CLI::App* options = app.add_subcommand("compare", "how far apart the conformal modules of two surfaces are");
-    options->add_option("A", request->first,
-                        "surface with holes: OBJ, OFF, PLY or STL; or a folder of them, with --csv");
+    add_input(*options, request->first, "surface with holes", "A", "; or a folder of them, with --csv")
+        ->required(false);
     options->add_option("B", request->second, "surface with as many holes");
     options
         ->add_option("--loops", request->loops,

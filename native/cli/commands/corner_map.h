@@ -74,9 +74,11 @@ struct CornerMapHelp {
     const char* name;  ///< name of the command, and of the map in the table of options
     const char* does;
     const char* surface;
-    const char* picture;
+    const char* picture;  ///< description of --svg; empty: there is no such option
     const char* uvs = "texture coordinates of corners in [0, 1]^2";
     const char* sphere = nullptr;  ///< description of --sphere; null: there is no such option
+    const char* output = nullptr;  ///< description of an OUT that is no mesh with `uvs`
+    void (*check)(MapRequest&) = check_map_files;
 };
 
 /// Adds the command of such a map.
@@ -86,7 +88,12 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
 {
     auto request = std::make_shared<CornerMapRequest<Options>>();
     CLI::App* options = app.add_subcommand(help.name, help.does);
-    add_mesh_arguments(*options, *request, help.surface, help.uvs);
+    if (help.output == nullptr) {
+        add_mesh_arguments(*options, *request, help.surface, help.uvs);
+    } else {
+        add_input(*options, request->input, help.surface);
+        add_output(*options, request->output, help.output);
+    }
     add_options(*options, help.name, request->chosen);
     constexpr bool has_show = requires { request->chosen.show; };
     if constexpr (has_show) {
@@ -96,8 +103,8 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
     if (help.sphere != nullptr) options->add_option("--sphere", request->sphere, help.sphere)->type_name("FILE");
     add_report_options(*options, *request, help.picture);
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
-    options->callback([request, name = help.name] {
-        check_map_files(*request);
+    options->callback([request, name = help.name, check = help.check] {
+        check(*request);
         if (!request->sphere.empty()) required_format(request->sphere);
         request->entries["options"] = option_report(name, request->chosen);
         if (request->show.empty()) return;

@@ -3,6 +3,7 @@
 #include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
 #include "cli/options/loop_options.h"
+#include "cli/options/map_request.h"
 #include "cli/options/validators.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
@@ -15,7 +16,6 @@
 #include "io/atomic_file.h"
 
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <set>
 #include <span>
@@ -95,10 +95,8 @@ std::string result_line(const FillRequest& request, const MeshInput& input, cons
     const std::set<Index> patches(filled.patch.begin(), filled.patch.end());
     const std::size_t loops = patches.size() - patches.count(-1);
     const Index added = filled.mesh.face_count() - input.polygons.face_count();
-    char time[32];
-    std::snprintf(time, sizeof time, "%.2f s", seconds);
     return one_line(request.output) + ": " + counted(loops, "loop") + " filled, " +
-           counted(static_cast<std::size_t>(added), "face") + " added, " + time + warning_count(warnings) + "\n";
+           counted(static_cast<std::size_t>(added), "face") + " added" + last_words(seconds, true, warnings);
 }
 
 int run_fill(const FillRequest& request)
@@ -140,11 +138,9 @@ Subcommand add_fill(CLI::App& app)
 {
     auto request = std::make_shared<FillRequest>();
     CLI::App* options = app.add_subcommand("fill", "fill the holes of a surface: all loops but the outer one");
-    options->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL")->required();
-    options
-        ->add_option("OUT", request->output,
-                     "OBJ to write, with the groups surface, patch_0, patch_1, …, or PLY, with the property patch")
-        ->required();
+    add_input(*options, request->input, "surface with holes");
+    add_output(*options, request->output,
+               "OBJ to write, with the groups surface, patch_0, patch_1, …, or PLY, with the property patch");
     CLI::Option* outer = options
                              ->add_option("--outer", request->outer,
                                           "loop that stays open: the longest, or the loop of a vertex (counted from 0)")

@@ -11,7 +11,6 @@
 #include "report/pattern_svg.h"
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,7 +21,7 @@ using FlattenRequest = CornerMapRequest<FlattenOptions>;
 
 bool is_dxf(const std::string& out) { return io::lower_extension(out) == ".dxf"; }
 
-void check_pattern_files(const FlattenRequest& request)
+void check_pattern_files(MapRequest& request)
 {
     if (!is_dxf(request.output) && io::lower_extension(request.output) != ".svg")
         throw CLI::ValidationError("OUT", "patterns are written as SVG and DXF: OUT ends in .svg or .dxf");
@@ -77,24 +76,15 @@ int run_flatten(const FlattenRequest& request)
 
 Subcommand add_flatten(CLI::App& app)
 {
-    auto request = std::make_shared<FlattenRequest>();
-    CLI::App* options = app.add_subcommand("flatten", "cut any surface into a flat pattern in real size");
-    options->add_option("IN", request->input, "any mesh: OBJ, OFF, PLY or STL")->required();
-    options
-        ->add_option("OUT", request->output,
-                     "SVG or DXF to write. SVG: a file for each page, OUT.svg, OUT-2.svg and so on")
-        ->required();
-    add_options(*options, "flatten", request->chosen);
-    add_report_options(*options, *request, "");
-    options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
-    options->callback([request] {
-        check_pattern_files(*request);
-        request->entries["options"] = option_report("flatten", request->chosen);
-    });
-    return {options, [request] {
-                if (request->ends_with_input) end_with_input();
-                return run_flatten(*request);
-            }};
+    return add_corner_map<FlattenOptions>(
+        app,
+        {.name = "flatten",
+         .does = "cut any surface into a flat pattern in real size",
+         .surface = "any mesh",
+         .picture = "",
+         .output = "SVG or DXF to write. SVG: a file for each page, OUT.svg, OUT-2.svg and so on",
+         .check = check_pattern_files},
+        run_flatten);
 }
 
 }  // namespace koebe::cli

@@ -82,14 +82,11 @@ Subcommand add_lift(CLI::App& app)
 {
     auto request = std::make_shared<LiftRequest>();
     CLI::App* options = app.add_subcommand("lift", "a flat pattern on a surface: as holes, as a relief, as a solid");
-    options->add_option("SURFACE", request->input, "surface: OBJ, OFF, PLY or STL")->required();
+    add_input(*options, request->input, "surface", "SURFACE");
     options->add_option("PATTERN", request->pattern, pattern_help())
         ->required()
         ->check(CLI::Validator(not_a_pattern, ""));
-    options
-        ->add_option("OUT", request->output,
-                     "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL")
-        ->required();
+    add_output(*options, request->output, "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL");
     add_options(*options, "lift", request->chosen);
     add_report_options(*options, *request, "");
     options->callback([request] {

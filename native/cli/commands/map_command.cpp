@@ -20,9 +20,7 @@ std::string map_line(const MapRequest& request, const std::string& first_words, 
                        std::to_string(distortion.flipped.size()) + " flipped";
     if (const std::size_t tiny = distortion.below_resolution.size(); tiny > 0)
         line += " (" + std::to_string(tiny) + " below resolution)";
-    line += ", " + formatted("%.2f", seconds) + " s";
-    if (!converged) line += ", not converged";
-    return line + warning_count(warnings) + "\n";
+    return line + last_words(seconds, converged, warnings);
 }
 
 void add_losses(const std::string& file, const std::vector<Warning>& losses, std::vector<Warning>& warnings)

@@ -4,6 +4,7 @@
 #include "cli/commands/subcommand.h"
 #include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
+#include "cli/options/map_request.h"
 #include "cli/options/option_table.h"
 #include "cli/options/validators.h"
 #include "cli/options/wrong_usage.h"
@@ -162,9 +163,7 @@ Subcommand add_module(CLI::App& app)
 {
     auto request = std::make_shared<ModuleRequest>();
     CLI::App* options = app.add_subcommand("module", "the conformal module of a surface with holes, as JSON");
-    options
-        ->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL; or a folder of them, with --csv")
-        ->required();
+    add_input(*options, request->input, "surface with holes", "IN", "; or a folder of them, with --csv");
     options
         ->add_option("--loops", request->loops,
                      "order of the boundary loops, the outer one first: length (longest first), canonical (by their "

@@ -3,6 +3,7 @@
 #include "cli/files/landmark_file.h"
 #include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
+#include "cli/options/map_request.h"
 #include "cli/options/option_table.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
@@ -143,10 +144,9 @@ Subcommand add_transfer(CLI::App& app)
     auto request = std::make_shared<TransferRequest>();
     CLI::App* options =
         app.add_subcommand("transfer", "the points of surface A on surface B, through the two circle domains");
-    options->add_option("A", request->first, "surface with holes: OBJ, OFF, PLY or STL")->required();
+    add_input(*options, request->first, "surface with holes", "A");
     options->add_option("B", request->second, "surface with as many holes")->required();
-    options->add_option("OUT", request->output, "OBJ or PLY to write: A's faces, with A's vertices moved onto B")
-        ->required();
+    add_output(*options, request->output, "OBJ or PLY to write: A's faces, with A's vertices moved onto B");
     options->add_flag("--no-fit", request->aligned_only,
                       "only lay the domains over each other: bend no hole onto another hole");
     options

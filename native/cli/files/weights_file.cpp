@@ -2,6 +2,7 @@
 
 #include "cli/files/text_file.h"
 #include "core/errors.h"
+#include "core/vertex_weights.h"
 #include "io/text_numbers.h"
 
 #include <string_view>
@@ -19,8 +20,7 @@ std::vector<double> read_weights(const std::string& path, const std::string& nam
     for (int line = 1; lines.next_line(); ++line)
         for (std::string_view word = lines.next_word(); !word.empty(); word = lines.next_word()) {
             double number = 0.0;
-            if (!io::to_number(word, number) || !(number >= 0.0 && number <= 1.0))
-                throw refused(", line " + std::to_string(line));
+            if (!io::to_number(word, number) || !is_weight(number)) throw refused(", line " + std::to_string(line));
             weights.push_back(number);
         }
     if (weights.empty()) throw refused(" is empty");

@@ -5,11 +5,21 @@
 
 namespace koebe::cli {
 
+CLI::Option* add_input(CLI::App& app, std::string& path, const std::string& surface, const std::string& name,
+                       const std::string& more)
+{
+    return app.add_option(name, path, surface + ": OBJ, OFF, PLY or STL" + more)->required();
+}
+
+void add_output(CLI::App& app, std::string& path, const std::string& description)
+{
+    app.add_option("OUT", path, description)->required();
+}
+
 void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface, const std::string& coordinates)
 {
-    app.add_option("IN", request.input, surface + ": OBJ, OFF, PLY or STL")->required();
-    app.add_option("OUT", request.output, "OBJ or PLY to write: the same vertices and faces, with " + coordinates)
-        ->required();
+    add_input(app, request.input, surface);
+    add_output(app, request.output, "OBJ or PLY to write: the same vertices and faces, with " + coordinates);
 }
 
 void add_report_options(CLI::App& app, MapRequest& request, const std::string& picture)

@@ -22,6 +22,11 @@ struct MapRequest {
     nlohmann::ordered_json entries = nlohmann::ordered_json::object();  ///< additional entries of the report
 };
 
+/// Adds the argument of a mesh. @param surface description, before the formats; `more` after them
+CLI::Option* add_input(CLI::App& app, std::string& path, const std::string& surface, const std::string& name = "IN",
+                       const std::string& more = "");
+/// Adds OUT.
+void add_output(CLI::App& app, std::string& path, const std::string& description);
 /// Adds IN and OUT. @param surface description of IN @param coordinates description of OUT's
 void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface = "surface with holes",
                         const std::string& coordinates = "texture coordinates in [0, 1]^2");

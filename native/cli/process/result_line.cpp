@@ -38,6 +38,12 @@ std::string warning_count(const std::vector<Warning>& warnings)
     return ", " + counted(warnings.size(), "warning") + ": " + shortened(one_line(warnings.front().text()));
 }
 
+std::string last_words(double seconds, bool converged, const std::vector<Warning>& warnings)
+{
+    return ", " + formatted("%.2f", seconds) + " s" + (converged ? "" : ", not converged") + warning_count(warnings) +
+           "\n";
+}
+
 void show_warnings(const std::vector<Warning>& warnings)
 {
     if (!is_error_shown()) return;

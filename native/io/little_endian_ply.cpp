@@ -1,4 +1,4 @@
-#include "io/binary_ply.h"
+#include "io/little_endian_ply.h"
 
 #include "execution/thread_share.h"
 #include "io/refusals.h"
@@ -109,7 +109,7 @@ bool read_faces(const PlyElement& element, std::string_view data, PolygonMesh& m
 
 }  // namespace
 
-std::optional<PolygonMesh> read_binary_ply(const PlyFile& file)
+std::optional<PolygonMesh> read_little_endian_ply(const PlyFile& file)
 {
     const std::vector<PlyElement>& elements = file.elements;
     if (std::endian::native != std::endian::little || file.encoding != PlyEncoding::little_endian) return {};

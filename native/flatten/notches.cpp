@@ -1,4 +1,4 @@
-#include "flatten/labels.h"
+#include "flatten/notches.h"
 
 #include "flatten/edge_distance.h"
 #include "planar/planar_predicates.h"

@@ -1,4 +1,4 @@
-// Reads the usual binary PLY file, block by block.
+// Reads the usual binary PLY file, little-endian, block by block.
 #pragma once
 
 #include "io/ply_file.h"
@@ -11,6 +11,6 @@ namespace koebe::io {
 /// Reads a little-endian file with vertices, then faces whose only list is that of the corners, on the calling thread's
 /// share of threads.
 /// @return nothing for another kind of file, or with a fault: the file is then read value by value, which reports it
-std::optional<PolygonMesh> read_binary_ply(const PlyFile& file);
+std::optional<PolygonMesh> read_little_endian_ply(const PlyFile& file);
 
 }  // namespace koebe::io
