@@ -64,7 +64,7 @@ def write_text(file, text):
     path = ""
     for spline in obj.to_curve(bpy.context.evaluated_depsgraph_get()).splines:
         points = list(spline.bezier_points)
-        path += "M{0.x} {1}".format(points[0].co, -points[0].co.y)
+        path += f"M{points[0].co.x} {-points[0].co.y}"
         for a, b in zip(points, points[1:] + points[:1]):
             path += "C" + " ".join(f"{p.x} {-p.y}" for p in (a.handle_right, b.handle_left, b.co))
         path += "Z"

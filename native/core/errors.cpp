@@ -3,6 +3,7 @@
 #include "core/enum_words.h"
 
 #include <array>
+
 namespace koebe {
 
 const char* to_string(TopologyKind kind) noexcept

@@ -55,9 +55,9 @@ struct LiftResult : MapReport {
 
 /// Maps the surface to the domain, draws the pattern's outlines there, and brings them onto the surface: as holes, as a
 /// relief, and if asked for as a closed solid. A relief and a solid move vertices of the surface. Otherwise they stay
-/// where they are. A hole in an outline of a drawing stays on the ground if the outline is raised, and falls out with it
-/// if it is cut out; a warning tells. Outlines that meet a hole, a rim or each other are left out, and a warning tells
-/// how many.
+/// where they are. A hole in an outline of a drawing stays on the ground if the outline is raised, and falls out with
+/// it if it is cut out; a warning tells. Outlines that meet a hole, a rim or each other are left out, and a warning
+/// tells how many.
 /// @param pattern a built-in one (patterns.h), or the name of an SVG (placed_drawing.h) or PNG file (relief.h)
 /// @throws FileError; InputError, TopologyError, SolverError, Cancelled: as the map, and where the result would not be
 /// as promised: one hole for each outline, no flipped face, a closed solid

@@ -113,7 +113,7 @@ def test_faces_that_would_turn_over_are_the_surfaces(lifted, file):
         else:
             koebe.lift(vertices, faces, file, shape="ring", height=-1.5, size=0.4)
     named = np.array(caught.value.elements)
-    assert 0 <= named.min() and named.max() < len(faces) and (np.diff(named) > 0).all()
+    assert named.min() >= 0 and named.max() < len(faces) and (np.diff(named) > 0).all()
 
 
 def test_what_an_image_cannot_be(lifted):

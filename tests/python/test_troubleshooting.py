@@ -75,7 +75,8 @@ def native_messages():
 
 def topology_kinds():
     source = (ROOT / "native" / "core" / "errors.cpp").read_text(encoding="utf-8")
-    kinds = re.findall(r'case TopologyKind::(\w+): return "\1"', source)
+    words = re.search(r"to_string\(TopologyKind .*?\n}", source, re.DOTALL)
+    kinds = re.findall(r'"(\w+)"', words.group())
     return [kind for kind in kinds if kind != "disconnected"]  # parts are islands, each mapped by itself
 
 

@@ -177,6 +177,7 @@ def _rims(
 def _place(circle: Any, count: int) -> int:
     if not isinstance(circle, Integral) or isinstance(circle, bool):
         raise TypeError(f"a circle is a whole number, not {type(circle).__name__}")
-    if not -1 <= circle < count:
-        raise InputError(f"there is no circle {circle}: they are -1 (the unit circle) to {count - 1}", [], "loops")
-    return int(circle) + 1
+    number = int(circle)
+    if not -1 <= number < count:
+        raise InputError(f"there is no circle {number}: they are -1 (the unit circle) to {count - 1}", [], "loops")
+    return number + 1
