@@ -23,8 +23,9 @@ TUBES = [
     ((-0.75, 0.25, 0.62), 0.26, 0.8, "RSPV"), ((-0.85, 0.2, -0.25), 0.2, 0.6, "RIPV"),
     ((0.1, -0.75, -0.75), 0.55, 0.15, "valve"),
 ]  # fmt: skip
-TEMPLATE = {"LSPV": ((0.45, 0.35), 0.17), "LIPV": ((0.45, -0.25), 0.17),
-            "RSPV": ((-0.45, 0.35), 0.17), "RIPV": ((-0.45, -0.25), 0.17)}  # fmt: skip
+# As seen from outside: a mirrored template would turn the surface inside out between the tubes.
+TEMPLATE = {"LSPV": ((-0.45, 0.35), 0.17), "LIPV": ((-0.45, -0.25), 0.17),
+            "RSPV": ((0.45, 0.35), 0.17), "RIPV": ((0.45, -0.25), 0.17)}  # fmt: skip
 SQUARE = 0.12  # of the checker, in the disk
 INK = np.array([[0.93, 0.95, 0.98], [0.25, 0.45, 0.65]])
 
@@ -125,12 +126,12 @@ def main():
     conformal = koebe.uniformize(vertices, faces, outer=int(fit.loops[0][0]))
     own = [next(k for k, loop in enumerate(conformal.loops) if rims[i][0] in loop) for i in range(len(names))]
     print(fit, fit.fit, [f"{conformal.radii[k]:.3g}" for k in own])
-    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.4), layout="constrained")
+    figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.6), layout="constrained")
     draw_surface(axes[0], vertices, faces, fit.uv)
     draw_domain(axes[1], faces, conformal.uv, names, conformal.centers[own])
     draw_domain(axes[2], faces, fit.uv, names, fit.centers[1:])
     for axis, title in zip(axes, ("the surface", "its conformal circles", "the template"), strict=True):
-        axis.set_title(title, fontsize=9)
+        axis.set_title(title, fontsize=9, pad=8)
         axis.set_axis_off()
     path = ROOT / "docs/images/fit.png"
     figure.savefig(path, dpi=100)
