@@ -6,6 +6,7 @@
 #include "relax/even_forces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
@@ -19,6 +20,7 @@ constexpr double least_surplus = 0.02;   // of a part's energy: the least promis
 constexpr double reach_of_darts = 0.25;  // radius of a dart's effect on the surface, in roots of its area
 constexpr double refused_around = 0.06;  // radius round the tip of a dart that did not pay: no new tips there
 
+constexpr int roundings = 16;            // with the grid in other places
 constexpr double coarse_grid = 1 << 21;  // steps along the unit square: an eighth of those of 32-bit floats
 
 using EdgeEnds = std::pair<Index, Index>;
@@ -277,7 +279,13 @@ private:
 bool survives_storing(const FlatPart& flat)
 {
     const PlanarPoints uv = (flat.points.rowwise() - flat.points.colwise().minCoeff()) / packed_side;
-    return loops_apart(flat, (uv.array() * coarse_grid).round() / coarse_grid);
+    // Where a vertex all but touches an edge, each rounding tells by chance.
+    for (int i = 0; i < roundings; ++i) {
+        const Eigen::RowVector2d shift(std::fmod(0.618 * i, 1.0), std::fmod(0.755 * i, 1.0));
+        if (!loops_apart(flat, (((uv * coarse_grid).rowwise() + shift).array().round() / coarse_grid).matrix()))
+            return false;
+    }
+    return true;
 }
 
 void cut_darts(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context)

@@ -15,7 +15,8 @@ struct HeldPart {
     std::vector<RoundLoop> round;
 };
 
-/// Whether loops stay apart when their points are rounded. The rounding is coarser than that of stored UVs.
+/// Whether loops stay apart however their points are rounded: parts are turned and scaled before they are stored. The
+/// rounding is coarser than that of stored UVs.
 bool survives_storing(const FlatPart& flat);
 
 /// Each round opens the most promising darts (darts.h) and relaxes their parts. Darts that released more energy than

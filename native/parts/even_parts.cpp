@@ -127,7 +127,7 @@ public:
             if (angles() <= conformal) return even_with_darts;
             if (std::ranges::any_of(parts_, has_darts))
                 for (const double less : less_even_with_darts) {
-                    relax(less, search);
+                    relax_cut(less, search);
                     if (angles() <= conformal) return less;
                 }
             parts_ = before;

@@ -195,11 +195,14 @@ private:
                turned_loops(flat_.loops, points, shortest).empty();
     }
 
-    /// The same when points are rounded more coarsely than they will be stored.
+    /// The same when points are rounded more coarsely than they will be stored, on two grids half a cell apart: on one
+    /// grid alone two sides that all but touch may lie in two cells by chance.
     bool apart_on_grid(const PlanarPoints& points, int grid) const
     {
         const double cell = extent_ / grid;
-        return apart((points.array() / cell).round() * cell, shortest_drawn * extent_);
+        return std::ranges::all_of(std::array{0.0, 0.5}, [&](double shift) {
+            return apart((points.array() / cell + shift).round() * cell, shortest_drawn * extent_);
+        });
     }
 
     /// The share of the surface's area in faces that are far from their size.
