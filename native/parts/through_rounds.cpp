@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 namespace koebe {
@@ -113,8 +112,9 @@ private:
             named.vertices.push_back(flat.original[v]);
             if (!flat.image.empty()) image.vertices.push_back(flat.image[v]);
         }
-        const bool is_own = image.vertices == named.vertices ||
-                            std::ranges::equal(image.vertices, named.vertices | std::views::reverse);
+        const bool is_own =
+            image.vertices == named.vertices ||
+            std::equal(image.vertices.rbegin(), image.vertices.rend(), named.vertices.begin(), named.vertices.end());
         if (flat.image.empty() || is_own) return {std::move(named)};
         return {std::move(named), std::move(image)};
     }
