@@ -1,5 +1,6 @@
 #include "fit/template_start.h"
 
+#include "planar/planar_predicates.h"
 #include "shape/assignment.h"
 #include "shape/domain_alignment.h"
 
@@ -52,11 +53,8 @@ DomainAlignment best_alignment(const std::vector<Circle>& wanted, const std::vec
 std::size_t count_folded(const Triangles& triangles, const PlanarPoints& uv)
 {
     std::size_t count = 0;
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Eigen::RowVector2d a = uv.row(triangles(f, 1)) - uv.row(triangles(f, 0));
-        const Eigen::RowVector2d b = uv.row(triangles(f, 2)) - uv.row(triangles(f, 0));
-        if (!(a[0] * b[1] - a[1] * b[0] > 0.0)) ++count;
-    }
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        if (!(signed_area(uv, triangles, f) > 0.0)) ++count;
     return count;
 }
 

@@ -23,10 +23,6 @@ constexpr double refused_around = 0.06;  // radius round the tip of a dart that 
 constexpr int roundings = 16;            // with the grid in other places
 constexpr double coarse_grid = 1 << 21;  // steps along the unit square: an eighth of those of 32-bit floats
 
-using EdgeEnds = std::pair<Index, Index>;
-
-EdgeEnds sorted_ends(Index a, Index b) { return std::minmax(a, b); }
-
 /// The place of an edge that is no seam: a part and its half-edge.
 struct EdgePlace {
     std::size_t part;

@@ -4,6 +4,8 @@
 #include "execution/execution.h"
 #include "splitting/splitting.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace koebe {
@@ -37,6 +39,10 @@ struct FlatOptions {
 /// Lays a part flat in the kind of its map, then frees its rims (free_rims.h). A tube becomes a disk if it cannot be
 /// opened, if it has more faces turned over, or if its slit costs more than the disk's overflow.
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context);
+
+/// An edge, by its vertices in the whole: it has the same name in every part.
+using EdgeEnds = std::pair<Index, Index>;
+inline EdgeEnds sorted_ends(Index a, Index b) { return std::minmax(a, b); }
 
 constexpr double packed_side = 1.25;  ///< about the side of a square that holds parts of total area 1
 

@@ -14,10 +14,6 @@ namespace {
 
 constexpr EvenEffort trial_effort{6, 2};
 
-using EdgeEnds = std::pair<Index, Index>;
-
-EdgeEnds sorted_ends(Index a, Index b) { return std::minmax(a, b); }
-
 /// A cut as vertices of the whole: cuts of other parts have numbers of their own.
 struct NamedCut {
     std::vector<Index> vertices;
