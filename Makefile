@@ -38,7 +38,7 @@ endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
 .PHONY: help build native programs wheel package dist matrix lint lint-python lint-native check check-native check-python check-form \
-        test test-all test-native test-python test-labs test-blender test-gui test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
+        test test-all test-native test-python test-long test-labs test-blender test-gui test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -101,7 +101,7 @@ build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install
 test: build programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done) ## what a user could hit: native, Python, labs, and the installed zip in Debian's Blender and in bpy $(BPY)
 	@$(SIDE_BY_SIDE) test-blender $(BPY:%=test-differing-%) test-python test-native test-labs
 
-test-all: lint test test-fuzz $(ALL_BPY:%=test-bpy-%) ## before a release: lint and test, fuzzing, and all tests in each bpy that add-ons still meet
+test-all: lint test test-long test-fuzz $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, and all tests in each bpy that add-ons still meet
 
 # The native tests whole; of the others those that are not marked slow.
 check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
@@ -121,7 +121,10 @@ test-native: programs ## ctest
 	ctest --preset release
 
 test-python: programs ## pytest tests/python
-	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider tests/python
+	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m 'not long' tests/python
+
+test-long: programs ## the Python tests that are marked long
+	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m long tests/python
 
 test-labs: $(WHEEL) build/venv-labs/.done ## pytest tests/labs, beside PyVista, trimesh, meshio, scikit-learn and others
 	PYTHONPATH=build/python MPLBACKEND=agg build/venv-labs/bin/python -m pytest -p no:cacheprovider tests/labs

@@ -104,6 +104,7 @@ def torus_error(steps):
     return max(errors)
 
 
+@pytest.mark.slow
 def test_a_torus_of_revolution_is_mapped_with_second_order():
     errors = [torus_error(steps) for steps in (6, 12, 24)]
     assert errors[0] < 8e-3

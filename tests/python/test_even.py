@@ -127,10 +127,11 @@ def test_tiles_still_tile(even):
         assert after < before
 
 
-def test_random_surfaces_are_true_to_their_report():
+@pytest.mark.parametrize("seeds", [range(10), pytest.param(range(10, 32), marks=pytest.mark.slow)])
+def test_random_surfaces_are_true_to_their_report(seeds):
     kinds = sorted(random_surfaces.KINDS)
     mapped = 0
-    for seed in range(32):
+    for seed in seeds:
         made = random_surfaces.make(kinds[seed % len(kinds)], 5000 + seed)
         if made is None or len(made[1]) > 1500:
             continue
@@ -144,7 +145,7 @@ def test_random_surfaces_are_true_to_their_report():
             if one.converged:
                 mapped += 1
                 assert one.overlaps == 0 and covered_at_most_once(corners[size > 0], seed, 60), (seed, options)
-    assert mapped > 20
+    assert mapped > 0.6 * len(seeds)
 
 
 def _both(vertices, faces, options):

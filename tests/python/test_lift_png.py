@@ -116,6 +116,7 @@ def test_faces_that_would_turn_over_are_the_surfaces(lifted, file):
     assert named.min() >= 0 and named.max() < len(faces) and (np.diff(named) > 0).all()
 
 
+@pytest.mark.slow
 def test_what_an_image_cannot_be(lifted):
     image = png(np.zeros((4, 4), np.uint8))
     for options, message in (

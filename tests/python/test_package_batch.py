@@ -53,7 +53,7 @@ def test_a_folder_that_cannot_be_written_is_an_error(library, tmp_path):
         koebe.batch(library, tmp_path / "file")
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("number", [pytest.param(signal.SIGINT, marks=pytest.mark.slow), signal.SIGKILL])
 def test_the_command_ends_with_python(tmp_path, number):
     (tmp_path / "large.obj").write_text(obj_text(*perforated(500)))
     call = f"import koebe; koebe.batch({str(tmp_path / 'large.obj')!r}, {str(tmp_path / 'out')!r})"

@@ -151,7 +151,7 @@ def bumpy_sphere(seed, rings=18, around=36):
     return vertices * distance[:, None], np.concatenate(faces)
 
 
-@pytest.mark.parametrize("seed", [3, 7])
+@pytest.mark.parametrize("seed", [pytest.param(3, marks=pytest.mark.slow), 7])
 def test_a_border_that_moved_may_part_neighbours(seed):
     """Many small parts: with seed 7 two that were neighbours are none when the turn comes to their border."""
     vertices, faces = bumpy_sphere(seed)

@@ -44,6 +44,7 @@ def test_an_automorphism_of_the_disk_changes_no_factor():
         assert abs(there[run][0]) == pytest.approx(abs(values[0]), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_no_sweep_is_slower_than_the_proof_says():
     bounds = []
     for row in predicted_rates.DOMAINS.values():

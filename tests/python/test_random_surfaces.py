@@ -21,7 +21,14 @@ def test_a_few_of_each_kind_keep_their_promises(kind):
             assert promises.broken(surface[1], koebe.uniformize(*surface)) == [], seed
 
 
-@pytest.mark.parametrize("name", [name for name in commands.COMMANDS if name != "uniformize"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.slow] if name in ("parts", "schottky") else [])
+        for name in commands.COMMANDS
+        if name != "uniformize"
+    ],
+)
 def test_every_command_keeps_its_promises_and_gives_one_surface_one_map(name):
     for kind in commands.COMMANDS[name].kinds:
         surface = commands.surface(name, kind, 2003)

@@ -24,6 +24,7 @@ import table_two  # noqa: E402
 import two_heads  # noqa: E402
 
 SMALL = {"vertices": 500, "boundary": 110}
+LARGE = 20_000  # vertices: more take seconds
 SVG = "{http://www.w3.org/2000/svg}"
 needs_mesher = pytest.mark.skipif(not table_surfaces.MESHER.exists(), reason="build/bench/planar_mesher is not built")
 
@@ -73,8 +74,12 @@ def check_surface(points, triangles, holes, vertices, faces, boundary):
     assert not on_rim[triangles].all(axis=1).any()  # no ears
 
 
+def long_if_large(row):
+    return pytest.param(row, marks=[pytest.mark.long] if row.vertices > LARGE else [], id=row.figure)
+
+
 @needs_mesher
-@pytest.mark.parametrize("row", printed.TABLE_1, ids=lambda row: row.figure)
+@pytest.mark.parametrize("row", map(long_if_large, printed.TABLE_1))
 def test_surfaces_have_exactly_the_printed_sizes(row):
     """Without the rounds of relaxation, which change neither vertices nor faces in number."""
     points, triangles = table_surfaces.make(row.holes, row.vertices, row.boundary, rounds=0)

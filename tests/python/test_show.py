@@ -48,7 +48,7 @@ MODELS = {"ball": lambda: random_models.ball(4), "creature": creature}
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("model", ["ball", pytest.param("creature", marks=pytest.mark.slow)])
 def test_cuts_keep_away_from_the_half_that_is_shown(model, sign):
     vertices, triangles = MODELS[model]()
     show = front(vertices, sign=sign)
