@@ -7,7 +7,7 @@ import faults
 import pytest
 from runs import RUNS, operator
 
-MOST = 50  # steps at which an operator is broken off
+MOST = 25  # steps at which an operator is broken off
 
 
 @pytest.mark.parametrize("run", RUNS)
@@ -21,4 +21,4 @@ def test_what_is_broken_off_leaves_everything_as_it_was(folder, run):
 ])  # fmt: skip
 def test_an_error_is_that_of_one_object(folder, run):
     build, name, options = RUNS[run]
-    faults.check_each_for_itself(folder, build, operator(name), options, MOST // 4)
+    faults.check_each_for_itself(folder, build, operator(name), options, MOST // 2)
