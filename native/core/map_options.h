@@ -35,7 +35,7 @@ struct CutDomainOptions : SweepOptions {
 
 /// Of a map that can be made more even.
 struct EvennessOptions {
-    double even = 0.0;                     ///< 0: conformal, 1: true to size (relax/even_map.h)
+    double even = 0.0;                     ///< 0: conformal, 1: true to size (even/even_map.h)
     LoopForm loops = LoopForm::automatic;  ///< with `even`
 
     KOEBE_OPTIONS(EvennessOptions, even, loops)

@@ -4,10 +4,10 @@
 #include "core/api.h"
 #include "core/option_list.h"
 #include "core/types.h"
-#include "evenness/part_map.h"
 #include "execution/execution.h"
 #include "flatten/page.h"
 #include "flatten/pattern.h"
+#include "part_maps/part_map.h"
 #include "quality/report.h"
 
 #include <optional>

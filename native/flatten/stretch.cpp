@@ -1,6 +1,6 @@
 #include "flatten/stretch.h"
 
-#include "evenness/part_mesh.h"
+#include "part_maps/part_mesh.h"
 
 #include <Eigen/Geometry>
 

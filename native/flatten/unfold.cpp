@@ -2,11 +2,11 @@
 
 #include "core/errors.h"
 #include "cut/edge_runs.h"
+#include "even/even_map.h"
 #include "flatten/stretch.h"
 #include "flow/flat_layout.h"
 #include "mesh/connectivity.h"
 #include "parts/darts.h"
-#include "relax/even_map.h"
 
 #include <Eigen/Geometry>
 

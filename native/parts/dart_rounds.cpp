@@ -1,9 +1,9 @@
 #include "parts/dart_rounds.h"
 
+#include "even/even_forces.h"
 #include "execution/side_by_side.h"
 #include "mesh/connectivity.h"
 #include "parts/darts.h"
-#include "relax/even_forces.h"
 
 #include <algorithm>
 #include <cmath>

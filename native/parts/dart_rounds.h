@@ -1,9 +1,9 @@
 // Darts cut into all parts of a surface, round by round, as long as they pay.
 #pragma once
 
+#include "even/even_map.h"
 #include "execution/execution.h"
 #include "parts/flat_part.h"
-#include "relax/even_map.h"
 
 #include <vector>
 

@@ -2,9 +2,9 @@
 
 #include "core/errors.h"
 #include "cut/edge_graph.h"
+#include "even/even_map.h"
 #include "parts/tension.h"
 #include "planar/planar_predicates.h"
-#include "relax/even_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // Darts: cuts from a rim into a flat part. They make no island, and let a peak or a limb lie flat.
 #pragma once
 
+#include "even/even_forces.h"
 #include "execution/execution.h"
 #include "parts/flat_part.h"
-#include "relax/even_forces.h"
 
 #include <optional>
 #include <vector>
@@ -21,7 +21,7 @@ struct Dart {
 
 /// The darts that may pay, at some distance from each other. Opening a dart releases about 2 T^2 / Y, as for a crack
 /// that runs in from the edge of a plate. T is the force that pulls the two sides of the path apart, summed along the
-/// path. Y = 8 t / (1 + t) is the stiffness of E_t (relax/even_map.h) against stretching in one direction.
+/// path. Y = 8 t / (1 + t) is the stiffness of E_t (even/even_map.h) against stretching in one direction.
 ///
 /// @param flat a part relaxed for this E @param forces the forces at its corners
 /// @param price price, in energy, of a dart as long as the root of the surface's area

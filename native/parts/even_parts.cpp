@@ -1,10 +1,10 @@
 #include "parts/even_parts.h"
 
 #include "circles/circle_fit.h"
+#include "even/even_map.h"
 #include "execution/side_by_side.h"
 #include "parts/dart_rounds.h"
 #include "parts/through_rounds.h"
-#include "relax/even_map.h"
 
 #include <algorithm>
 #include <array>

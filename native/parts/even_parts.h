@@ -24,7 +24,7 @@ struct EvenParts {
     std::vector<std::size_t> left;  ///< parts that stay as they were, although E is not 0
 };
 
-/// Relaxes all parts (relax/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, cuts
+/// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, cuts
 /// parts through as well (through_rounds.h): joins loops first, and splits parts that darts did not help. New parts
 /// come last. A part that is not one to one stays as it is.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);

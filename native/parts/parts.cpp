@@ -3,16 +3,16 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/vertex_weights.h"
-#include "evenness/part_mesh.h"
+#include "even/even_map.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
 #include "linear/dense_spd.h"
+#include "part_maps/part_mesh.h"
 #include "parts/flat_mesh.h"
 #include "parts/pack_parts.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
-#include "relax/even_map.h"
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 #include "core/map_options.h"
 #include "core/option_list.h"
 #include "core/types.h"
-#include "evenness/part_map.h"
 #include "execution/execution.h"
+#include "part_maps/part_map.h"
 #include "pipeline/result.h"
 
 #include <array>
@@ -31,7 +31,7 @@ struct PartsOptions : MapOptions {
     /// true: rims at cuts lie on circles, and on the straight ends of tubes. false: they follow the surface's edges,
     /// and angles are better.
     bool round_cuts = false;
-    /// E, from 0 (conformal) to 1 (true to size), see relax/even_map.h. Without a value: the largest E tried at which
+    /// E, from 0 (conformal) to 1 (true to size), see even/even_map.h. Without a value: the largest E tried at which
     /// the mean angle error is no worse than at 0.
     std::optional<double> even = {};
     LoopForm loops = LoopForm::automatic;  ///< form of the surface's own loops, unless even is 0

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cut/seamed_mesh.h"
+#include "even/even_forces.h"
 #include "parts/flat_part.h"
-#include "relax/even_forces.h"
 
 #include <vector>
 

@@ -2,10 +2,10 @@
 
 #include "core/errors.h"
 #include "cut/edge_graph.h"
-#include "evenness/part_mesh.h"
+#include "even/even_map.h"
+#include "part_maps/part_mesh.h"
 #include "parts/darts.h"
 #include "parts/tension.h"
-#include "relax/even_map.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "parts/through_rounds.h"
 
+#include "even/even_forces.h"
 #include "execution/side_by_side.h"
 #include "mesh/connectivity.h"
-#include "relax/even_forces.h"
 
 #include <algorithm>
 #include <map>

@@ -2,11 +2,11 @@
 
 #include "circles/crowded_circles.h"
 #include "core/errors.h"
+#include "even/even_map.h"
 #include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
 #include "pipeline/normalization.h"
 #include "planar/boundary_crossings.h"
-#include "relax/even_map.h"
 
 #include <algorithm>
 #include <cmath>

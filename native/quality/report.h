@@ -30,7 +30,7 @@ struct StageSeconds {
 
 struct MapReport {
     Index vertex_count = 0, face_count = 0;
-    std::optional<double> even = {};  ///< of maps that can be made more even: how even the map is (relax/even_map.h)
+    std::optional<double> even = {};  ///< of maps that can be made more even: how even the map is (even/even_map.h)
     Index overlaps = 0;               ///< of such maps: pairs of crossing boundary edges, or parts with such
     bool converged = false;           ///< false: the map is not finished, and a warning tells why
     Distortion distortion;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cut/open_surface.h"
-#include "evenness/part_mesh.h"
+#include "part_maps/part_mesh.h"
 
 #include <optional>
 #include <vector>

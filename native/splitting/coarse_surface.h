@@ -1,8 +1,8 @@
 // A surface with fewer faces.
 #pragma once
 
-#include "evenness/part_mesh.h"
 #include "execution/execution.h"
+#include "part_maps/part_mesh.h"
 
 #include <vector>
 

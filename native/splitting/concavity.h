@@ -1,7 +1,7 @@
 // Where a surface is hollow.
 #pragma once
 
-#include "evenness/part_mesh.h"
+#include "part_maps/part_mesh.h"
 
 namespace koebe {
 

@@ -1,7 +1,7 @@
 // The shortest closed curves between two sets of faces: a minimum cut of the dual graph.
 #pragma once
 
-#include "evenness/part_mesh.h"
+#include "part_maps/part_mesh.h"
 
 #include <vector>
 

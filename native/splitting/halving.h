@@ -1,7 +1,7 @@
 // A part cut in two across its length.
 #pragma once
 
-#include "evenness/part_mesh.h"
+#include "part_maps/part_mesh.h"
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
-#include "evenness/even_pole.h"
 #include "mesh/connectivity.h"
+#include "part_maps/even_pole.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Forecasts the maps of a part's pieces from the part's map, without making their meshes.
 #pragma once
 
-#include "evenness/part_map.h"
+#include "part_maps/part_map.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "splitting/proposals.h"
 
 #include "circles/moebius.h"
-#include "evenness/log_polar.h"
 #include "execution/side_by_side.h"
 #include "mesh/connectivity.h"
+#include "part_maps/log_polar.h"
 
 #include <algorithm>
 #include <cmath>

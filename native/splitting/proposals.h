@@ -1,8 +1,8 @@
 // Proposes cuts of a part.
 #pragma once
 
-#include "evenness/part_map.h"
 #include "execution/execution.h"
+#include "part_maps/part_map.h"
 #include "splitting/dual_cut.h"
 
 #include <vector>

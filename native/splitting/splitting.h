@@ -1,7 +1,7 @@
 // Splits a surface into parts where that pays, maps the parts, and merges them again where a cut does not pay.
 #pragma once
 
-#include "evenness/part_map.h"
+#include "part_maps/part_map.h"
 
 #include <memory>
 #include <set>

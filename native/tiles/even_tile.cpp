@@ -1,8 +1,8 @@
 #include "tiles/even_tile.h"
 
 #include "core/tolerances.h"
+#include "even/even_map.h"
 #include "planar/planar_predicates.h"
-#include "relax/even_map.h"
 
 #include <algorithm>
 #include <cmath>

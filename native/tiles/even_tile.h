@@ -8,7 +8,7 @@
 
 namespace koebe {
 
-/// Relaxes the map and its periods (relax/even_map.h). The rims of a ring stay straight. Round holes lie on circles of
+/// Relaxes the map and its periods (even/even_map.h). The rims of a ring stay straight. Round holes lie on circles of
 /// the plane, free holes have no circles. A vertex that cannot be brought to its circle counts as off it.
 /// @param even above 0 @param map changed in place @return whether it was relaxed; if not, the map is unchanged
 bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, FlatMap& map,

@@ -2,10 +2,10 @@
 
 #include "canonical/corner_map.h"
 #include "core/counted.h"
+#include "even/even_map.h"
 #include "mesh/connectivity.h"
 #include "mesh/corner_order.h"
 #include "quality/shared_warnings.h"
-#include "relax/even_map.h"
 #include "tiles/even_tile.h"
 #include "tiles/tile_repair.h"
 

@@ -1,9 +1,9 @@
+#include "even/even_forces.h"
+#include "even/even_map.h"
 #include "mesh/topology.h"
 #include "parts/dart_rounds.h"
 #include "parts/darts.h"
 #include "planar/boundary_crossings.h"
-#include "relax/even_forces.h"
-#include "relax/even_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "circles/circle_fit.h"
+#include "even/even_map.h"
 #include "foldover/turn_upright.h"
 #include "mesh/topology.h"
 #include "planar/boundary_crossings.h"
-#include "relax/even_map.h"
 
 #include <gtest/gtest.h>
 

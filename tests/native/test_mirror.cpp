@@ -1,5 +1,5 @@
 #include "cut_samples.h"
-#include "evenness/part_mesh.h"
+#include "part_maps/part_mesh.h"
 #include "surface/mirror.h"
 
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 #include "core/errors.h"
 #include "cut_samples.h"
-#include "evenness/evenness.h"
+#include "part_maps/texel_evenness.h"
 #include "parts/flat_part.h"
 #include "parts/free_rims.h"
 #include "parts/parts.h"

@@ -1,5 +1,5 @@
+#include "even/even_forces.h"
 #include "parts/through_rounds.h"
-#include "relax/even_forces.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "circles/circle.h"
-#include "evenness/evenness.h"
-#include "evenness/part_mesh.h"
 #include "execution/execution.h"
+#include "part_maps/part_mesh.h"
+#include "part_maps/texel_evenness.h"
 
 #include <array>
 #include <vector>

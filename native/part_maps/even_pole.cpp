@@ -1,8 +1,8 @@
-#include "evenness/even_pole.h"
+#include "part_maps/even_pole.h"
 
 #include "circles/moebius.h"
-#include "evenness/evenness.h"
-#include "evenness/part_map.h"
+#include "part_maps/part_map.h"
+#include "part_maps/texel_evenness.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "relax/void_mesh.h"
+#include "even/void_mesh.h"
 
 #include "planar/boundary_crossings.h"
 #include "planar/planar_mesh.h"

@@ -1,4 +1,4 @@
-#include "evenness/part_mesh.h"
+#include "part_maps/part_mesh.h"
 
 #include "core/length.h"
 #include "mesh/connectivity.h"

@@ -1,13 +1,13 @@
-#include "relax/even_map.h"
+#include "even/even_map.h"
 
 #include "core/errors.h"
+#include "even/void_mesh.h"
 #include "foldover/face_energy.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/turn_upright.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
-#include "relax/void_mesh.h"
 #include "surface/laplacian.h"
 
 #include <Eigen/LU>
@@ -29,16 +29,17 @@ constexpr double few_far = 1e-3;          // until the wanted sizes differ by mo
 constexpr double nearer = 0.9;            // and as long as this share, or the energy, falls to this
 constexpr double much_less = 0.99;        // the energy must fall to this, for faces to go on
 constexpr int steps_an_approach = 4;
-constexpr double settled = 5e-4;        // relative decrease of the energy
-constexpr int steps_a_round = 5;        // with the void,
-constexpr double settled_round = 1e-3;  // and the relative decrease of the energy at which they end
-constexpr double void_weight = 1e-3;    // weight of a face of the void, over a mean face of the surface
-constexpr double least_weight = 1e-3;   // weight of a face of the surface, over the mean
-constexpr double hopeless = 100.0;      // ratio of a face's stretches: above it a face weighs less
-constexpr std::size_t any_circle = 3;   // points lie on a circle wherever they are
-constexpr double least_gap = 1e-4;      // between loops, over the extent
-constexpr double rounding = 1.5e-7;     // twice the area a face can lose by 32-bit floats, over its edge and the extent
-constexpr double roomy = 1000.0;        // times that: a face as large is not hindered
+constexpr double settled_decrease = 5e-4;  // relative decrease of the energy
+constexpr int steps_a_round = 5;           // with the void,
+constexpr double settled_round = 1e-3;     // and the relative decrease of the energy at which they end
+constexpr double void_weight = 1e-3;       // weight of a face of the void, over a mean face of the surface
+constexpr double least_weight = 1e-3;      // weight of a face of the surface, over the mean
+constexpr double hopeless = 100.0;         // ratio of a face's stretches: above it a face weighs less
+constexpr std::size_t any_circle = 3;      // points lie on a circle wherever they are
+constexpr double least_gap = 1e-4;         // between loops, over the extent
+constexpr double area_rounding =
+    1.5e-7;                            // twice the area a face can lose by 32-bit floats, over its edge and the extent
+constexpr double roomy_face = 1000.0;  // times that: a face as large is not hindered
 constexpr double shortest_drawn = 1e-7;  // over the extent: shorter edges say nothing about a loop's course
 constexpr std::array grids{1 << 19, 1 << 20, 1 << 21, 1 << 22};  // points along the extent; 32-bit floats have 1 << 24
 
@@ -140,7 +141,7 @@ private:
         return minimize_foldover_free(problem, context_,
                                       {.max_iterations = iterations,
                                        .area_weight = weight_,
-                                       .settled = settled,
+                                       .settled = settled_decrease,
                                        .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
                                        .strict = true,
                                        .refuses = [&](const FoldoverPlaces& places) {
@@ -239,8 +240,8 @@ private:
             problem.reference[f] *= std::sqrt(wanted / shapes_.areas[f]);
             const FaceMap map = face_map(problem.reference[f], f);
             problem.weight[f] *= std::min(1.0, hopeless * map.determinant() / map.squared_norm());
-            const double least = 0.5 * rounding * extent_ * longest_edge(at);
-            problem.floor[f] = std::min(now, wanted) > roomy * least ? 0.0 : std::min(least, 0.5 * now) / wanted;
+            const double least = 0.5 * area_rounding * extent_ * longest_edge(at);
+            problem.floor[f] = std::min(now, wanted) > roomy_face * least ? 0.0 : std::min(least, 0.5 * now) / wanted;
         }
         problem.mobility = mobility_;
         problem.track_of = track_of_;

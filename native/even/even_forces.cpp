@@ -1,9 +1,9 @@
-#include "relax/even_forces.h"
+#include "even/even_forces.h"
 
+#include "even/even_map.h"
 #include "foldover/face_energy.h"
 #include "foldover/patch_shapes.h"
 #include "planar/lifted_corners.h"
-#include "relax/even_map.h"
 
 #include <numeric>
 

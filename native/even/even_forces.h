@@ -13,7 +13,7 @@ struct EvenForces {
     std::vector<std::array<Complex, 3>> pull;  ///< (F) minus the gradient of the energy by the places of the corners
 };
 
-/// The terms of E_t (relax/even_map.h), face by face.
+/// The terms of E_t (even/even_map.h), face by face.
 /// @param vertices (V, 3) in the unit of the points @param triangles (F, 3) @param points (V, 2) without flipped faces
 /// @param even E, 0 to 1
 EvenForces even_forces(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points, double even);

@@ -1,7 +1,7 @@
 // Log polar coordinates of a part about a point, and the longest even tube in them.
 #pragma once
 
-#include "evenness/part_map.h"
+#include "part_maps/part_map.h"
 
 namespace koebe {
 

@@ -1,4 +1,4 @@
-#include "evenness/evenness.h"
+#include "part_maps/texel_evenness.h"
 
 #include <algorithm>
 #include <array>

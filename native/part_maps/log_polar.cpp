@@ -1,4 +1,4 @@
-#include "evenness/log_polar.h"
+#include "part_maps/log_polar.h"
 
 #include <algorithm>
 #include <array>
