@@ -69,7 +69,7 @@ from koebe_uv_batch.blender.errors import TransferError  # noqa: E402
 from koebe_uv_batch.blender.mesh_object import MeshObject  # noqa: E402
 from koebe_uv_batch.headless.arguments import IN_BLENDER, WITH_BPY, Request, parse  # noqa: E402
 from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all  # noqa: E402
-from koebe_uv_batch.headless.flags import in_flags  # noqa: E402
+from koebe_uv_batch.headless.flag_names import in_flags  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs import native_package  # noqa: E402
 from koebe_uv_batch.jobs.domain_jobs import job_type  # noqa: E402

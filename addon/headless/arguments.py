@@ -10,7 +10,7 @@ from ..maps import options
 from ..maps.domains import DOMAINS
 from ..maps.option_table import LARGEST, ROWS, Row, rows_of
 from .exit_and_signals import USAGE, Stop
-from .flags import flag
+from .flag_names import flag
 
 LARGEST_FRAME = 1048574  # in Blender
 DISK = "disk"

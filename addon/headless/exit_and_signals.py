@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from types import FrameType
 from typing import Any, TextIO
 
-from .flags import in_flags
+from .flag_names import in_flags
 
 LAST_SECONDS = 5.0  # for a process whose starter has ended
 DONE, BROKEN, USAGE, UNMAPPABLE, NOT_CONVERGED, INTERRUPTED = 0, 1, 2, 3, 4, 130

@@ -1,7 +1,7 @@
 #include "io/format_readers.h"
 #include "io/obj_text.h"
 #include "io/refusals.h"
-#include "io/text_numbers.h"
+#include "io/text_lines.h"
 
 #include <algorithm>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "core/errors.h"
 #include "io/refusals.h"
-#include "io/text_numbers.h"
+#include "io/text_lines.h"
 
 #include <fast_float/fast_float.h>
 

@@ -1,7 +1,7 @@
 #include "core/errors.h"
 #include "io/format_readers.h"
 #include "io/refusals.h"
-#include "io/text_numbers.h"
+#include "io/text_lines.h"
 
 #include <algorithm>
 #include <array>

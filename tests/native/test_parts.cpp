@@ -288,7 +288,7 @@ TEST(Parts, a_higher_price_makes_fewer)
     std::size_t last = 1000;
     double even = 2.0;
     for (const double price : {0.0005, 0.005, 0.05, 5.0}) {
-        const PartsResult result = parts(mesh, {.price = price});
+        const PartsResult result = parts(mesh, {.price = price, .darts = 0.0});
         EXPECT_EQ(static_cast<Index>(result.distortion.flipped.size()), upside_down(result));
         EXPECT_EQ(result.distortion.flipped.size(), result.distortion.below_resolution.size());
         EXPECT_LE(result.parts.size(), last) << price;
@@ -541,7 +541,7 @@ TEST(Parts, a_large_closed_surface_is_cut_in_two_as_well)
         profile.emplace_back(i == 0 || i == 240 ? 0.0 : std::sin(pi * i / 240), -3.0 * std::cos(pi * i / 240));
     const Mesh mesh = revolved(profile, 220);
     ASSERT_GT(mesh.triangles.rows(), 100000);
-    const PartsResult result = parts(mesh);
+    const PartsResult result = parts(mesh, {.darts = 0.0});
     EXPECT_EQ(result.distortion.flipped.size(), 0U);
     EXPECT_GE(result.parts.size(), 2U);
     EXPECT_GT(result.even_area, 0.9);

@@ -148,7 +148,7 @@ def test_parts_keep_their_angles_unless_even_is_given(addon):
 def test_what_even_excludes(addon, words, reason):
     with pytest.raises(addon("headless.exit_and_signals").Stop) as stop:
         addon("headless.arguments").parse([*OUT, *words])
-    text = addon("headless.flags").in_flags(stop.value.reason)
+    text = addon("headless.flag_names").in_flags(stop.value.reason)
     assert stop.value.code == 2 and re.search(reason, text), text
 
 

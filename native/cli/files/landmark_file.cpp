@@ -2,7 +2,7 @@
 
 #include "cli/files/text_file.h"
 #include "core/errors.h"
-#include "io/text_numbers.h"
+#include "io/text_lines.h"
 
 #include <string_view>
 

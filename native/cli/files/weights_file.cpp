@@ -3,7 +3,7 @@
 #include "cli/files/text_file.h"
 #include "core/errors.h"
 #include "core/vertex_weights.h"
-#include "io/text_numbers.h"
+#include "io/text_lines.h"
 
 #include <string_view>
 

@@ -1,4 +1,4 @@
-// Reads words and numbers of a text file with fast_float: exact, and without a stream.
+// Words and numbers of the lines of a text file, read with fast_float: exact, and without a stream.
 #pragma once
 
 #include "core/types.h"
