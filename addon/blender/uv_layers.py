@@ -74,7 +74,7 @@ def write_uv(
     if layer_name not in mesh.uv_layers:
         mesh.uv_layers.new(name=layer_name, do_init=False)  # None in 5.2's Edit Mode, though it is made
         if layer_name not in mesh.uv_layers:
-            taken = "that of a vertex group" if layer_name in obj.vertex_groups else "taken"  # 5.2 allows no more
+            taken = "used by a vertex group" if layer_name in obj.vertex_groups else "taken"  # 5.2 allows no more
             raise TransferError(f"{obj.name}: the name {layer_name!r} is {taken}: choose another layer name")
     else:
         with arrays(obj) as old:

@@ -72,7 +72,7 @@ def _bad(one: IslandOutcome) -> str:
     if len(one.flipped):
         return f"a disk has no room for {counted(len(one.flipped), 'triangle')}"
     if one.even_share < LEAST_EVEN:
-        return f"a disk has even texels on {_percent(one.even_share)} of the area alone"
+        return f"a disk has even texels on only {_percent(one.even_share)} of the area"
     return ""
 
 

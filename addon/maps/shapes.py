@@ -56,7 +56,7 @@ def map_shape(
     """
     islands = cut_into_islands(surface)
     if len(islands) != 1:
-        raise ShapeError(f"{name}: a shape is one island: this is {len(islands)}")
+        raise ShapeError(f"{name}: it has {len(islands)} islands, but a shape is one island")
     (island,) = islands
     arguments = {"outer": outer, "progress": progress, "cancel": cancel}
     try:

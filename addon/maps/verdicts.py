@@ -39,8 +39,10 @@ def _evenness(entry: Any) -> Figure:
             advice = "Texels are uneven: move the slider Parts to the right"
         elif entry.domain in ("sphere", "schottky"):
             advice = "This shape always has uneven texels: to paint, choose Shape: Parts"
-        else:
+        elif entry.domain:
             advice = "Texels are uneven: raise Even, or choose Shape: Parts"
+        else:  # Automatic has the slider for parts, where Keep Angles moves it
+            advice = "Texels are uneven: with Shape: Disk raise Even, or choose Shape: Parts"
     value = f"1 : {density_text(entry.density)}" if entry.density <= MOST_TOLD else f"over {MOST_TOLD:.0f}"
     return Figure("Evenness", value, advice)
 

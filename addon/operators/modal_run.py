@@ -26,6 +26,8 @@ STAGES = {
 POLL_SECONDS = 0.05  # interval between looks at a running computation: Esc acts within this time and one checkpoint
 READ_SECONDS = 0.1  # time to read Blender's data between two looks at the keys, if one step takes no longer
 SHOW_SECONDS = 0.25  # interval of progress reports: each makes Blender redraw the whole window
+DRAWING_SHARE = 0.2  # largest share of the time for these redraws: with software OpenGL one can take a second
+SAME_TURN = 0.005  # an event so soon after a report came before the window was drawn
 # During a computation the view may move; everything else could change the mapped data.
 NAVIGATION = {
     "MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE",
@@ -93,6 +95,7 @@ class ModalRun(OperatorBase):
         self._worker = None if self._to_read else Worker(job.compute)
         self._read: float | None = None
         self._shown_at, self._shown = time.monotonic(), ""
+        self._show_next: float | None = self._shown_at + SHOW_SECONDS
         self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -151,6 +154,11 @@ class ModalRun(OperatorBase):
             done = f"{100 * self._worker.fraction:.0f} % done, {stage}"
         text = f"Koebe UV: {done}      Esc: Cancel"
         now = time.monotonic()
-        if text != self._shown and now >= self._shown_at + SHOW_SECONDS:
+        if self._show_next is None:
+            drawn = now - self._shown_at  # until the first event after the report
+            if drawn > SAME_TURN:
+                pause = max(0.0, drawn - POLL_SECONDS) / DRAWING_SHARE
+                self._show_next = max(self._shown_at + SHOW_SECONDS, now + pause)
+        elif text != self._shown and now >= self._show_next:
             context.workspace.status_text_set(text)
-            self._shown_at, self._shown = now, text
+            self._shown_at, self._shown, self._show_next = now, text, None

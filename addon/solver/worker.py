@@ -7,7 +7,7 @@ import sys
 import threading
 from collections.abc import Callable
 
-NICENESS = 10  # niceness of the computation's threads, so that the threads that draw the window go first
+NICENESS = 3  # of the computation: the window goes first, and other busy programs do not stop the computation
 
 
 class Worker:

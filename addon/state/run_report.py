@@ -66,7 +66,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     cuts: StringProperty(description="Vertices of the mesh along each cut, as JSON, with the first of its pieces")
     seconds: FloatProperty(description="Time of the computation")
     parts: IntProperty(description="Parts that the object was cut into, 0 if it was not")
-    density: FloatProperty(description="Density at 95 % of the area over that at 5 %, of a sphere on it")
+    density: FloatProperty(description="Texel density at 95 % of the area over the density at 5 %")
     even: FloatProperty(description="How even it was made: 0 is conformal, 1 true to size")
     coverage: FloatProperty(description="Share of the UV square that it takes")
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")

@@ -66,7 +66,7 @@ class ReportPanel(KoebePanel):
         layout = self.layout
         report = report_of(context)
         if not report.islands:
-            layout.label(text="No run yet")
+            layout.label(text="No map yet: press Unwrap")
         if len(report.islands) > 1:
             layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
         entry = active_entry(context)

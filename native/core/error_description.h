@@ -51,8 +51,8 @@ inline std::optional<ErrorDescription> describe_error(const std::exception_ptr& 
     return {};
 }
 
-/// Describes an exception by the types of the library. Where both sides link the C++ runtime, each side has its own
-/// identity of a class, and a `catch` here does not see an exception that was thrown there.
+/// Describes an exception by the types of the library. If both sides link the C++ runtime, each side has its own
+/// identity of a class. Then a `catch` here does not see an exception that was thrown there.
 KOEBE_API std::optional<ErrorDescription> describe_error_of_library(const std::exception_ptr& pointer);
 
 }  // namespace koebe

@@ -66,10 +66,10 @@ struct FlattenResult : CornerMapReport {
     Pattern pattern;
 };
 
-/// Cuts a surface into parts, lays each flat as true to size as it can be (E = 1, all loops free), and puts them on
-/// pages in real size. Every piece is one to one, and pieces do not overlap, not even with their allowances.
-/// Pieces that fit on a page share pages; larger ones lie on sheets of several pages whose frames meet. Pieces under a
-/// tenth of a millimetre are left out, at most a hundredth of the area.
+/// Cuts a surface into parts. Lays each part flat, as true to size as possible (E = 1, all loops free). Puts the parts
+/// on pages in real size. Every piece is one to one, and pieces do not overlap, not even with their allowances. Pieces
+/// that fit on a page share pages; larger ones lie on sheets of several pages whose frames meet. Pieces under a tenth
+/// of a millimetre are left out, at most a hundredth of the area.
 ///
 /// @param vertices (V, 3) @param triangles (F, 3) never changed
 /// @throws InputError an option; pieces that are too small, too large, or need too many pages; TopologyError;

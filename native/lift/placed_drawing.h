@@ -25,10 +25,10 @@ struct PlacedDrawing {
     std::vector<Index> island_faces;  ///< where these begin, ascending
 };
 
-/// The drawing is turned, its box keeps its aspect, and its middle is put in the middle of the domain's box, or of each
-/// copy's share of it. In a disk the box's corners reach to nine tenths of the radius; else it takes nine tenths of the
-/// room in width or height. Paths are united (planar/filled_paths.h). Curves become polygons that lie within a
-/// thousandth of the drawing's size, and within a twentieth of the mesh's mean edge.
+/// The drawing is turned, and its box keeps its aspect. Its middle is put in the middle of the domain's box, or in the
+/// middle of each copy's share of this box. In a disk the box's corners reach to nine tenths of the radius; else it
+/// takes nine tenths of the room in width or height. Paths are united (planar/filled_paths.h). Curves become polygons
+/// that lie within a thousandth of the drawing's size, and within a twentieth of the mesh's mean edge.
 /// @throws InputError copies do not fit side by side; a drawing of over 200,000 corners; repeats where the domain does
 /// not repeat
 PlacedDrawing placed_drawing(const FlatSheet& sheet, const SvgDrawing& drawing, const DrawingPlace& place);

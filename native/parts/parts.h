@@ -75,7 +75,7 @@ struct PartsResult : CornerMapReport {
     double maps = 0.0;                ///< number of faces mapped, over the faces of the surface
 };
 
-/// Cuts a surface into parts where that makes texels more even than a part and its cuts cost.
+/// Cuts a surface into parts, where more even texels are worth more than a part and its cuts cost.
 ///
 /// A part's cost is its overflow (evenness.h): on its circle domain after the most even Moebius map, or on the unrolled
 /// tube. Parts are split by minimum cuts of the dual graph, round windows of density and about tips in log polar

@@ -144,8 +144,8 @@ std::vector<Warning> input_warnings(const MapInput& whole)
     if (whole.thinnest < delicate)
         warnings.push_back(
             {WarningKind::thin_faces,
-             "faces so thin that the last digits of their coordinates show in the map: turned or scaled, "
-             "the surface may get another map"});
+             "faces so thin that the last digits of their coordinates show in the map: the surface may get "
+             "another map if it is turned or scaled"});
     return warnings;
 }
 

@@ -38,8 +38,8 @@ bool chooses_outer_loop(const UniformizeOptions& options, const MapInput& input)
 /// Moves the vertices of the surface. Topology, outer loop, triangulation, order of elimination and the angles of the
 /// last maps stay.
 /// @param vertices (V, 3) as many as before
-/// @return false, and the problem is unusable, where it must be prepared anew to give the same map as a new problem:
-/// other flaps, another order of the holes' lengths, or a triangulation far from Delaunay
+/// @return false if the problem must be prepared anew to give the same map as a new problem: other flaps, another order
+/// of the holes' lengths, or a triangulation far from Delaunay. Then the problem is unusable
 /// @throws InputError
 bool move_problem(Problem& problem, const Vertices& vertices);
 

@@ -26,8 +26,8 @@ struct PlanarMesh {
 /// boundary edges nearby: size(x) = min(longest, min_v (h_v + gradation |x - v|)) over the boundary vertices v with
 /// mean edge length h_v.
 ///
-/// Interior points are circumcentres of triangles that are too large (Chew 1993), left out where they would encroach
-/// upon a boundary edge, so no boundary edge is ever split. Then they move to the size-weighted centroids of their
+/// Interior points are circumcentres of triangles that are too large (Chew 1993). A point that would encroach upon a
+/// boundary edge is left out. So no boundary edge is ever split. Then they move to the size-weighted centroids of their
 /// stars (Du, Faber, Gunzburger 1999). Predicates are exact (CGAL), reruns are bit-identical.
 ///
 /// No inner edge joins two boundary vertices: such edges are cut in the middle, as a mesh glued to this one may have an

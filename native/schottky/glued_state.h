@@ -15,8 +15,8 @@ namespace koebe {
 /// A step opens one loop k; the others are filled. The flux from a source in the remaining disk gives the angles of its
 /// conformal map along k. A hole takes these angles, as in Koebe's step. The side of a cut hands them to the other
 /// side, which is then filled by the surface beyond the cut, as far as it is known. At a fixed point the outside of one
-/// side's image and the inside of the other's are glued by maps conformal on both sides of the cut, so by a Moebius map
-/// (docs/domains.md, "Any number of handles").
+/// side's image is glued to the inside of the other side's image. The maps that glue them are conformal on both sides
+/// of the cut, so they are a Moebius map (docs/domains.md, "Any number of handles").
 class GluedState {
 public:
     /// Starts with angles in proportion to length.

@@ -55,8 +55,8 @@ struct SchottkyResult : SweptMapReport {
 /// Maps a surface of genus at least 1 with any number of holes conformally to a fundamental domain of a Schottky group,
 /// with round holes. Copies of the UVs under the group continue the pattern and fill the plane up to a set of no area.
 /// Handles are cut along short loops, which determine the group; generators take one side of a cut to the other [Koebe
-/// 1908; Maskit 1988, chapter X.H]. With holes the longest is the unit circle, and of the maps that differ by
-/// automorphisms the one of least area distortion is taken, or one near it with room for equal circles. Without holes
+/// 1908; Maskit 1988, chapter X.H]. With holes the longest loop is the unit circle. Automorphisms of the disk give many
+/// such maps. The map of least area distortion is taken, or a map near it with room for equal circles. Without holes
 /// one handle's generator is z -> lambda z; it is the handle that makes texel density most even.
 /// @throws InputError, TopologyError genus (no handle, or cuts that touch each other) and the errors of
 /// analyze_surface, SolverError, Cancelled; a map that is not one to one is reported as not converged

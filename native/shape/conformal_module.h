@@ -35,9 +35,9 @@ std::vector<Circle> normalized_circles(const std::vector<Circle>& circles, const
 Moebius normalizing_map(const std::vector<Circle>& circles);
 
 /// An order that depends on the conformal structure alone, not on the loops' numbers: the outer loop, then the others
-/// by conformal_separation from it, nearest first. Loops within 0.01 of each other count as equal. Of the orders that
-/// this leaves (up to 5040), the module with the greatest sum of m_i / (i + 1), i from 0, decides. Every such choice
-/// jumps somewhere, so compare two shapes by match_loops.
+/// by conformal_separation from it, nearest first. Loops within 0.01 of each other count as equal. Up to 5040 orders
+/// are left. The order whose module has the greatest sum of m_i / (i + 1), i from 0, is taken. Every such choice jumps
+/// somewhere, so compare two shapes by match_loops.
 /// @param any_outer choose the outer loop, too: the loop of least sum of separations
 KOEBE_API std::vector<int> canonical_order(const std::vector<Circle>& circles, bool any_outer = false);
 

@@ -21,9 +21,9 @@ struct SphereFaults {
 };
 
 /// Checks that the faces, triangles with the shorter arcs as sides, and the holes cover each point of the sphere once.
-/// If all faces are upright (exact arithmetic) and all loops simple round their hole, the map of the closed surface,
-/// its holes filled, is a covering except for branch points at vertices. Its areas add up to 4 pi times its number of
-/// sheets. With one sheet there are no branch points.
+/// Let all faces be upright (exact arithmetic), and all loops simple round their hole. Then the map of the closed
+/// surface, with its holes filled, is a covering except for branch points at vertices. Its areas add up to 4 pi times
+/// its number of sheets. With one sheet there are no branch points.
 /// @param triangles in one orientation @param points (V, 3) unit vectors @param caps of the loops
 SphereFaults find_sphere_faults(const Triangles& triangles, const std::vector<VertexLoop>& loops,
                                 const Vertices& points, const std::vector<Cap>& caps);

@@ -62,8 +62,8 @@ using RefusedMerges = std::set<std::pair<PartPointer, PartPointer>>;
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                  RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort);
 
-/// Merges each part of a few faces with the neighbour for which the merged part costs least, even if the cut pays by up
-/// to a few prices of a part: nobody wants to paint on crumbs.
+/// Merges each part of a few faces with a neighbour: the neighbour for which the merged part costs least. It does so
+/// even if the cut pays by up to a few prices of a part: nobody wants to paint on crumbs.
 void merge_crumbs(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                   ExecutionContext& context, SplitEffort& effort);
 

@@ -84,8 +84,9 @@ std::vector<Pin> landmark_pins(const CutMesh& mesh, const Triangles& triangles, 
     }
     if (!on_edges.empty()) refuse("on a rim landmarks must be vertices", std::move(on_edges));
     if (!off_rims.empty())
-        refuse("landmarks lie on a rim of one surface, and on the other beside it", std::move(off_rims));
-    if (!apart.empty()) refuse("landmarks at one point of a surface have two on the other", std::move(apart));
+        refuse("landmarks lie on a rim of one surface, and beside the rim on the other", std::move(off_rims));
+    if (!apart.empty())
+        refuse("two landmarks lie at one point of a surface, and at two points of the other", std::move(apart));
     return pins;
 }
 

@@ -83,7 +83,7 @@ def test_a_vertex_groups_name_is_refused_where_blender_keeps_it():
     if states.group_and_layer_may_share_a_name():
         assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
     else:
-        with pytest.raises(RuntimeError, match="Panel: the name 'Koebe' is that of a vertex group"):
+        with pytest.raises(RuntimeError, match="Panel: the name 'Koebe' is used by a vertex group"):
             bpy.ops.uv.koebe_uniformize()
         assert len(obj.data.uv_layers) == 0
     assert [group.name for group in obj.vertex_groups] == ["Koebe"]

@@ -54,7 +54,7 @@ SAMPLE_SHAPES = [
     ("character", "Parts"), ("mug", "Parts"), ("hand", "Parts"),
 ]  # fmt: skip
 REASONS = {"closed_head": "the surface is closed", "character": "the surface is closed",
-           "mug": "the surface has a handle", "hand": "a disk has even texels on 2. % of the area alone"}  # fmt: skip
+           "mug": "the surface has a handle", "hand": "a disk has even texels on only 2. % of the area"}  # fmt: skip
 
 
 @pytest.mark.parametrize("sample, shape", SAMPLE_SHAPES)

@@ -13,7 +13,7 @@ def test_the_button_cuts_a_model_into_parts(window):
     window.look_at_model()
     window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
     window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1 "
-                "and bpy.context.window_manager.koebe_uv.islands[0].parts > 1", 30.0)  # fmt: skip
+                "and bpy.context.window_manager.koebe_uv.islands[0].parts > 1", 240.0)  # fmt: skip
     window.show_textures()
     window.picture_of_uvs("60_parts")
     entry = "bpy.context.window_manager.koebe_uv.islands[0]"

@@ -44,7 +44,8 @@ def test_a_good_map_asks_for_nothing(addon):
 
 
 @pytest.mark.parametrize("bad, name, advice", [
-    ({"density": 50.0}, "Evenness", "raise Even, or choose Shape: Parts"),
+    ({"density": 50.0}, "Evenness", "with Shape: Disk raise Even, or choose Shape: Parts"),
+    ({"density": 50.0, "domain": "ring"}, "Evenness", "uneven: raise Even, or choose Shape: Parts"),
     ({"density": 50.0, "parts": 3}, "Evenness", "slider Parts"),
     ({"density": 50.0, "domain": "sphere"}, "Evenness", "always has uneven texels"),
     ({"density": 5e6}, "Evenness", "Shape: Parts"),

@@ -127,7 +127,7 @@ Subcommand add_compare(CLI::App& app)
     CLI::App* options = app.add_subcommand("compare", "how far apart the conformal modules of two surfaces are");
     add_input(*options, request->first, "surface with holes", "A", "; or a folder of them, with --csv")
         ->required(false);
-    options->add_option("B", request->second, "surface with as many holes");
+    options->add_option("B", request->second, "surface with the same number of holes");
     options
         ->add_option("--loops", request->loops,
                      "match: search for the corresponding loops; length: loops correspond by length")
@@ -136,8 +136,8 @@ Subcommand add_compare(CLI::App& app)
     options->add_flag("--any-outer", request->any_outer,
                       "with match: the outer loop of one surface may correspond to a hole of the other surface");
     add_family_options(*options, *request,
-                       "a row each pair of the folder's shapes, in one order of the loops: so the triangle inequality "
-                       "holds",
+                       "a row for each pair of the folder's shapes. All have one order of the loops, so the triangle "
+                       "inequality holds",
                        "the meshes make, from maps of finer meshes");
     const CLI::Option* json =
         options->add_option("--json", request->json, "both modules as JSON: there, or in place of the line on stdout")

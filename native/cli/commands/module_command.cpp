@@ -143,8 +143,8 @@ void add_certified_options(CLI::App& app, ModuleRequest& request)
 {
     std::vector<CLI::Option*> of_map = app.get_options();
     CLI::Option* certified = app.add_flag("--certified", request.certified,
-                                          "bounds that are proved, of capacities between loops; for a ring of its "
-                                          "modulus and r_1 too");
+                                          "proved bounds for the capacities between loops, and for a ring's "
+                                          "modulus and r_1");
     for (CLI::Option* option : of_map)
         if (const std::string name = option->get_name(); name != "IN" && name != "--help" && name != "--threads")
             certified->excludes(option);
@@ -171,9 +171,10 @@ Subcommand add_module(CLI::App& app)
         ->delimiter(',')
         ->type_name("length|canonical|RANKS")
         ->capture_default_str();
-    add_family_options(*options, *request,
-                       "a table instead of JSON: a row a shape, the loops of all in the order of the reference's",
-                       "the mesh makes, each from a map of a finer mesh");
+    add_family_options(
+        *options, *request,
+        "a table instead of JSON: a row for each shape, with its loops in the order of the reference's loops",
+        "the mesh makes, each from a map of a finer mesh");
     options->add_flag("--any-outer", request->any_outer, "with canonical: any loop may be the outer one");
     add_options(*options, "shapes", request->options);
     add_certified_options(*options, *request);

@@ -145,7 +145,7 @@ Subcommand add_transfer(CLI::App& app)
     CLI::App* options =
         app.add_subcommand("transfer", "the points of surface A on surface B, through the two circle domains");
     add_input(*options, request->first, "surface with holes", "A");
-    options->add_option("B", request->second, "surface with as many holes")->required();
+    options->add_option("B", request->second, "surface with the same number of holes")->required();
     add_output(*options, request->output, "OBJ or PLY to write: A's faces, with A's vertices moved onto B");
     options->add_flag("--no-fit", request->aligned_only,
                       "only lay the domains over each other: bend no hole onto another hole");
