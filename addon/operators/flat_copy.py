@@ -32,8 +32,8 @@ PAGES = [
 ]  # fmt: skip
 PIECES = [
     ("UVS", "UV Layout", "The islands of the UV layer as they are, with the surface's area"),
-    ("TRUE", "True to Size", "The surface is cut anew, along its seams and where it bends, and keeps its lengths as well "
-     "as it can: for cloth, leather, paper or sheet metal. The UVs stay as they are"),
+    ("TRUE", "True to Size", "The surface is cut anew, along its seams and where it bends, and keeps its lengths as "
+     "well as it can: for cloth, leather, paper or sheet metal. The UVs stay as they are"),
 ]  # fmt: skip
 
 
