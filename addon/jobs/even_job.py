@@ -16,8 +16,10 @@ class EvenJob:
     """A preview of one object's UV layer. In Object Mode."""
 
     def __init__(self, obj: MeshObject, layer: str, round: bool) -> None:
-        """Read the object. @param layer without a name, or not there: the active one. Raises NativeError, TransferError,
-        MapError."""
+        """Read the object. @param layer without a name, or not there: the active one.
+
+        Raises NativeError, TransferError, MapError.
+        """
         koebe = native_package.load()
         check_mesh(obj)
         if layer not in obj.data.uv_layers:

@@ -56,8 +56,22 @@ class EvenDrag:
 
 @dataclasses.dataclass
 class _Dial:
+    """An island, and the box in which it lay at first."""
+
     island: Island
     native: Any
+    middle: np.ndarray
+    extent: float
+
+    def put_back(self, points: np.ndarray) -> np.ndarray:
+        """The points (n, 2), moved and scaled so that they are in the middle of that box, and as large as it is."""
+        middle, extent = _box(points)
+        return (points - middle) * (self.extent / extent) + self.middle
+
+
+def _box(points: np.ndarray) -> tuple[np.ndarray, float]:
+    low, high = points.min(axis=0), points.max(axis=0)
+    return 0.5 * (low + high), max(float((high - low).max()), 1e-300)
 
 
 class EvenPreview:
@@ -77,7 +91,7 @@ class EvenPreview:
             except koebe.KoebeError as error:
                 reasons.append(str(error))
                 continue
-            self._dials.append(_Dial(island, dial))
+            self._dials.append(_Dial(island, dial, *_box(places)))
         if not self._dials:
             raise MapError(reasons[0] if reasons else "it has no UVs: map it first")
 
@@ -85,6 +99,6 @@ class EvenPreview:
         """Some steps towards E: the largest way of a UV. Raises `koebe.Cancelled`."""
         before = self.uv.copy()
         for one in self._dials:
-            points = one.native.move(even, steps=STEPS, cancel=self._cancel)
+            points = one.put_back(one.native.move(even, steps=STEPS, cancel=self._cancel))
             self.uv[one.island.corners] = points[one.island.corner_vertex]
         return float(np.abs(self.uv - before).max(initial=0.0))

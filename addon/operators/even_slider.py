@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that drags the slider Even, and shows the UVs at once."""
 
+import contextlib
+
 import bpy
 
 from ..blender.errors import TransferError
@@ -108,10 +110,8 @@ class UV_OT_koebe_even(bpy.types.Operator):
         """End the computation and restore the UVs: after Esc, or when Blender ends the operator."""
         self._job.cancel_token.cancel()
         if self._worker is not None:
-            try:
+            with contextlib.suppress(Exception):  # it was cancelled, or nobody needs this step any more
                 self._worker.result()
-            except Exception:  # noqa: BLE001, S110  (cancelled, or an error of a step that nobody needs)
-                pass
             self._worker = None
         context.window_manager.event_timer_remove(self._timer)
         context.workspace.status_text_set(None)
@@ -119,7 +119,8 @@ class UV_OT_koebe_even(bpy.types.Operator):
         redraw(context)
 
     def _say(self, context: bpy.types.Context) -> None:
-        text = f"Koebe UV: Even {self._drag.even:.2f}      Click or Enter: Unwrap So      Shift: Slowly      Esc: Cancel"
+        keys = "Click or Enter: Unwrap So      Shift: Slowly      Esc: Cancel"
+        text = f"Koebe UV: Even {self._drag.even:.2f}      {keys}"
         context.workspace.status_text_set(text)
 
 
