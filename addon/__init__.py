@@ -22,6 +22,7 @@ def _parts() -> tuple[ModuleType, ...]:
         compare_shapes,
         distortion,
         domains,
+        even_slider,
         fill_holes,
         flat_copy,
         moebius,
@@ -48,7 +49,7 @@ def _parts() -> tuple[ModuleType, ...]:
     return (
         option_properties, run_report, saved_report, moved_circles, shape_report,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
-        compare_shapes, carry_texture, option_presets, moebius, symmetrize, flat_copy,
+        compare_shapes, carry_texture, option_presets, moebius, symmetrize, flat_copy, even_slider,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 

@@ -15,6 +15,8 @@ FLAGS = {
     "Target: Attributes": "--sequence-target attribute",
     "set Balance to Area": "take --balance area",
     "set Even to 0": "take --even 0",
+    "set Even above 0": "take --even above 0",
+    "Even above 0": "--even above 0",
     "set Holes to Circles": "take --holes circles",
     "choose another layer name": "choose another name with --layer",
     "layer: ": "--layer: ",

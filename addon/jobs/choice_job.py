@@ -25,6 +25,10 @@ class ChoiceJob(Job):
         self._begin()
         super().__init__(objects, options, selected_only, refused)
 
+    @property
+    def _importance(self) -> str:
+        return str(getattr(self.choice, "importance", ""))
+
     def _begin(self) -> None:
         """Prepare before the objects are read."""
 

@@ -72,10 +72,15 @@ class Job:
                 raise TransferError(
                     f"{what} is Active Vertex, but no vertex is active: in Edit Mode, select a vertex {where}"
                 )
-        if options.importance:
+        if self._importance:
             self._even_importance()
         self.cancel_token = self.koebe.CancelToken()
         self.outcomes: list[Any] = LATER  # of a subclass of `Outcome`
+
+    @property
+    def _importance(self) -> str:
+        """The vertex group, or empty."""
+        return str(self.options.importance)
 
     def _add(self, obj: MeshObject) -> None:
         check_mesh(obj)
@@ -83,8 +88,9 @@ class Job:
         if not surface.selected.any():
             return
         self._check_room(obj)
+        task = self._task(obj, surface)
         self.targets.append(Target.of(obj))
-        self.tasks.append(self._task(obj, surface))
+        self.tasks.append(task)
 
     def _surface(self, obj: MeshObject) -> Surface:
         return mesh_reading.read_surface(obj, self.selected_only)
@@ -96,7 +102,7 @@ class Job:
             outer = "auto" if vertex is None else vertex
         mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
         center, point = (self._place(obj, wanted) for wanted in (self.options.center, self.options.point))
-        importance = mesh_reading.vertex_weights(obj, self.options.importance) if self.options.importance else None
+        importance = mesh_reading.vertex_weights(obj, self._importance) if self._importance else None
         return Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
 
     def _check_room(self, obj: MeshObject) -> None:
@@ -107,9 +113,7 @@ class Job:
         """Subtract the least importance over all objects; without the group it is 0. Raises TransferError."""
         known = [task.importance for task in self.tasks if task.importance is not None]
         if not known:
-            raise TransferError(
-                f"Importance is the vertex group {self.options.importance!r}, but no object has this group"
-            )
+            raise TransferError(f"Importance is the vertex group {self._importance!r}, but no object has this group")
         least = min(float(one.min()) for one in known) if len(known) == len(self.tasks) else 0.0
         self.tasks = [
             dataclasses.replace(task, importance=None if task.importance is None else task.importance - least)

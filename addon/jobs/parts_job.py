@@ -14,6 +14,7 @@ from ..maps.options import PartsChoice
 from ..maps.outcomes import Progress, Task
 from ..maps.parts import PartsOutcome, cut_into_parts
 from ..maps.surface import Surface
+from ..maps.uv_density import mean_density
 from .choice_job import ChoiceJob
 
 
@@ -29,7 +30,20 @@ class PartsJob(ChoiceJob):
 
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
         show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None
-        return dataclasses.replace(super()._task(obj, surface), show=show)
+        like = self._density_of_layer(obj, surface) if self.choice.texels == "layer" else None
+        return dataclasses.replace(super()._task(obj, surface), show=show, like=like)
+
+    def _density_of_layer(self, obj: MeshObject, surface: Surface) -> float:
+        """The mean density of the layer that the parts shall be like. Raises TransferError."""
+        active = obj.data.uv_layers.active
+        layer = self.choice.like or (active and active.name)
+        if not layer or layer not in obj.data.uv_layers:
+            missing = f"it has no UV layer {layer!r}" if layer else "it has no UVs"
+            raise TransferError(f"{obj.name}: {missing} whose density the parts could get: choose another layer")
+        density = mean_density(surface, mesh_reading.read_layer(obj, layer))
+        if not density > 0.0:
+            raise TransferError(f"{obj.name}: the UV layer {layer!r} has no area: choose another layer")
+        return density
 
     def _map(self, task: Task, progress: Progress | None) -> PartsOutcome:
         return cut_into_parts(self.koebe, task, self.choice, progress, self.cancel_token)

@@ -69,8 +69,11 @@ class FlatLayout:
         return f"true to scale: {text}" if self.is_true else f"not true to scale: {text}"
 
 
-def flat_layout(surface: Surface, uv: np.ndarray) -> FlatLayout:
-    """The layout of UVs (C, 2) of the surface's corners, cut where the UVs are cut. Raises FlatError without UVs."""
+def flat_layout(surface: Surface, uv: np.ndarray, scale: float | None = None) -> FlatLayout:
+    """The layout of UVs (C, 2) of the surface's corners, cut where the UVs are cut. Raises FlatError without UVs.
+
+    scale  length per unit of the UVs; None: as large as the surface in the mean of the areas
+    """
     if not np.isfinite(uv).all():
         raise FlatError("its UVs are not finite")
     plane = uv.astype(np.float64)
@@ -88,7 +91,8 @@ def flat_layout(surface: Surface, uv: np.ndarray) -> FlatLayout:
     on_surface, total = areas(in_space, triangles).sum(), np.abs(signed_areas(plane[source], triangles)).sum()
     if not on_surface > 0.0:
         raise FlatError("all faces have area 0")
-    scale = float(np.sqrt(on_surface / total))
+    if scale is None:
+        scale = float(np.sqrt(on_surface / total))
     points = scale * plane[source]
     points -= points.min(axis=0)
     starts, ends = vertex[corners], vertex[next_corners(surface)[corners]]

@@ -68,6 +68,19 @@ def cut_into_islands(surface: Surface) -> list[Island]:
     return _split(surface, corners, at, corner_face, corner_root, face_root)
 
 
+def put_together(surface: Surface, islands: list[Island]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The islands as one mesh, open at the seams: positions (n, 3), the vertex (C,) at each corner of the islands, and
+    the surface's vertex (n,) for each vertex."""
+    vertex_of_corner = np.zeros(len(surface.corner_vertex), dtype=np.int32)
+    positions, sources, count = [np.zeros((0, 3))], [np.zeros(0, dtype=np.int32)], 0
+    for island in islands:
+        vertex_of_corner[island.corners] = island.corner_vertex + count
+        positions.append(island.vertices)
+        sources.append(island.source_vertex)
+        count += len(island.vertices)
+    return np.concatenate(positions), vertex_of_corner, np.concatenate(sources)
+
+
 def _neighbours(surface: Surface, corners: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pairs of corners whose edges are the same edge of two faces, and not a seam."""
     # Of several writes to one place the last stays.

@@ -246,7 +246,7 @@ def _map_island(
             arguments["balance"] = "none"  # the balance would choose the centre as well
         if vertices.get("point") is not None:
             places.check_point(island, vertices["point"])
-        if importance is not None and arguments["balance"] == "area":
+        if importance is not None and (arguments["balance"] == "area" or arguments["even"] > 0.0):
             arguments["importance"] = importance
         one.result = koebe.uniformize(
             island.vertices,

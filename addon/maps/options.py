@@ -49,8 +49,14 @@ class Chosen:
         for row in self.rows:
             if problem := row.problem(getattr(self, row.name)):
                 raise OptionError(row.name, problem)
+        self._check_importance()
         if getattr(self, "even", 0.0) and getattr(self, "holes", "circles") != "circles":
             raise OptionError("even", "it does not work with slits: set Holes to Circles")
+
+    def _check_importance(self) -> None:
+        """Raises OptionError if there is importance and nothing that it weighs."""
+        if getattr(self, "importance", "") and not self.even > 0.0:
+            raise OptionError("importance", "it needs Even: set Even above 0")
 
     def solver_arguments(self) -> dict[str, Any]:
         """Keyword arguments of the solver's function, except vertices and values computed for each island."""
@@ -90,23 +96,32 @@ class Options(Chosen):
         super().__post_init__()
         if self.symmetry != "off" and (self.center != "auto" or self.point != "auto"):
             raise OptionError("symmetry", "it does not work with Centre or Rim Point")
-        if self.importance and self.balance != "area":
-            raise OptionError("importance", "it needs Balance: set Balance to Area")
         if self.even > 0.0 and self.symmetry != "off":
             raise OptionError("even", "it does not work with Symmetry: set Even to 0")
         if self.even > 0.0 and self.center != "auto":
             raise OptionError("even", "it does not work with Centre: set Even to 0")
         _check_layer_name(self.layer)
 
+    def _check_importance(self) -> None:
+        if self.importance and self.balance != "area" and not self.even > 0.0:
+            raise OptionError("importance", "it needs Balance: set Balance to Area, or Even above 0")
+
 
 @of_map("parts", *OF_RUNS)
 class PartsChoice(Chosen):
     """How a surface is cut into parts."""
 
+    def _check_importance(self) -> None:
+        """Parts as wholes obey it always."""
+
     def solver_arguments(self) -> dict[str, Any]:
-        """As of `Chosen`. Without `even` the solver keeps the angles."""
+        """As of `Chosen`. Without `even` the solver keeps the angles, without `density` it fills the square."""
         arguments = super().solver_arguments()
-        return {**arguments, "even": None} if self.keep_angles else arguments
+        if self.keep_angles:
+            arguments["even"] = None
+        if self.texels != "number":
+            arguments["density"] = None
+        return arguments
 
 
 @dataclasses.dataclass(frozen=True)

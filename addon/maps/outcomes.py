@@ -33,7 +33,8 @@ class Task:
     `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `center` and `point` are the
     vertices for the disk's centre and its right end; `old_uv` (C, 2) are the UVs of the surface's corners for the
     placement "keep"; `mirrored`: its object's scale is negative; `pinned`: UVs of the layer to write are pinned.
-    `importance` (V,) in [0, 1] weighs the balance. `show` (V,) in [0, 1]: cuts of parts keep away from 1. `picked` (V,)
+    `importance` (V,) in [0, 1] weighs the sizes of faces. `show` (V,) in [0, 1]: cuts of parts keep away from 1.
+    `like` is the density that parts get: sides of the UV square per unit of length. `picked` (V,)
     bool are vertices that choose the rims of rings.
     """
 
@@ -47,6 +48,7 @@ class Task:
     point: Place = None
     importance: np.ndarray | None = None
     show: np.ndarray | None = None
+    like: float | None = None
     picked: np.ndarray | None = None
 
 

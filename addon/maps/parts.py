@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from .islands import cut_into_islands
+from .islands import cut_into_islands, put_together
 from .mapping import failing_alone
 from .options import PartsChoice
 from .outcomes import LATER, Outcome, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
 from .stored import LostAreaError
-from .surface import Surface, next_corners
+from .surface import next_corners
 from .triangles import covered
 from .wording import counted, density_text, in_mesh
 
@@ -133,44 +133,47 @@ def cut_into_parts(
     Errors are stored in the outcome; `koebe.Cancelled` is raised.
     """
     surface, arguments = task.surface, {"price": price_of(choice.evenness), **choice.solver_arguments()}
+    if task.like is not None:
+        arguments["density"] = task.like * choice.pixels
     if choice.seams == "only":
         arguments |= {"price": NO_CUTS, "darts": 0.0}
     one = PartsIsland()
     slits = tube_slits(surface, cut_into_islands(surface))
     with failing_alone(koebe, [one]):
         if slits.any():
-            _map(koebe, one, surface, slits, task.show, arguments, progress, cancel)
+            _map(koebe, one, task, slits, arguments, progress, cancel)
         if not slits.any() or (inner_seams(surface) & ~one.cuts).any():
-            _map(koebe, one, surface, np.zeros_like(slits), task.show, arguments, progress, cancel)
+            _map(koebe, one, task, np.zeros_like(slits), arguments, progress, cancel)
     return PartsOutcome(task, [one])
+
+
+def _weights(task: Task, source: np.ndarray) -> dict[str, np.ndarray]:
+    """The task's weights of vertices, for the solver's vertices."""
+    given = {"show": task.show, "importance": task.importance}
+    return {name: weights[source] for name, weights in given.items() if weights is not None}
 
 
 def _map(
     koebe: ModuleType,
     one: PartsIsland,
-    surface: Surface,
+    task: Task,
     slits: np.ndarray,
-    show: np.ndarray | None,
     arguments: dict[str, Any],
     progress: Progress | None,
     cancel: Any,
 ) -> None:
     """Fill in the result. @param slits (E,) bool, seams that are cut only where a tube is opened."""
-    vertex_of_corner = np.zeros(len(surface.corner_vertex), dtype=np.int32)
-    positions, sources, count = [], [], 0
-    for island in cut_into_islands(dataclasses.replace(surface, seam=surface.seam & ~slits)):
-        vertex_of_corner[island.corners] = island.corner_vertex + count
-        positions.append(island.vertices)
-        sources.append(island.source_vertex)
-        count += len(island.vertices)
+    surface = task.surface
+    islands = cut_into_islands(dataclasses.replace(surface, seam=surface.seam & ~slits))
+    positions, vertex_of_corner, source = put_together(surface, islands)
     chosen = surface.selected[surface.triangle_face]
     corners = surface.triangle_corners[chosen]
     on_slit = np.flatnonzero(slits[surface.corner_edge] & np.repeat(surface.selected, surface.face_size))
     ends = np.stack([on_slit, next_corners(surface)[on_slit]], axis=1)
-    one.numbers = Numbers(surface.triangle_face[chosen], np.concatenate(sources))
+    one.numbers = Numbers(surface.triangle_face[chosen], source)
     result = koebe.parts(
-        np.concatenate(positions), vertex_of_corner[corners], polygon=one.numbers.triangle_face,
-        slits=vertex_of_corner[ends], show=None if show is None else show[one.numbers.source_vertex],
+        positions, vertex_of_corner[corners], polygon=one.numbers.triangle_face,
+        slits=vertex_of_corner[ends], **_weights(task, one.numbers.source_vertex),
         progress=progress, cancel=cancel, **arguments,
     )  # fmt: skip
     if result.lost_area > arguments["most_lost"]:

@@ -51,6 +51,8 @@ class TileIsland(DomainIsland):
         if choice.domain.name == "ring":
             outer, inner = rims_of(self.island, loops, choice.rims, task.picked)
             arguments = {"outer": outer, "inner": inner}
+        if task.importance is not None:
+            arguments["importance"] = task.importance[self.island.source_vertex]
         result = self._solve(koebe, choice, **arguments, **run)
         self.tile = fitted(result.uv, self.island.triangles, result.periods, choice.fit)
         self.take_corners(task.surface, self.tile.uv)

@@ -3,27 +3,65 @@
 
 import os
 from pathlib import Path
+from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
+from mathutils import Vector
 
 from ..blender.copied_object import add_copied_object
 from ..blender.targets import attempt, target_objects
 from ..blender.transaction import Transaction, transaction
-from ..jobs.flat_job import Flat, read_flat
+from ..jobs.flat_job import Flat, FlattenJob, read_flat
+from ..maps.flat_pattern import FlatPattern
 from ..maps.flat_svg import flat_svg
-from ..maps.wording import few, lines
-from .modal_run import OperatorBase
+from ..maps.wording import counted, few, lines
+from ..solver.errors import NativeError
+from .modal_run import ModalRun
 from .polls import has_targets
 from .tooltip import tooltip
 
 GAP = 0.05  # of a layout's width, between two objects
+BESIDE = 0.1  # of an object's width, between the objects and their flat pieces
 LAYER = "UV layer that is laid flat. Without a name, the active layer"
+PAGES = [
+    ("A4", "210 × 297 mm"), ("A3", "297 × 420 mm"), ("A2", "420 × 594 mm"), ("A1", "594 × 841 mm"),
+    ("A0", "841 × 1189 mm"), ("letter", "8.5 × 11 inches"), ("tabloid", "11 × 17 inches"),
+    ("none", "One sheet, as large as it needs to be"),
+]  # fmt: skip
+PIECES = [
+    ("UVS", "UV Layout", "The islands of the UV layer as they are, with the surface's area"),
+    ("TRUE", "True to Size", "The surface is cut anew, along its seams and where it bends, and keeps its lengths as "
+     "well as it can: for cloth, leather, paper or sheet metal. The UVs stay as they are"),
+]  # fmt: skip
 
 
-class FlatOperator(OperatorBase):
-    """The common part of both operators."""
+def pieces_option() -> Any:
+    return EnumProperty(name="Pieces", items=PIECES, default="UVS", description="What is laid flat")
+
+
+class FlatOperator(ModalRun):
+    """The common part of both operators. UV layouts are read at once. Pieces true to size are computed, and Esc ends
+    that."""
+
+    pieces: str
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if self.pieces == "TRUE":
+            return super().execute(context)
+        return self._as_they_are(context)
+
+    def _as_they_are(self, context: bpy.types.Context) -> set[str]:
+        raise NotImplementedError
+
+    def _flatten(self, context: bpy.types.Context, **options: Any) -> FlattenJob | None:
+        context.evaluated_depsgraph_get()  # updates the objects' world matrices
+        try:
+            return FlattenJob(target_objects(context), **options)
+        except NativeError as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return None
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -46,21 +84,44 @@ class FlatOperator(OperatorBase):
 
 
 class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
-    """Make a flat mesh object of the UV layout, as large as the surface. It has the same faces, is cut where the UVs
-    are cut, and lies at the 3D cursor. A message says how far its lengths are off"""
+    """Make a flat mesh object of the UV layout, at the 3D cursor, or of pieces that are cut anew and true to size,
+    beside the object. It has the same faces. A message says how far its lengths are off"""
 
     bl_idname = "object.koebe_flat_copy"
     bl_label = "Koebe Flat Copy"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
+    pieces: pieces_option()
     layer: StringProperty(name="UV Layer", description=LAYER)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        return self.execute(context) if self.pieces == "UVS" else super().invoke(context, event)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        self.layout.prop(self, "pieces")
+        if self.pieces == "UVS":
+            self.layout.prop(self, "layer")
+
+    def _job(self, context: bpy.types.Context) -> FlattenJob | None:
+        return self._flatten(context)
+
+    def _finish(self, context: bpy.types.Context, job: FlattenJob) -> set[str]:
+        flats = job.flats()
+        return self._lay(context, flats, job.problems, _place_beside(flats))
+
+    def _as_they_are(self, context: bpy.types.Context) -> set[str]:
+        found, problems = self._read(context, self.layer)
+        return self._lay(context, found, problems, tuple(context.scene.cursor.location))
+
+    def _lay(
+        self, context: bpy.types.Context, found: list[Flat], problems: list[str], corner: tuple[float, float, float]
+    ) -> set[str]:
+        """Add the copies in a row, from the corner on."""
         with transaction() as run:
-            found, problems = self._read(context, self.layer)
             done, made = [], []
-            x, y, z = context.scene.cursor.location
+            x, y, z = corner
             for flat in found:
                 with attempt(run, flat.obj.name, problems):
                     place = (x, y, z)
@@ -71,6 +132,16 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
             if made:
                 _select_only(run, context, made)
             return self._say(done, problems, "")
+
+
+def _place_beside(flats: list[Flat]) -> tuple[float, float, float]:
+    """A place at the right of all the objects, at the height of the first."""
+    if not flats:
+        return 0.0, 0.0, 0.0
+    boxes = [flat.obj.matrix_world @ Vector(corner) for flat in flats for corner in flat.obj.bound_box]
+    left, right = min(corner.x for corner in boxes), max(corner.x for corner in boxes)
+    origin = flats[0].obj.matrix_world.translation
+    return right + BESIDE * max(right - left, float(flats[0].layout.points[:, 0].max())), origin.y, origin.z
 
 
 def _select_only(run: Transaction, context: bpy.types.Context, made: list[bpy.types.Object]) -> None:
@@ -91,17 +162,17 @@ def _restore_selection(layer: bpy.types.ViewLayer, chosen: list[str], active: st
 
 
 class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
-    """Write the UV layout as a drawing for cutting and engraving: outlines and holes of the islands in millimetres, as
-    large as the surface. A message says how far the lengths are off"""
+    """Write the UV layout as a drawing for cutting and engraving, in millimetres and as large as the surface, or a
+    pattern that is cut anew, true to size, on pages. A message says how far the lengths are off"""
 
     bl_idname = "uv.koebe_flat_svg"
     bl_label = "Koebe Flat SVG"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER"}
 
-    filename_ext = ".svg"
-    filepath: StringProperty(name="File", subtype="FILE_PATH", description="SVG file to write")
-    filter_glob: StringProperty(default="*.svg", options={"HIDDEN"})
+    filepath: StringProperty(name="File", subtype="FILE_PATH", description="File to write")
+    filter_glob: StringProperty(default="*.svg;*.dxf", options={"HIDDEN"})
+    pieces: pieces_option()
     layer: StringProperty(name="UV Layer", description=LAYER)
     scale: FloatProperty(
         name="Scale",
@@ -115,17 +186,87 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
         name="Edges", default=False, description="Draw the edges between faces too, in black, for engraving"
     )
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    page: EnumProperty(
+        name="Page", items=[(name, name, text) for name, text in PAGES], default="A4", description="Size of a page"
+    )
+    allowance: FloatProperty(
+        name="Allowance",
+        default=0.0,
+        min=0.0,
+        max=100.0,
+        description="Millimetres round each piece, outside of the line where it is sewn",
+    )
+    drawing: EnumProperty(
+        name="Format",
+        items=[("SVG", "SVG", "A file for each page"), ("DXF", "DXF", "One file, for cutting machines")],
+        default="SVG",
+        description="Format of the pattern",
+    )
+
+    @property
+    def filename_ext(self) -> str:
+        """Of the file, for Blender."""
+        return ".dxf" if self.pieces == "TRUE" and self.drawing == "DXF" else ".svg"
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        return ExportHelper.invoke(self, context, event)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.use_property_split = True
+        own = ("layer", "scale", "edges") if self.pieces == "UVS" else ("scale", "page", "allowance", "drawing")
+        for name in ("pieces", *own):
+            self.layout.prop(self, name)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """The file browser was closed: nothing runs."""
+
+    def _millimetres(self, context: bpy.types.Context) -> float:
+        return 1000.0 * context.scene.unit_settings.scale_length * self.scale
+
+    def _job(self, context: bpy.types.Context) -> FlattenJob | None:
+        options = {"page": self.page, "allowance": self.allowance}
+        return self._flatten(context, millimetres=self._millimetres(context), **options)
+
+    def _finish(self, context: bpy.types.Context, job: FlattenJob) -> set[str]:
+        patterns = job.patterns()
+        if not patterns:
+            self.report({"ERROR"}, lines("Koebe UV: nothing was laid flat.", job.problems))
+            return {"CANCELLED"}
+        path, written = Path(self.filepath), []
+        for number, (name, pattern) in enumerate(patterns):
+            own = path if number == 0 else path.with_name(f"{path.stem} {bpy.path.clean_name(name)}{path.suffix}")
+            try:
+                written.append(_write_pages(own, self._pages(pattern)))
+            except OSError as error:
+                self.report({"ERROR"}, f"Koebe UV: {own}: {error.strerror or error}")
+                return {"CANCELLED"}
+        for (name, pattern), text in zip(patterns, written, strict=True):
+            self.report({"INFO"}, f"{name}: {pattern.describe()}; {text}")
+        if job.problems:
+            self.report({"WARNING"}, "Koebe UV: left out. " + few(job.problems))
+        return {"FINISHED"}
+
+    def _pages(self, pattern: FlatPattern) -> list[str]:
+        return [pattern.result.dxf] if self.drawing == "DXF" else pattern.result.svg
+
+    def _as_they_are(self, context: bpy.types.Context) -> set[str]:
         found, problems = self._read(context, self.layer)
         if found:
-            millimetres = 1000.0 * context.scene.unit_settings.scale_length * self.scale
-            text = flat_svg([(flat.obj.name, flat.layout) for flat in found], millimetres, self.edges)
+            layouts = [(flat.obj.name, flat.layout) for flat in found]
+            text = flat_svg(layouts, self._millimetres(context), self.edges)
             try:
                 _write_whole(Path(self.filepath), text)
             except OSError as error:
                 self.report({"ERROR"}, f"Koebe UV: {self.filepath}: {error.strerror or error}")
                 return {"CANCELLED"}
         return self._say(found, problems, f"; {self.filepath}")
+
+
+def _write_pages(path: Path, pages: list[str]) -> str:
+    """Write each page to a file, the second one to NAME-2. Returns what was written, in words."""
+    for number, page in enumerate(pages, 1):
+        _write_whole(path if number == 1 else path.with_name(f"{path.stem}-{number}{path.suffix}"), page)
+    return str(path) if len(pages) == 1 else f"{counted(len(pages), 'page')}, {path} and after it"
 
 
 def _write_whole(path: Path, text: str) -> None:

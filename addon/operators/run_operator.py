@@ -19,14 +19,22 @@ from .modal_run import ModalRun, redraw
 from .select_from_report import select_offenders
 
 
+def takes_parts(options: Any) -> bool:
+    """Whether the map is one into parts, or may be."""
+    return hasattr(options, "keep_angles") and getattr(options, "shape", "PARTS") in {"AUTO", "PARTS"}
+
+
 def keeps_angles(options: Any) -> bool:
     """Whether the evenness of parts follows from their angles."""
-    return getattr(options, "keep_angles", False) and getattr(options, "shape", "PARTS") in {"AUTO", "PARTS"}
+    return takes_parts(options) and options.keep_angles
 
 
 NEEDS = {  # options that matter only with certain values of others
     "margin": lambda options: options.placement != "keep",
-    "importance": lambda options: options.balance == "area",
+    "importance": lambda options: options.balance == "area" or options.even > 0.0 or takes_parts(options),
+    "density": lambda options: options.texels == "number",
+    "pixels": lambda options: options.texels == "number",
+    "like": lambda options: options.texels == "layer",
     "evenness": lambda options: options.seams == "add",
     "even": lambda options: not keeps_angles(options),
     "loops": lambda options: keeps_angles(options) or options.even > 0.0,

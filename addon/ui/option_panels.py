@@ -69,6 +69,7 @@ class PartsPanel(ClosedPanel):
         column, settings = self.aligned_layout().column(), settings_of(context)
         column.prop(settings, "darts")
         draw_weights(column, settings, "show", context)
+        draw_weights(column, settings, "importance", context)
         for name in ("seams", "write_seams"):
             column.prop(settings, name)
 
@@ -116,6 +117,9 @@ class LayerPanel(ClosedPanel):
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
         for name in ("layer", "placement", "margin", "checker", "checker_size"):
+            draw_option(column, settings, name, context)
+        column.prop(settings, "texels")
+        for name in {"number": ("density", "pixels"), "layer": ("like",)}.get(settings.texels, ()):
             draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)

@@ -7,6 +7,7 @@ from ..blender import checker, distortion_attribute
 from ..blender.targets import target_objects
 from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
+from ..operators.even_slider import UV_OT_koebe_even
 from ..operators.run_operator import is_used
 from ..operators.unwrap import MAPS
 from ..state.option_properties import KoebeSettings, option_names, settings_of
@@ -51,6 +52,7 @@ def draw_dials(column: bpy.types.UILayout, settings: KoebeSettings) -> None:
         row = column.row()
         row.active = is_used(settings, "even")
         row.prop(settings, "even", slider=True)
+        column.operator(UV_OT_koebe_even.bl_idname, text="Drag Even", icon="ARROW_LEFTRIGHT")
 
 
 def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:

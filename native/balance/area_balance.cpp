@@ -1,5 +1,7 @@
 #include "balance/area_balance.h"
 
+#include "surface/importance.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -38,16 +40,6 @@ FaceScales scales_after(const FaceScales& scales, const Moebius& map)
 }
 
 }  // namespace
-
-VectorXd importance_factors(const Triangles& triangles, const VectorXd& importance)
-{
-    VectorXd factors(triangles.rows());
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const double sum = importance[triangles(f, 0)] + importance[triangles(f, 1)] + importance[triangles(f, 2)];
-        factors[f] = std::pow(most_important, 2.0 * sum / 3.0);
-    }
-    return factors;
-}
 
 FaceScales face_scales(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv, Eigen::Index most,
                        const VectorXd& importance)

@@ -15,12 +15,6 @@ struct FaceScales {
     VectorXd weights;    ///< (F) area on the surface
 };
 
-/// Texel density (a length over a length) at importance 1 over that at importance 0.
-inline constexpr double most_important = 4.0;
-
-/// (F) factor of each face's area by its importance: most_important^(2 w), w the mean over its vertices.
-VectorXd importance_factors(const Triangles& triangles, const VectorXd& importance);
-
 /// @param most roughly how many faces to pick, evenly; faces without area on the surface or in the map are left out
 /// @param importance (V) 0 to 1, or empty; it multiplies areas on the surface by importance_factors
 FaceScales face_scales(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv, Eigen::Index most,

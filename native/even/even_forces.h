@@ -15,7 +15,8 @@ struct EvenForces {
 
 /// The terms of E_t (even/even_map.h), face by face.
 /// @param vertices (V, 3) in the unit of the points @param triangles (F, 3) @param points (V, 2) without flipped faces
-/// @param even E, 0 to 1
-EvenForces even_forces(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points, double even);
+/// @param even E, 0 to 1 @param sizes as in FlatSurface
+EvenForces even_forces(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points, double even,
+                       const VectorXd& sizes = {});
 
 }  // namespace koebe

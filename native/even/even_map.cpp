@@ -2,8 +2,8 @@
 
 #include "core/errors.h"
 #include "even/void_mesh.h"
+#include "even/wanted_shapes.h"
 #include "foldover/face_energy.h"
-#include "foldover/patch_shapes.h"
 #include "foldover/turn_upright.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
@@ -16,7 +16,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -67,9 +66,7 @@ public:
                 rides[v] = 1;
             }
         if (!flat.periods) turn_upright(flat.vertices, flat.triangles, flat.loops, rides, flat.points, context);
-        std::vector<Index> all(static_cast<std::size_t>(flat.triangles.rows()));
-        std::iota(all.begin(), all.end(), 0);
-        shapes_ = patch_shapes(flat.vertices, flat.triangles, flat.points, all, PatchShape::true_size);
+        shapes_ = wanted_shapes(flat.vertices, flat.triangles, flat.points, flat.sizes);
         if (!apart(flat.points, 0.0)) shortest_ = shortest_drawn * extent;
         for (const int grid : grids)
             if (grid_ == 0 && apart_on_grid(flat.points, grid)) grid_ = grid;

@@ -39,6 +39,7 @@ struct FlatSurface {
     std::vector<Complex>* periods = nullptr;
     /// Refuses steps that leave the domain, for example if circles would meet; empty: refuses no step.
     std::function<bool(const FoldoverPlaces&)> refuses = {};
+    VectorXd sizes = {};  ///< (F) factor of the area that each face should have; empty: 1 (surface/importance.h)
 };
 
 struct EvenEffort {
@@ -54,7 +55,8 @@ struct EvenMap {
 };
 
 /// Minimizes E_t = sum A ((s1^2 + s2^2) / (s1 s2) - 2 + t (s1 s2 + 1 / (s1 s2) - 2)) over the faces. s1 and s2 are the
-/// singular values of a face's map, and A is its area. The first term measures angles (Hormann and Greiner 2000), the
+/// singular values of a face's map, and A is its area, times its factor in `sizes`. The map is from the face in this
+/// size. The first term measures angles (Hormann and Greiner 2000), the
 /// second areas (Degener, Meseth and Klein 2003). No step turns a face over, makes circles of round loops meet, or
 /// makes loops cross. If a step would make loops cross, the void around the map and in its holes is triangulated and
 /// takes part: its faces want to keep their shapes (Jiang, Schaefer and Panozzo 2017).

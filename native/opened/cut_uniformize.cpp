@@ -1,6 +1,5 @@
 #include "opened/cut_uniformize.h"
 
-#include "balance/area_balance.h"
 #include "canonical/corner_map.h"
 #include "core/errors.h"
 #include "execution/peak_memory.h"
@@ -12,6 +11,7 @@
 #include "pipeline/map_input.h"
 #include "pipeline/uniformize.h"
 #include "quality/take_verdict.h"
+#include "surface/importance.h"
 
 #include <Eigen/Geometry>
 

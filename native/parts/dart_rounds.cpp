@@ -4,6 +4,7 @@
 #include "execution/side_by_side.h"
 #include "mesh/connectivity.h"
 #include "parts/darts.h"
+#include "parts/tension.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,10 +80,7 @@ private:
         side_by_side(parts_.size(), threads_, context_, visit);
     }
 
-    EvenForces forces_of(const FlatPart& flat) const
-    {
-        return even_forces(flat.vertices, flat.surface.triangles, flat.points, even_);
-    }
+    EvenForces forces_of(const FlatPart& flat) const { return forces_in(flat, even_); }
 
     void open(std::size_t k, ExecutionContext& context)
     {
@@ -94,10 +92,7 @@ private:
         if (!source) return;
         FlatPart& flat = part.flat;
         hold_both_ends(part.round, *source, parts_[k].flat.points.rows());
-        if (!make_even({flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, part.round}, even_,
-                       packed_side, context, trial_effort)
-                 .moved)
-            return;
+        if (!make_even(flat_surface(flat, part.round), even_, packed_side, context, trial_effort).moved) return;
         if (!survives_storing(flat)) return;
         const VectorXd released = energy_[k] - forces_of(flat).energy;
         trial.gain.assign(trial.darts.size(), 0.0);
@@ -271,6 +266,13 @@ private:
 };
 
 }  // namespace
+
+FlatSurface flat_surface(FlatPart& flat, std::vector<RoundLoop>& round)
+{
+    FlatSurface surface{flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round};
+    surface.sizes = Eigen::Map<const VectorXd>(flat.sizes.data(), static_cast<Eigen::Index>(flat.sizes.size()));
+    return surface;
+}
 
 bool survives_storing(const FlatPart& flat)
 {

@@ -15,6 +15,9 @@ struct HeldPart {
     std::vector<RoundLoop> round;
 };
 
+/// The part for make_even, which moves its points. @param round as in HeldPart
+FlatSurface flat_surface(FlatPart& flat, std::vector<RoundLoop>& round);
+
 /// Whether loops stay apart however their points are rounded: parts are turned and scaled before they are stored. The
 /// rounding is coarser than that of stored UVs.
 bool survives_storing(const FlatPart& flat);

@@ -96,8 +96,7 @@ public:
         std::vector<char> moved(parts_.size(), 0);
         side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
             auto& [flat, round] = parts_[k];
-            const FlatSurface surface{flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round};
-            moved[k] = make_even(surface, even, packed_side, own, effort).moved;
+            moved[k] = make_even(flat_surface(flat, round), even, packed_side, own, effort).moved;
         });
         left_.clear();
         for (std::size_t k = 0; k < moved.size(); ++k)

@@ -12,6 +12,7 @@
 #include "splitting/fine_labels.h"
 #include "splitting/hidden_cuts.h"
 #include "splitting/splitting.h"
+#include "surface/importance.h"
 
 #include <algorithm>
 #include <array>
@@ -287,6 +288,24 @@ std::vector<FlatPiece> flat_pieces(const OpenedSurface& opened, const Vertices& 
     return flats;
 }
 
+/// Tells faces how large they should be, and scales each part to the sum of its faces.
+void ask_for_sizes(const PartsLayout& layout, const std::vector<double>& importance, std::vector<FlatPart>& parts)
+{
+    const Eigen::Map<const VectorXd> own(importance.data(), static_cast<Eigen::Index>(importance.size()));
+    const VectorXd sizes = size_factors(layout.vertices, layout.triangles, own);
+    if (sizes.size() == 0) return;
+    const VectorXd areas = face_areas(layout.vertices, layout.triangles);
+    for (FlatPart& part : parts) {
+        double area = 0.0, wanted = 0.0;
+        for (const Index f : part.faces) {
+            part.sizes.push_back(sizes[f]);
+            area += areas[f];
+            wanted += areas[f] * sizes[f];
+        }
+        if (area > 0.0) part.points *= std::sqrt(wanted / area);
+    }
+}
+
 }  // namespace
 
 std::vector<Index> first_in_place(const Vertices& vertices)
@@ -321,6 +340,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
         layout.maps += piece.maps / static_cast<double>(triangles.rows());
         std::ranges::move(piece.parts, std::back_inserter(mesh.parts));
     }
+    ask_for_sizes(layout, options.importance, mesh.parts);
     context.begin_stage("even", 0.8, 0.9);
     const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
     const EvenOptions evening{options.even, round ? LoopForm::round : LoopForm::free, options.darts,

@@ -23,6 +23,7 @@ struct FlatPart {
     std::vector<std::vector<Index>> rims;  ///< the vertices of this part that each loop became
     std::vector<char> held;                ///< (V) 1 for vertices that stay on the circle or line of their rim
     std::vector<double> shown;             ///< (V) as in CutSurface; empty: nowhere
+    std::vector<double> sizes;             ///< (F) as in FlatSurface; empty: 1
     std::vector<Index> polygon;            ///< (F) faces with the same number are not cut apart; empty: all may be
     double slit = 0.0;                     ///< length of the slit
     std::vector<Index> tips;               ///< tips of the darts (darts.h)

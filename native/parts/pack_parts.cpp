@@ -5,7 +5,12 @@
 #include "parts/packing.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdio>
+#include <string>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -36,16 +41,59 @@ double rim_moved(const FlatPart& flat, const PlanarPoints& from, const PlanarPoi
     return most;
 }
 
+IslandPacking shrunk(IslandPacking packing, double factor)
+{
+    for (IslandPlace& place : packing.places) place.offset *= factor;
+    packing.scale *= factor;
+    packing.margin *= factor;
+    return packing;
+}
+
+/// The largest number of six digits that is not above this one.
+double rounded_down(double number)
+{
+    const double step = std::pow(10.0, std::floor(std::log10(number)) - 5.0);
+    return std::floor(number / step) * step;
+}
+
+std::string in_digits(double number)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", number);
+    return text.data();
+}
+
+[[noreturn]] void throw_too_dense(const WantedScale& wanted, double largest)
+{
+    throw InputError("a density of " + in_digits(wanted.density) +
+                     " pixels per unit does not fit into the square: at most " +
+                     in_digits(rounded_down(wanted.density * largest / wanted.scale)) + " does");
+}
+
+/// At the wanted scale the margin between parts stays, if they leave room for it.
+IslandPacking packed(const std::vector<Outline>& outlines, const std::optional<WantedScale>& wanted)
+{
+    const double room = margin + 2.0 * rim_slack;
+    IslandPacking largest = pack_islands(outlines, room);
+    if (!wanted) return largest;
+    const double factor = wanted->scale / largest.scale;
+    if (factor > 1.0) throw_too_dense(*wanted, largest.scale);
+    if (IslandPacking wider = pack_islands(outlines, room / factor); wider.scale >= wanted->scale)
+        return shrunk(std::move(wider), wanted->scale / wider.scale);
+    return shrunk(std::move(largest), factor);
+}
+
 }  // namespace
 
-std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context)
+std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context,
+                                     const std::optional<WantedScale>& wanted)
 {
     std::vector<PlanarPoints> places(flats.size());
     bool again = true;
     for (int round = 1; again; ++round) {
         std::vector<Outline> outlines;
         for (const FlatPart& flat : flats) outlines.push_back(outline_of(flat));
-        const IslandPacking packing = pack_islands(outlines, margin + 2.0 * rim_slack);
+        const IslandPacking packing = packed(outlines, wanted);
         std::vector<char> outgrown(flats.size(), 0);
         side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
             const PlanarPoints before = place_island(flats[k].points, packing.places[k], packing.scale);

@@ -4,14 +4,23 @@
 #include "execution/execution.h"
 #include "parts/flat_part.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
 
+/// A scale that all parts get, in place of the largest at which they fit.
+struct WantedScale {
+    double scale = 1.0;    ///< sides of the square per unit of the points
+    double density = 1.0;  ///< texel density at this scale, for messages
+};
+
 /// Packs parts into the unit square, then turns flipped faces back there. If that changes an outline, all parts are
 /// packed again. In the last round a repair may not change an outline.
 /// @param flats their kinds and points may change @return for each part its points (V, 2) in [0, 1]^2
-/// @throws SolverError, Cancelled
-std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context);
+/// @param wanted with it the parts lie together at the corner of the square
+/// @throws InputError the parts do not fit at the wanted scale; SolverError, Cancelled
+std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context,
+                                     const std::optional<WantedScale>& wanted = {});
 
 }  // namespace koebe

@@ -18,6 +18,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -31,10 +33,45 @@ double uv_area(const PlanarPoints& uv, Eigen::Index f)
     return 0.5 * (a[0] * b[1] - a[1] * b[0]);
 }
 
+/// The value below which a share of the weight lies. @param values (value, weight), rising; not empty
+double quantile(const std::vector<std::pair<double, double>>& values, double share)
+{
+    double total = 0.0, below = 0.0;
+    for (const auto& [value, weight] : values) total += weight;
+    for (const auto& [value, weight] : values)
+        if ((below += weight) >= share * total) return value;
+    return values.back().first;
+}
+
+/// The median over the area of the parts' lengths over those on the surface, in the unit of their vertices.
+double median_scale(const std::vector<FlatPart>& parts)
+{
+    std::vector<std::pair<double, double>> scales;
+    for (const FlatPart& part : parts) {
+        const VectorXd areas = face_areas(part.vertices, part.surface.triangles);
+        for (Eigen::Index f = 0; f < areas.size(); ++f)
+            if (const double area = signed_area(part.points, part.surface.triangles, f); areas[f] > 0.0)
+                scales.emplace_back(std::sqrt(std::max(area, 0.0) / areas[f]), areas[f]);
+    }
+    std::ranges::sort(scales);
+    return scales.empty() ? 1.0 : quantile(scales, 0.5);
+}
+
+/// @param unit length of the layout's unit in the mesh's
+std::optional<WantedScale> wanted_scale(const FlatMesh& mesh, const PartsOptions& options, double unit)
+{
+    if (!options.density) return {};
+    const double scale = *options.density * unit / options.pixels / median_scale(mesh.parts);
+    if (!std::isfinite(scale) || !(scale > 0.0))
+        throw InputError("the density is too large or too small for this mesh");
+    return WantedScale{scale, *options.density};
+}
+
 /// Texel densities: the ratio of the quantiles, and the area within the best factor 3. Faces without area in the UVs
 /// count as the least dense.
+/// @param pixels_per_unit pixels along the square, over the length of the layout's unit in the mesh's
 void report_density(const PartsLayout& layout, const PlanarPoints& uv, const std::vector<Index>& faces,
-                    PartsResult& result)
+                    double pixels_per_unit, PartsResult& result)
 {
     constexpr double none = -1000.0;
     const VectorXd areas = face_areas(layout.vertices, layout.triangles);
@@ -47,13 +84,9 @@ void report_density(const PartsLayout& layout, const PlanarPoints& uv, const std
         total += areas[f];
     }
     std::ranges::sort(density);
-    const auto quantile = [&](double share) {
-        double below = 0.0;
-        for (const auto& [u, area] : density)
-            if ((below += area) >= share * total) return u;
-        return density.empty() ? 0.0 : density.back().first;
-    };
-    result.density_ratio_5_95 = std::exp(std::min(quantile(0.95) - quantile(0.05), 700.0));
+    if (density.empty()) return;
+    result.density_ratio_5_95 = std::exp(std::min(quantile(density, 0.95) - quantile(density, 0.05), 700.0));
+    result.density = std::exp(quantile(density, 0.5)) * pixels_per_unit;
     double inside = 0.0;
     std::size_t end = 0;
     for (const auto& [u, area] : density) {
@@ -113,18 +146,24 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
     return warnings;
 }
 
+/// @param length_of_unit of a unit of the layout, in the mesh's unit
 PartsResult compute(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
-                    ExecutionContext& context)
+                    const std::function<double()>& length_of_unit, ExecutionContext& context)
 {
     const auto begin = std::chrono::steady_clock::now();
     if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
     if (options.even) require_even(*options.even);
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
+    if (options.density && (!(*options.density > 0.0) || !std::isfinite(*options.density)))
+        throw InputError("the density must be positive");
+    if (options.pixels < 1) throw InputError("the texture needs at least one pixel");
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
     FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
+    const double unit = length_of_unit();
     context.begin_stage("pack", 0.9, 1.0);
-    const std::vector<PlanarPoints> places = pack_parts(mesh.parts, options.threads, context);
+    const std::vector<PlanarPoints> places =
+        pack_parts(mesh.parts, options.threads, context, wanted_scale(mesh, options, unit));
     PartsLayout layout = layout_at(std::move(mesh), places);
     const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report describes it
 
@@ -141,7 +180,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.parts = std::move(layout.parts);
     for (PartReport& part : result.parts)
         part.angle_error_deg = distortion_of_parts(layout, uv, part.faces).angle_error_deg.mean;
-    report_density(layout, uv, mapped, result);
+    report_density(layout, uv, mapped, options.pixels / unit, result);
     for (const Index f : mapped) result.coverage += uv_area(uv, f);
     result.cut_length = seam_length(layout, mapped);
     result.slit_length = layout.slit_length;
@@ -176,10 +215,14 @@ PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const
                      ExecutionContext& context)
 {
     require_weights("a weight to show", options.show, static_cast<Index>(vertices.rows()));
-    const auto compute_here = [](const CanonicalMesh& mesh, PartsOptions& here, ExecutionContext& own) {
+    require_weights("an importance", options.importance, static_cast<Index>(vertices.rows()));
+    const auto compute_here = [vertices, triangles](const CanonicalMesh& mesh, PartsOptions& here,
+                                                    ExecutionContext& own) {
+        const auto length_of_unit = [&] { return root_of_area(vertices, triangles); };
         here.show = mesh.of_vertices(here.show);
+        here.importance = mesh.of_vertices(here.importance);
         for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
-        return compute(mesh.vertices, mesh.triangles, here, own);
+        return compute(mesh.vertices, mesh.triangles, here, length_of_unit, own);
     };
     return corner_map<PartsResult>(vertices, triangles, options, context, compute_here, name_parts);
 }

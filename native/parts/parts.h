@@ -35,15 +35,21 @@ struct PartsOptions : MapOptions {
     /// the mean angle error is no worse than at 0.
     std::optional<double> even = {};
     LoopForm loops = LoopForm::automatic;  ///< form of the surface's own loops, unless even is 0
+    /// (V) as in TileOptions, but it needs no `even`. Parts as wholes have the sizes that it asks for, at any E.
+    std::vector<double> importance = {};
     /// Darts (darts.h), from 0 (no darts) to 1 (many). A dart stays if it releases more energy than its length costs:
     /// 1e-4 / darts for the root of the area. At even = 0 there are no darts.
     double darts = 0.2;
-    int threads = 0;  ///< most threads; 0: one for each core. The result is the same for any number
+    /// Texel density that the parts get, in pixels per unit of the mesh, as the median over the area. Without a value
+    /// they fill the square.
+    std::optional<double> density = {};
+    int pixels = 2048;  ///< side of the texture; `density` counts them
+    int threads = 0;    ///< most threads; 0: one for each core. The result is the same for any number
 
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
-        KOEBE_VISIT(PartsOptions, price, even, loops, darts, show, round_cuts)
+        KOEBE_VISIT(PartsOptions, price, even, loops, importance, darts, density, pixels, show, round_cuts)
         MapOptions::each_option(visit);
         KOEBE_VISIT(PartsOptions, cut, polygon, slits)
     }
@@ -70,6 +76,7 @@ struct PartsResult : CornerMapReport {
     Index darts = 0;
     int handles_cut = 0;
     double density_ratio_5_95 = 1.0;  ///< texel density at 95 % of the area, over that at 5 %
+    double density = 0.0;             ///< texel density as in PartsOptions::density, as reached
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
     double coverage = 0.0;            ///< share of the unit square that the faces cover, as stored
     double maps = 0.0;                ///< number of faces mapped, over the faces of the surface
@@ -84,7 +91,8 @@ struct PartsResult : CornerMapReport {
 ///
 /// @param vertices (V, 3) @param triangles (F, 3) never changed
 /// @return every face is in one part; every part is one to one, except for the faces listed in `flipped`
-/// @throws InputError, TopologyError, SolverError, Cancelled
+/// @throws InputError, also for a density at which the parts do not fit into the square: it names the largest one;
+/// TopologyError, SolverError, Cancelled
 KOEBE_API PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                                ExecutionContext& context);
 

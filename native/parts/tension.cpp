@@ -39,6 +39,12 @@ SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown)
     return mesh;
 }
 
+EvenForces forces_in(const FlatPart& flat, double even)
+{
+    const Eigen::Map<const VectorXd> sizes(flat.sizes.data(), static_cast<Eigen::Index>(flat.sizes.size()));
+    return even_forces(flat.vertices, flat.surface.triangles, flat.points, even, sizes);
+}
+
 Tension::Tension(const FlatPart& flat, const EvenForces& forces)
     : flat_(flat), forces_(forces), whole_(VectorXcd::Zero(flat.points.rows())), leaving_(flat.points.rows(), no_twin)
 {

@@ -13,6 +13,9 @@ namespace koebe {
 /// @param shown as in FlatPart: makes edges longer; empty: lengths on the surface
 SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {});
 
+/// The forces in a part relaxed for this E (even/even_forces.h), with the sizes that its faces should have.
+EvenForces forces_in(const FlatPart& flat, double even);
+
 class Tension {
 public:
     Tension(const FlatPart& flat, const EvenForces& forces);

@@ -38,7 +38,7 @@ public:
         : flat_(flat),
           price_(price),
           compliance_(2.0 * (1.0 + area_weight(even)) / (8.0 * area_weight(even))),
-          forces_(even_forces(flat.vertices, flat.surface.triangles, flat.points, even)),
+          forces_(forces_in(flat, even)),
           tension_(flat, forces_),
           outside_(boundary_mask(flat.surface)),
           mesh_(seamed(flat, flat.shown)),
@@ -257,6 +257,7 @@ std::optional<FlatPart> piece_of(const FlatPart& flat, const std::vector<Index>&
     };
     take(flat.faces, piece.faces, faces);
     take(flat.polygon, piece.polygon, faces);
+    take(flat.sizes, piece.sizes, faces);
     take(flat.original, piece.original, source);
     take(flat.image, piece.image, source);
     take(flat.held, piece.held, source);

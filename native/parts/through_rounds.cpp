@@ -3,6 +3,7 @@
 #include "even/even_forces.h"
 #include "execution/side_by_side.h"
 #include "mesh/connectivity.h"
+#include "parts/tension.h"
 
 #include <algorithm>
 #include <map>
@@ -82,10 +83,7 @@ private:
         double surplus = 0.0;
     };
 
-    double energy(const FlatPart& flat) const
-    {
-        return even_forces(flat.vertices, flat.surface.triangles, flat.points, even_).energy.sum();
-    }
+    double energy(const FlatPart& flat) const { return forces_in(flat, even_).energy.sum(); }
 
     /// Makes the best cut of a piece, and its mirror image. @return whether a cut pays
     bool cut_once(std::size_t k)
@@ -142,8 +140,8 @@ private:
             if (!changed[k]) continue;
             FlatPart& flat = trial.pieces[k].flat;
             std::vector<RoundLoop> none;
-            const FlatSurface surface{flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, none};
-            if (!make_even(surface, even_, packed_side, context_, trial_effort).moved || !survives_storing(flat))
+            if (!make_even(flat_surface(flat, none), even_, packed_side, context_, trial_effort).moved ||
+                !survives_storing(flat))
                 return {};
             trial.surplus -= energy(flat);
         }

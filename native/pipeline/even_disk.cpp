@@ -7,6 +7,7 @@
 #include "pipeline/flip_removal.h"
 #include "pipeline/normalization.h"
 #include "planar/boundary_crossings.h"
+#include "surface/importance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
     std::vector<RoundLoop> round;
     if (loops != LoopForm::free) round = round_loops(whole, map, scale);
     FlatSurface flat{whole.vertices, triangles, whole.loops, relaxed.uv, round};
+    flat.sizes = size_factors(whole.vertices, triangles, whole.importance);
     flat.refuses = [&round](const FoldoverPlaces& places) { return !are_apart(round, places.tracks); };
     if (!make_even(flat, even, 2.0 * scale, context).moved) return false;
     const bool rides = !round.empty() && !round.front().vertices.empty();

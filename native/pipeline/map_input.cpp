@@ -4,6 +4,7 @@
 #include "canonical/canonical_position.h"
 #include "core/errors.h"
 #include "core/vertex_weights.h"
+#include "surface/importance.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ VectorXd find_importance(const MapInput& input, const UniformizeOptions& options
 void require_importance(const UniformizeOptions& options, Index vertex_count)
 {
     if (options.importance.empty()) return;
-    if (options.balance != Balance::area) throw InputError("importance needs balance area: it weighs the balance");
+    require_use_of_importance(options.importance, options.even, options.balance == Balance::area);
     require_weights("an importance", options.importance, vertex_count);
 }
 

@@ -32,7 +32,7 @@ bool is_polygon(const MapInput& input);
 /// The place of a loop among the input's loops, sorted by their lowest vertices.
 int rank_by_lowest_vertex(const MapInput& input, const VertexLoop& loop);
 
-/// @throws InputError importance without a balance, for another number of vertices, or not from 0 to 1
+/// @throws InputError importance without a balance or an even map, for another number of vertices, or not from 0 to 1
 void require_importance(const UniformizeOptions& options, Index vertex_count);
 
 /// @throws InputError, TopologyError

@@ -22,8 +22,8 @@ struct UniformizeOptions : IterationOptions, EvennessOptions {
     Index outer_vertex = -1;  ///< with OuterLoop::vertex: a vertex of the outer loop
     Balance balance = Balance::none;
     Index center = -1, point = -1;  ///< an inner vertex to put at 0, a vertex of the outer loop to put at 1; -1: none
-    /// With Balance::area: importance of each vertex, 0 to 1. The balance counts lengths around a vertex of importance
-    /// w most_important^w times, so that it gets more texels. Empty or all equal: no effect.
+    /// With Balance::area, or `even` above 0: importance of each vertex, 0 to 1. They count lengths around a vertex of
+    /// importance w most_important^w times, so that it gets more texels. Empty or all equal: no effect.
     std::vector<double> importance = {};
     bool polish = false;  ///< at the end, least angle error with the circles kept (angle_polish.h)
     bool repair = true;   ///< false: leave flipped faces as they are; for maps that are only judged

@@ -18,6 +18,7 @@ PYBIND11_MODULE(_koebe, m)
 
     bind_uniformize(m);
     bind_surface(m);
+    bind_even_dial(m);
     bind_domains(m);
     bind_fit(m);
     bind_lift(m);

@@ -22,6 +22,7 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                                        {"dart_length", result.dart_length},
                                        {"handles_cut", result.handles_cut},
                                        {"density_ratio_5_95", result.density_ratio_5_95},
+                                       {"density", result.density},
                                        {"even_area", result.even_area},
                                        {"coverage", result.coverage},
                                        {"maps", result.maps}});

@@ -3,6 +3,7 @@
 #include "core/tolerances.h"
 #include "even/even_map.h"
 #include "planar/planar_predicates.h"
+#include "surface/importance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +64,7 @@ bool are_apart(std::size_t first_hole, const std::vector<Track>& tracks, const s
 
 }  // namespace
 
-bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, FlatMap& map, ExecutionContext& context)
+bool make_tile_even(const PeriodicSurface& domain, const TileOptions& options, FlatMap& map, ExecutionContext& context)
 {
     const CornerLifts lifts = lifts_of(domain);
     PlanarPoints points(map.z.size(), 2);
@@ -74,7 +75,7 @@ bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, 
     points *= scale;
     std::vector<Complex> periods;
     for (const Complex period : map.periods) periods.push_back(scale * period);
-    std::vector<RoundLoop> round = round_loops(domain, loops, scale * map.z);
+    std::vector<RoundLoop> round = round_loops(domain, options.loops, scale * map.z);
     const std::vector<VertexLoop> holes(domain.loops.begin() + static_cast<std::ptrdiff_t>(domain.first_hole),
                                         domain.loops.end());
     const double extent = points.maxCoeff() - points.minCoeff();
@@ -82,7 +83,12 @@ bool make_tile_even(const PeriodicSurface& domain, double even, LoopForm loops, 
     flat.refuses = [&](const FoldoverPlaces& places) {
         return !are_apart(domain.first_hole, places.tracks, places.periods);
     };
-    if (!make_even(flat, even, extent, context).moved) return false;
+    if (!options.importance.empty()) {
+        VectorXd importance(domain.vertices.rows());
+        for (Eigen::Index v = 0; v < importance.size(); ++v) importance[v] = options.importance[domain.original[v]];
+        flat.sizes = size_factors(domain.vertices, domain.surface.triangles, importance);
+    }
+    if (!make_even(flat, options.even, extent, context).moved) return false;
     std::vector<Track> tracks;
     for (const RoundLoop& loop : round) tracks.push_back(loop.track);
     if (!are_apart(domain.first_hole, tracks, periods)) return false;

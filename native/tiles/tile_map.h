@@ -29,11 +29,14 @@ KOEBE_API const char* to_string(RingHoles holes) noexcept;
 struct TileOptions : CutDomainOptions, EvennessOptions {
     RingHoles holes = RingHoles::circles;  ///< of a ring
     Index outer = -1, inner = -1;          ///< of a ring: a vertex of each rim; -1: the longest loops
+    /// (V) importance of each vertex, 0 to 1, with `even` above 0: faces should be as large beside each other as it
+    /// asks for (surface/importance.h). Empty or all equal: no effect.
+    std::vector<double> importance = {};
 
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
-        KOEBE_VISIT(TileOptions, outer, inner, holes)
+        KOEBE_VISIT(TileOptions, outer, inner, holes, importance)
         CutDomainOptions::each_option(visit);
         EvennessOptions::each_option(visit);
     }

@@ -2,10 +2,12 @@
 
 #include "canonical/corner_map.h"
 #include "core/counted.h"
+#include "core/vertex_weights.h"
 #include "even/even_map.h"
 #include "mesh/connectivity.h"
 #include "mesh/corner_order.h"
 #include "quality/shared_warnings.h"
+#include "surface/importance.h"
 #include "tiles/even_tile.h"
 #include "tiles/tile_repair.h"
 
@@ -171,10 +173,13 @@ TileResult reported(const Vertices& vertices, const Triangles& triangles, const 
 TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                           ExecutionContext& context, TileMap* map)
 {
+    require_weights("an importance", options.importance, static_cast<Index>(vertices.rows()));
+    require_use_of_importance(options.importance, options.even);
     const auto compute = [map](const CanonicalMesh& mesh, TileOptions& here, ExecutionContext& own) {
         require_even(here.even);
         here.outer = mesh.vertex(here.outer);
         here.inner = mesh.vertex(here.inner);
+        here.importance = mesh.of_vertices(here.importance);
         return map(mesh.vertices, mesh.triangles, here, own);
     };
     return corner_map<TileResult>(vertices, triangles, options, context, compute, name_tile);
@@ -185,7 +190,7 @@ TileResult tile_result(const Vertices& vertices, const Triangles& triangles, con
 {
     if (options.even > 0.0) {
         FlatMap even = map;
-        if (make_tile_even(domain, options.even, options.loops, even, context)) {
+        if (make_tile_even(domain, options, even, context)) {
             const CheckedTile checked(domain, holes, even, context);
             if (!checked.faults.any()) {
                 map = std::move(even);

@@ -150,3 +150,58 @@ def test_a_file_that_cannot_be_written_is_said(tmp_path):
     with pytest.raises(RuntimeError, match="cut.svg: (Is a directory|Access denied|Permission denied)"):
         bpy.ops.uv.koebe_flat_svg(filepath=str(folder))
     assert list(tmp_path.iterdir()) == [folder]
+
+
+def test_pieces_true_to_size_lie_beside_the_object(capfd):
+    obj = rolled()
+    before = scenes.mesh_state(obj.data)
+    assert bpy.ops.object.koebe_flat_copy(pieces="TRUE") == {"FINISHED"}
+    copy = bpy.context.view_layer.objects.active
+    assert copy.name == "Rolled Flat" and copy.location.x > max(v.co.x for v in obj.data.vertices)
+    points = positions(copy.data)
+    assert np.abs(np.sort(np.ptp(points, axis=0)) - [0.0, 1.0, 2.0]).max() < 1e-4  # without the cut of the UVs
+    assert np.abs(scenes.read(copy.data.polygons, "area", np.float32) - 0.25).max() < 1e-4
+    assert str(scenes.mesh_state(obj.data)) == str(before)
+    assert np.array_equal(scenes.corner_uv(copy.data, "Flat"), scenes.corner_uv(obj.data, "Flat"))
+    assert not copy.data.validate()
+    assert "Rolled: 1 piece, lengths off by" in said(capfd)
+
+
+def test_what_has_no_uvs_is_cut_true_to_size_and_undone():
+    cube = scenes.add_cube("Bare")
+    cube.scale = (3.0, 3.0, 3.0)
+    scenes.select(cube)
+    bpy.ops.ed.undo_push(message="before")
+    bpy.ops.object.koebe_flat_copy("EXEC_DEFAULT", True, pieces="TRUE")
+    copy = bpy.data.objects["Bare Flat"]
+    area = (3.0 * cube.dimensions.x / cube.scale.x) ** 2
+    assert np.allclose(scenes.read(copy.data.polygons, "area", np.float32), area, rtol=1e-4)
+    uv = scenes.corner_uv(copy.data, "Koebe")
+    assert uv.min() >= 0.0 and uv.max() == pytest.approx(1.0)
+    bpy.ops.ed.undo()
+    assert sorted(bpy.data.objects.keys()) == ["Bare"]
+
+
+def test_pieces_are_cut_along_seams():
+    obj = rolled()
+    for edge in obj.data.edges:
+        edge.use_seam = set(edge.vertices) == {8, 9}
+    assert bpy.ops.object.koebe_flat_copy(pieces="TRUE") == {"FINISHED"}
+    copy = bpy.context.view_layer.objects.active
+    assert len(scenes.boundary_loops(copy.data)) == 2 and len(copy.data.vertices) == 20
+
+
+@pytest.mark.parametrize("kind", ["SVG", "DXF"])
+def test_a_pattern_is_written_in_real_size(tmp_path, capfd, kind):
+    rolled()
+    bpy.context.scene.unit_settings.scale_length = 0.01  # a unit is a centimetre
+    path = tmp_path / f"cut.{kind.lower()}"
+    options = {"pieces": "TRUE", "drawing": kind, "page": "none"}
+    assert bpy.ops.uv.koebe_flat_svg(filepath=str(path), **options) == {"FINISHED"}
+    assert "Rolled: 1 piece" in said(capfd) and list(tmp_path.iterdir()) == [path]
+    if kind == "SVG":
+        root, _ = drawing(path)
+        size = sorted(float(root.get(side).removesuffix("mm")) for side in ("width", "height"))
+        assert 10.0 <= size[0] < 80.0 and 20.0 <= size[1] < 100.0
+    else:
+        assert "EOF" in path.read_text()

@@ -1,4 +1,4 @@
-"""Importance: a vertex group that weighs the balance."""
+"""Importance: a vertex group that weighs the balance, and the sizes of faces."""
 
 import bpy
 import numpy as np
@@ -87,3 +87,28 @@ def test_with_a_centre_and_on_a_cut_surface_it_works():
     panel = scenes.add_panel()
     weighed(panel, left_side(panel))
     assert bpy.ops.uv.koebe_uniformize(checker=False, importance="Detail", center="cursor") == {"FINISHED"}
+
+
+@pytest.mark.parametrize("operator", ["uniformize", "parts", "ring"])
+def test_even_maps_have_larger_faces_where_weights_are(operator):
+    obj = scenes.add_panel()
+    chosen = left_side(obj)
+    weighed(obj, chosen)
+    scenes.select(obj)
+    even = {"uniformize": {"even": 0.5, "balance": "none"}, "ring": {"even": 0.5}, "parts": {}}[operator]
+    shares = []
+    for group in ("", "Detail"):
+        run = getattr(bpy.ops.uv, f"koebe_{operator}")
+        assert run(checker=False, importance=group, **even) == {"FINISHED"}
+        everything = area_of(obj, range(len(obj.data.vertices)))
+        shares.append(area_of(obj, chosen) / everything)
+        assert np.sign(scenes.signed_areas(obj.data, "Koebe")).min() > 0
+    assert shares[1] > 1.3 * shares[0]
+
+
+def test_a_cylinder_needs_even():
+    obj = scenes.add_panel()
+    weighed(obj, left_side(obj))
+    scenes.select(obj)
+    with pytest.raises(RuntimeError, match="set Even above 0"):
+        bpy.ops.uv.koebe_ring(importance="Detail")

@@ -110,6 +110,27 @@ TEST(EvenMap, what_was_rolled_up_comes_out_flat_at_the_end_true_to_size)
     EXPECT_LT(worst_stretch(fine.vertices, fine.surface.triangles, points), 1e-7);
 }
 
+TEST(EvenMap, faces_get_the_sizes_that_are_asked_for)
+{
+    const auto place = [](double u, double v) { return Complex(20.0 * u, v); };
+    const Strip band(80, 4, place, as_it_is, [](Complex z) { return z; });
+    PlanarPoints points = band.mapped;
+    std::vector<RoundLoop> round;
+    ExecutionContext context;
+    FlatSurface flat = band.view(points, round);
+    flat.sizes = VectorXd::Ones(band.surface.triangles.rows());
+    flat.sizes.head(flat.sizes.size() / 2).array() = 4.0;  // the first half of the columns
+    EXPECT_TRUE(make_even(flat, 1.0, 100.0, context).moved);
+    const auto stretch = [&](Index a, Index b) {
+        return (points.row(a) - points.row(b)).norm() / (band.flat.row(a) - band.flat.row(b)).norm();
+    };
+    const auto at = [](int i, int j) { return static_cast<Index>(5 * i + j); };
+    for (const auto& [from, to] : {std::pair(at(10, 0), at(11, 0)), std::pair(at(10, 2), at(10, 3))})
+        EXPECT_NEAR(stretch(from, to), 2.0, 1e-3);
+    for (const auto& [from, to] : {std::pair(at(70, 0), at(71, 0)), std::pair(at(70, 2), at(70, 3))})
+        EXPECT_NEAR(stretch(from, to), 1.0, 1e-3);
+}
+
 TEST(EvenMap, angles_weigh_more_the_lower_the_dial)
 {
     EXPECT_EQ(area_weight(0.0), 0.0);

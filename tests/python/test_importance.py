@@ -1,4 +1,4 @@
-"""Importance: what the balance is weighed by."""
+"""Importance: what the balance and the sizes of faces are weighed by."""
 
 import json
 
@@ -81,6 +81,105 @@ def test_an_important_piece_gets_a_larger_disk():
     assert one == pytest.approx(4.0 * other)
 
 
+def two_squares(n=8):
+    """Two flat grids, apart."""
+    across = np.linspace(0.0, 1.0, n + 1)
+    grid = np.array([[x, y, 0.0] for x in across for y in across])
+    quads = [[i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1]
+             for i in range(n) for j in range(n)]  # fmt: skip
+    triangles = triangles_of(np.array(quads))
+    return np.vstack([grid, grid + [3.0, 0.0, 0.0]]), np.vstack([triangles, triangles + len(grid)])
+
+
+def corner_area(uv):
+    one, two = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+    return 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+
+
+@pytest.mark.parametrize("even", [None, 0.0, 0.3, 1.0])
+def test_parts_have_the_sizes_that_importance_asks_for(even):
+    vertices, triangles = two_squares()
+    half = len(vertices) // 2
+    result = koebe.parts(vertices, triangles, even=even, importance=np.repeat([0.5, 0.0], half))
+    area = corner_area(result.uv)
+    first = np.arange(len(triangles)) < len(triangles) // 2
+    assert area[first].sum() == pytest.approx(4.0 * area[~first].sum(), rel=1e-5)
+    assert result.flipped == 0 and result.options["importance"] is True
+
+
+def strip(length=16, n=4):
+    """A flat strip, a unit wide."""
+    points = np.array([[x / n, y / n, 0.0] for x in range(length * n + 1) for y in range(n + 1)])
+    quads = [[i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1]
+             for i in range(length * n) for j in range(n)]  # fmt: skip
+    return points, triangles_of(np.array(quads))
+
+
+@pytest.mark.parametrize(("even", "tolerance"), [(0.3, 0.05), (1.0, 0.005)])
+def test_a_strip_is_twice_as_wide_where_it_counts_four_times(even, tolerance):
+    vertices, triangles = strip()
+    importance = 0.5 * (vertices[:, 0] < 8.0)
+    result = koebe.parts(vertices, triangles, even=even, darts=0.0, importance=importance)
+    middle = vertices[triangles].mean(axis=1)[:, 0]
+    area = corner_area(result.uv)
+    assert area[middle < 4.0].sum() == pytest.approx(4.0 * area[middle > 12.0].sum(), rel=tolerance)
+    plain = koebe.parts(vertices, triangles, even=even, darts=0.0)
+    assert corner_area(plain.uv)[middle < 4.0].sum() == pytest.approx(corner_area(plain.uv)[middle > 12.0].sum())
+
+
+def tube(around=24, along=12):
+    turn = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
+    points = np.array([[(1 + 0.3 * z) * np.cos(t), (1 + 0.3 * z) * np.sin(t), z] for z in np.linspace(0, 2, along + 1)
+                       for t in turn])  # fmt: skip
+    quads = [[j * around + i, j * around + (i + 1) % around, (j + 1) * around + (i + 1) % around, (j + 1) * around + i]
+             for j in range(along) for i in range(around)]  # fmt: skip
+    return points, triangles_of(np.array(quads))
+
+
+MAPS = {
+    "disk": (panel, lambda *mesh, **options: koebe.uniformize(*mesh, even=0.4, **options)),
+    "parts": (panel, koebe.parts),
+    "ring": (tube, lambda *mesh, **options: koebe.ring_map(*mesh, even=0.4, **options)),
+}
+
+
+@pytest.mark.parametrize("of", MAPS)
+def test_only_differences_count_in_even_maps(of):
+    mesh, made = MAPS[of]
+    vertices, triangles = mesh()
+    plain = made(vertices, triangles)
+    weights = np.where(vertices[:, 0] > np.median(vertices[:, 0]), 0.5, 0.0)
+    for value in (0.37, 1.0):
+        assert np.array_equal(made(vertices, triangles, importance=np.full(len(vertices), value)).uv, plain.uv)
+    weighed = made(vertices, triangles, importance=weights)
+    assert not np.array_equal(weighed.uv, plain.uv)
+    assert np.array_equal(made(vertices, triangles, importance=weights + 0.25).uv, weighed.uv)
+
+
+@pytest.mark.parametrize("of", MAPS)
+def test_important_faces_are_larger_in_even_maps(of):
+    mesh, made = MAPS[of]
+    vertices, triangles = mesh()
+    chosen = vertices[:, 0] > np.quantile(vertices[:, 0], 0.6)
+    shares = []
+    for result in (made(vertices, triangles), made(vertices, triangles, importance=chosen.astype(float))):
+        uv = result.uv if result.uv.ndim == 3 else result.uv[triangles]
+        area = corner_area(uv)
+        assert result.flipped == 0 and result.overlaps == 0 and area.min() > 0
+        shares.append(area[chosen[triangles].all(axis=1)].sum() / area.sum())
+    assert shares[1] > 1.3 * shares[0]
+
+
+def test_a_map_that_nothing_makes_even_refuses_importance():
+    vertices, triangles = tube()
+    with pytest.raises(koebe.OptionError, match="importance needs even above 0"):
+        koebe.ring_map(vertices, triangles, importance=np.zeros(len(vertices)))
+    with pytest.raises(koebe.InputError, match="importance"):
+        koebe.ring_map(vertices, triangles, even=0.3, importance=np.zeros(3))
+    with pytest.raises(koebe.InputError, match="importance"):
+        koebe.parts(vertices, triangles, importance=np.full(len(vertices), 2.0))
+
+
 def test_what_is_no_importance_is_refused():
     vertices, triangles = panel()
     count = len(vertices)
@@ -104,6 +203,10 @@ def test_the_command_takes_a_file(tmp_path):
     assert json.loads((tmp_path / "r.json").read_text())["options"]["importance"] is True
     command("uniformize", "in.obj", "b.obj", "--balance", "area", cwd=tmp_path)
     assert (tmp_path / "a.obj").read_text() != (tmp_path / "b.obj").read_text()
+    parts = command("parts", "in.obj", "p.obj", "--importance", "w.txt", "--json", "p.json", cwd=tmp_path)
+    assert parts.returncode == 0 and json.loads((tmp_path / "p.json").read_text())["options"]["importance"] is True
+    even = command("uniformize", "in.obj", "e.obj", "--importance", "w.txt", "--even", "0.3", cwd=tmp_path)
+    assert even.returncode == 0, even.stderr
     refused = command("uniformize", "in.obj", "c.obj", "--importance", "w.txt", cwd=tmp_path)
     assert refused.returncode == USAGE and "balance" in refused.stderr
     for text in ("0.5 2", "x", "", "0.5"):

@@ -23,7 +23,9 @@ NOT_FROM_BLENDER = (
      "the match must name", "the schedule", "takes no schedule", "Yamabe flow", "changing partners",
      "the conventional method",
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
-    "landmark", "the price must be positive", "an importance", "importance needs", "there must be ", "vertices have ",
+    "landmark", "the price must be positive", "the map must have a finite point", "the map has vertices that",
+    "the density must be positive", "the texture needs at least",
+    "an importance", "importance needs", "there must be ", "vertices have ",
     "disks to pack need",
 )  # fmt: skip
 OPTION_ERRORS = "maps/options.py", "batch.py"  # the panel's fields cannot take such values

@@ -3,7 +3,7 @@
 
 #include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
-#include "cli/files/weights_file.h"
+#include "cli/commands/weights_option.h"
 #include "cli/options/option_table.h"
 #include "cli/process/end_with_input.h"
 #include "io/corner_uvs.h"
@@ -65,7 +65,7 @@ MapKind<Result> piece_map_kind(const MapRequest& request, const Options& chosen,
 template <typename Options>
 struct CornerMapRequest : MapRequest {
     Options chosen;
-    std::string show;  ///< file with the weights of PartsOptions::show
+    WeightsOption show, importance;
     bool ends_with_input = false;
 };
 
@@ -95,11 +95,8 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
         add_output(*options, request->output, help.output);
     }
     add_options(*options, help.name, request->chosen);
-    constexpr bool has_show = requires { request->chosen.show; };
-    if constexpr (has_show) {
-        const OptionRow& row = *find_row(help.name, "show");
-        options->add_option(row.flag(), request->show, std::string(row.does))->type_name("FILE");
-    }
+    request->show.add(*options, help.name, "show");
+    request->importance.add(*options, help.name, "importance");
     if (help.sphere != nullptr) options->add_option("--sphere", request->sphere, help.sphere)->type_name("FILE");
     add_report_options(*options, *request, help.picture);
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
@@ -107,14 +104,15 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
         check(*request);
         if (!request->sphere.empty()) required_format(request->sphere);
         request->entries["options"] = option_report(name, request->chosen);
-        if (request->show.empty()) return;
-        require_different_files(map_files(*request), {request->input, request->show}, !request->quiet);
-        request->entries["options"]["show"] = true;
+        request->show.check(*request);
+        request->importance.check(*request);
     });
     return {options, [request, run] {
                 if (request->ends_with_input) end_with_input();
-                if constexpr (has_show)
-                    if (!request->show.empty()) request->chosen.show = read_weights(request->show, "a weight to show");
+                if constexpr (requires { request->chosen.show; })
+                    request->chosen.show = request->show.read("a weight to show");
+                if constexpr (requires { request->chosen.importance; })
+                    request->chosen.importance = request->importance.read("an importance");
                 return run(*request);
             }};
 }

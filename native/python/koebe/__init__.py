@@ -16,6 +16,7 @@ from ._api import (
 from ._batch import batch
 from ._certified import CertifiedModuli, certified_moduli
 from ._cut_result import CutResult
+from ._even_dial import EvenDial
 from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._fit import FitResult, fit_circles
@@ -53,6 +54,7 @@ __all__ = [
     "Correspondence",
     "CutResult",
     "DomainAlignment",
+    "EvenDial",
     "Family",
     "FitResult",
     "FlattenResult",

@@ -86,7 +86,7 @@ def uniformize(
     elif options.mesh.schedule or options.mesh.record_steps:
         raise OptionError("cut excludes schedule and record_steps: both name the loops of one surface")
     source = surface_of(vertices, triangles, degenerate=cut)
-    options.importance = importance_of(given["importance"], chosen["balance"], len(source.vertices))
+    options.importance = importance_of(given["importance"], chosen, len(source.vertices))
     if cut:
         polygon = polygons_of(None, source)
         made = _koebe.uniformize_with_cuts(source.vertices, source.triangles, polygon, options, progress, cancel)
@@ -97,12 +97,10 @@ def uniformize(
     return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 
 
-def importance_of(values: Any, balance: str, count: int) -> np.ndarray:
+def importance_of(values: Any, chosen: Mapping[str, Any], count: int) -> np.ndarray:
     """(V,) importance of the vertices, or empty."""
-    if values is None:
-        return np.zeros(0)
-    if balance != "area":
-        raise OptionError("importance needs balance='area': it weighs the balance")
+    if values is not None and chosen.get("balance") != "area" and not chosen.get("even"):
+        raise OptionError("importance needs even above 0, or balance='area': it weighs them")
     return vertex_weights("importance", values, count)
 
 

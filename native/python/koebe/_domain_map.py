@@ -8,8 +8,9 @@ import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
 from ._input import polygons_of, surface_of
-from ._options import callback, filled, token
+from ._options import callback, filled, token, vertex_weights
 from ._result import MapReport, Seconds, Source, Warning
+from .errors import OptionError
 
 
 class DomainMap(MapReport):
@@ -90,6 +91,10 @@ def domain_map(
     options, said = filled(of, options, given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(*surface, degenerate=degenerate)
+    if given.get("importance") is not None:
+        if not said["even"]:
+            raise OptionError("importance needs even above 0: it weighs the sizes of faces")
+        options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.polygon = polygons_of(given["polygon"], source)
     native = function(source.vertices, source.triangles, options, progress, cancel)
     return made({**native.report(), "options": said}, native, source)

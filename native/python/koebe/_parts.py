@@ -27,6 +27,7 @@ class PartsResult(MapReport):
     cut_length, slit_length    of all cuts, and of the tubes' slits among them, over the square root of the area
     handles_cut      number of handles cut
     density_ratio_5_95    texel density (a length over a length) at 95 % of the area over the density at 5 %
+    density          texel density: pixels per unit of the mesh (median over the area) on a texture of `pixels`
     even_area        share of the area whose texel density lies within the best factor 3
     coverage         share of the unit square that the faces cover, as stored
     seconds          in all
@@ -43,6 +44,7 @@ class PartsResult(MapReport):
     slit_length: float
     handles_cut: int
     density_ratio_5_95: float
+    density: float
     even_area: float
     coverage: float
     seconds: float
@@ -97,6 +99,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(vertices, triangles, degenerate=options.cut)
     options.polygon = polygons_of(given["polygon"], source)
+    options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.show = vertex_weights("show", given["show"], len(source.vertices))
     if given["slits"] is not None:
         options.slits = _edges(given["slits"], len(source.vertices)).tolist()

@@ -64,6 +64,7 @@ class TorusOptions(TileOptions, total=False):
     """Options of `torus_map`."""
 
     even: float
+    importance: Any
     loops: str
 
 
@@ -93,6 +94,9 @@ class PartsOptions(MapOptions, RunOptions, total=False):
     even: float | None
     loops: str
     darts: float
+    density: float | None
+    pixels: int
+    importance: Any
     show: Any
     price: float | None
     cut: bool

@@ -35,7 +35,7 @@ class Surface:
     def __init__(self, vertices: Any, triangles: Any = None, **given: "Unpack[SequenceOptions]") -> None:
         options, self._options = solver_options("sequence", given)
         self._source = surface_of(vertices, triangles)
-        options.importance = importance_of(given["importance"], self._options["balance"], len(self._source.vertices))
+        options.importance = importance_of(given["importance"], self._options, len(self._source.vertices))
         self._native = _koebe.Surface(self._source.vertices, self._source.triangles, options)
 
     def uniformize(

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cuts a surface anew and lays it flat, as true to size as it can be: for a flat mesh, and for patterns to cut out."""
+
+import dataclasses
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from .errors import NOWHERE
+from .flat_layout import FlatError, FlatLayout, flat_layout
+from .islands import cut_into_islands, put_together
+from .outcomes import Progress
+from .surface import Surface
+from .triangles import areas
+from .wording import counted
+
+METRE = 1000.0  # mm, the root of the area of a surface that is laid flat at no real size
+
+
+@dataclasses.dataclass(frozen=True)
+class FlatPattern:
+    """A surface laid flat.
+
+    uv       (C, 2) of the surface's corners in its own unit of length; 0 at corners of faces that were left out
+    faces    (P,) bool, the faces that were laid flat
+    result   of `koebe.flatten`
+    """
+
+    uv: np.ndarray
+    faces: np.ndarray
+    result: Any
+
+    def describe(self) -> str:
+        """Pieces, and how far lengths are off, in words."""
+        stretch = self.result.stretch_percent
+        text = f"{counted(len(self.result.pieces), 'piece')}, lengths off by {stretch['mean']:.2g} % in the mean"
+        return f"{text} and {stretch['max']:.2g} % at most"
+
+    def unit_uv(self) -> np.ndarray:
+        """(C, 2) the same, as large as it fits into the UV square."""
+        return self.uv / max(float(self.uv.max(initial=0.0)), 1e-300)
+
+
+def flat_pattern(
+    koebe: ModuleType,
+    surface: Surface,
+    millimetres: float | None = None,
+    progress: Progress | None = None,
+    cancel: Any = None,
+    **options: Any,
+) -> FlatPattern:
+    """Cut the selected faces into pieces and lay these flat. Seams are cuts. Polygons stay whole.
+
+    millimetres  of the pattern per unit of length of the surface; None: only the flat pieces are wanted
+    options      page and allowance of the pattern, as of `koebe.flatten`
+
+    Raises FlatError, and the errors of `koebe.flatten`.
+    """
+    chosen = surface.selected[surface.triangle_face]
+    corners = surface.triangle_corners[chosen]
+    positions, vertex_of_corner, _ = put_together(surface, cut_into_islands(surface))
+    if not np.isfinite(positions).all():
+        raise FlatError(NOWHERE)
+    triangles = vertex_of_corner[corners]
+    if millimetres is None:
+        root = float(np.sqrt(areas(positions, triangles).sum()))
+        if not root > 0.0:
+            raise FlatError("all faces have area 0")
+        millimetres, options = METRE / root, {"page": "none"}
+    result = koebe.flatten(
+        positions * millimetres, triangles, polygon=surface.triangle_face[chosen], units="mm",
+        progress=progress, cancel=cancel, **options,
+    )  # fmt: skip
+    uv = np.zeros((len(surface.corner_vertex), 2))
+    laid = np.zeros(len(uv), dtype=bool)
+    flat = result.part >= 0
+    uv[corners[flat]] = result.uv[flat] / millimetres
+    laid[corners[flat]] = True
+    # A face with a corner at degenerate triangles only has no place for this corner.
+    whole = np.logical_and.reduceat(laid, surface.face_start) if len(uv) else np.zeros(0, dtype=bool)
+    uv[~np.repeat(whole, surface.face_size)] = 0.0
+    return FlatPattern(uv, whole, result)
+
+
+def pattern_layout(surface: Surface, pattern: FlatPattern) -> FlatLayout:
+    """The layout of the pattern's pieces. Raises FlatError without any."""
+    return flat_layout(surface, pattern.uv, scale=1.0)

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that drags the slider Even, and shows the UVs at once."""
+
+import contextlib
+
+import bpy
+
+from ..blender.errors import TransferError
+from ..blender.targets import reason, target_objects
+from ..jobs.even_job import EvenJob
+from ..maps.errors import KnownError
+from ..maps.even_drag import EvenDrag
+from ..solver.errors import NativeError
+from ..solver.worker import Worker
+from ..state.option_properties import UNWRAP_OPTION_NAMES, settings_of
+from .modal_run import redraw
+from .polls import has_targets
+from .tooltip import tooltip
+
+POLL_SECONDS = 0.01
+KEEP = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
+LEAVE = {"ESC", "RIGHTMOUSE"}
+NOT_PARTS = {"DISK", "RING", "TORUS"}  # shapes whose boundaries stay round
+
+
+class UV_OT_koebe_even(bpy.types.Operator):
+    """Drag left or right: the UVs of the active object become more or less even at once. Click or Enter unwraps with
+    this Even. Esc or right click puts the UVs back. Shift drags slowly"""
+
+    bl_idname = "uv.koebe_even"
+    bl_label = "Koebe Drag Even"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "BLOCKING", "GRAB_CURSOR"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        self.report({"ERROR"}, "Koebe UV: the slider is dragged in a window: a script sets even of uv.koebe_unwrap")
+        return {"CANCELLED"}
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        settings = settings_of(context)
+        obj = target_objects(context)[0]
+        is_round = settings.loops == "round" or (settings.loops == "auto" and settings.shape in NOT_PARTS)
+        context.evaluated_depsgraph_get()  # updates the objects' world matrices
+        try:
+            self._job = EvenJob(obj, settings.layer, is_round)
+        except (NativeError, TransferError, KnownError) as error:
+            self.report({"ERROR"}, f"Koebe UV: {reason(obj.name, error)}")
+            return {"CANCELLED"}
+        self._drag = EvenDrag(settings.even, event.mouse_x)
+        self._worker: Worker | None = None
+        self._way = 0.0
+        self.moves = 0
+        self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        self._say(context)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        try:
+            if event.type in LEAVE and event.value == "PRESS":
+                self.cancel(context)
+                self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
+                return {"CANCELLED"}
+            if event.type in KEEP and event.value == "PRESS":
+                return self._keep(context)
+            if event.type == "MOUSEMOVE":
+                self._drag.pull(event.mouse_x, event.shift)
+                self._say(context)
+            elif event.type == "TIMER":
+                self._go_on(context)
+        except BaseException:
+            self.cancel(context)
+            raise
+        return {"RUNNING_MODAL"}
+
+    def _go_on(self, context: bpy.types.Context) -> None:
+        """Show the step that has ended, and begin the next."""
+        if self._worker is not None:
+            if self._worker.running:
+                return
+            self._worker.result()
+            self._worker = None
+            self._drag.done(self._way)
+            self._job.show()
+            self.moves += 1
+            redraw(context)
+        even = self._drag.next()
+        if even is not None:
+            self._worker = Worker(lambda progress: self._step(even))
+
+    def _step(self, even: float) -> None:
+        self._way = self._job.preview.move(even)
+
+    def _keep(self, context: bpy.types.Context) -> set[str]:
+        """Put the UVs back and unwrap with this E: the checked map, in one undo step."""
+        settings, even = settings_of(context), self._drag.even
+        self.cancel(context)
+        if not self._drag.has_changed:
+            return {"CANCELLED"}
+        settings.even, settings.keep_angles = even, False
+        options = {name: getattr(settings, name) for name in UNWRAP_OPTION_NAMES}
+        bpy.ops.uv.koebe_unwrap("INVOKE_DEFAULT", **options)
+        return {"FINISHED"}
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """End the computation and restore the UVs: after Esc, or when Blender ends the operator."""
+        self._job.cancel_token.cancel()
+        if self._worker is not None:
+            with contextlib.suppress(Exception):  # it was cancelled, or nobody needs this step any more
+                self._worker.result()
+            self._worker = None
+        context.window_manager.event_timer_remove(self._timer)
+        context.workspace.status_text_set(None)
+        self._job.put_back()
+        redraw(context)
+
+    def _say(self, context: bpy.types.Context) -> None:
+        keys = "Click or Enter: Unwrap So      Shift: Slowly      Esc: Cancel"
+        text = f"Koebe UV: Even {self._drag.even:.2f}      {keys}"
+        context.workspace.status_text_set(text)
+
+
+register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_even,))

@@ -1,0 +1,41 @@
+#include "bindings.h"
+
+#include "even/even_dial.h"
+#include "native_call.h"
+
+#include <pybind11/eigen.h>
+
+#include <chrono>
+#include <mutex>
+
+namespace py = pybind11;
+
+namespace koebe::python {
+namespace {
+
+/// One call at a time: a second thread waits for the first.
+struct SharedDial {
+    EvenDial dial;
+    std::timed_mutex busy;
+};
+
+}  // namespace
+
+void bind_even_dial(py::module_& m)
+{
+    py::class_<SharedDial>(m, "EvenDial")
+        .def(py::init([](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                         const Eigen::Ref<const PlanarPoints>& points, bool round) {
+            return new SharedDial{EvenDial(vertices, triangles, points, round), {}};
+        }))
+        .def("move", [](SharedDial& shared, double even, int steps, const CancelToken& cancel) {
+            return without_gil(py::none(), cancel, [&](ExecutionContext& context) {
+                std::unique_lock lock(shared.busy, std::defer_lock);
+                while (!lock.try_lock_for(std::chrono::milliseconds(20))) context.checkpoint();
+                const bool moved = shared.dial.move(even, steps, context);
+                return std::make_pair(shared.dial.points(), moved);
+            });
+        });
+}
+
+}  // namespace koebe::python
