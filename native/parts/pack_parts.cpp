@@ -38,9 +38,10 @@ double rim_moved(const FlatPart& flat, const PlanarPoints& from, const PlanarPoi
 
 }  // namespace
 
-std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context)
+PackedParts pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context)
 {
-    std::vector<PlanarPoints> places(flats.size());
+    PackedParts packed{std::vector<PlanarPoints>(flats.size()), std::vector<char>(flats.size(), 0)};
+    std::vector<PlanarPoints>& places = packed.places;
     bool again = true;
     for (int round = 1; again; ++round) {
         std::vector<Outline> outlines;
@@ -52,16 +53,20 @@ std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, 
             const PartKind kind = flats[k].kind;
             places[k] = before;
             repair_flips(flats[k], places[k], own);
+            const PlanarPoints repaired = places[k];
             embed_safely(flats[k], places[k], own);
+            const bool anew = places[k] != repaired;
             if (!places[k].allFinite()) throw SolverError("the map of a part is not finite");
-            if (!(rim_moved(flats[k], before, places[k]) > rim_slack)) return;
-            if (round == packing_rounds) {
+            const bool fits = !(rim_moved(flats[k], before, places[k]) > rim_slack);
+            if (!fits && round == packing_rounds) {
                 places[k] = before;
                 flats[k].kind = kind;
-            } else {
-                flats[k].points = places[k] / packing.scale;
-                outgrown[k] = 1;
+                return;
             }
+            if (anew) packed.anew[k] = 1;
+            if (fits) return;
+            flats[k].points = places[k] / packing.scale;
+            outgrown[k] = 1;
         });
         again = std::ranges::count(outgrown, 1) > 0;
     }
@@ -69,7 +74,7 @@ std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, 
         places[k] = places[k].cwiseMax(0.0).cwiseMin(1.0);
         if (!loops_apart(flats[k], places[k])) flats[k].one_to_one = false;
     });
-    return places;
+    return packed;
 }
 
 }  // namespace koebe
