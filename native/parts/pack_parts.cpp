@@ -71,7 +71,7 @@ std::string in_digits(double number)
 }
 
 /// At the wanted scale the margin between parts stays, if they leave room for it.
-IslandPacking packed(const std::vector<Outline>& outlines, const std::optional<WantedScale>& wanted)
+IslandPacking pack_outlines(const std::vector<Outline>& outlines, const std::optional<WantedScale>& wanted)
 {
     const double room = margin + 2.0 * rim_slack;
     IslandPacking largest = pack_islands(outlines, room);
@@ -85,31 +85,36 @@ IslandPacking packed(const std::vector<Outline>& outlines, const std::optional<W
 
 }  // namespace
 
-std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context,
-                                     const std::optional<WantedScale>& wanted)
+PackedParts pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context,
+                       const std::optional<WantedScale>& wanted)
 {
-    std::vector<PlanarPoints> places(flats.size());
+    PackedParts packed{std::vector<PlanarPoints>(flats.size()), std::vector<char>(flats.size(), 0)};
+    std::vector<PlanarPoints>& places = packed.places;
     bool again = true;
     for (int round = 1; again; ++round) {
         std::vector<Outline> outlines;
         for (const FlatPart& flat : flats) outlines.push_back(outline_of(flat));
-        const IslandPacking packing = packed(outlines, wanted);
+        const IslandPacking packing = pack_outlines(outlines, wanted);
         std::vector<char> outgrown(flats.size(), 0);
         side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
             const PlanarPoints before = place_island(flats[k].points, packing.places[k], packing.scale);
             const PartKind kind = flats[k].kind;
             places[k] = before;
             repair_flips(flats[k], places[k], own);
+            const PlanarPoints repaired = places[k];
             embed_safely(flats[k], places[k], own);
+            const bool anew = places[k] != repaired;
             if (!places[k].allFinite()) throw SolverError("the map of a part is not finite");
-            if (!(rim_moved(flats[k], before, places[k]) > rim_slack)) return;
-            if (round == packing_rounds) {
+            const bool fits = !(rim_moved(flats[k], before, places[k]) > rim_slack);
+            if (!fits && round == packing_rounds) {
                 places[k] = before;
                 flats[k].kind = kind;
-            } else {
-                flats[k].points = places[k] / packing.scale;
-                outgrown[k] = 1;
+                return;
             }
+            if (anew) packed.anew[k] = 1;
+            if (fits) return;
+            flats[k].points = places[k] / packing.scale;
+            outgrown[k] = 1;
         });
         again = std::ranges::count(outgrown, 1) > 0;
     }
@@ -117,7 +122,7 @@ std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, 
         places[k] = places[k].cwiseMax(0.0).cwiseMin(1.0);
         if (!loops_apart(flats[k], places[k])) flats[k].one_to_one = false;
     });
-    return places;
+    return packed;
 }
 
 }  // namespace koebe

@@ -15,12 +15,17 @@ struct WantedScale {
     double density = 1.0;  ///< texel density at this scale, for messages
 };
 
+struct PackedParts {
+    std::vector<PlanarPoints> places;  ///< of each part, its points (V, 2) in [0, 1]^2
+    std::vector<char> anew;            ///< 1: the part overlapped itself there, and was drawn anew, less even
+};
+
 /// Packs parts into the unit square, then turns flipped faces back there. If that changes an outline, all parts are
 /// packed again. In the last round a repair may not change an outline.
-/// @param flats their kinds and points may change @return for each part its points (V, 2) in [0, 1]^2
+/// @param flats their kinds and points may change
 /// @param wanted with it the parts lie together at the corner of the square
 /// @throws InputError the parts do not fit at the wanted scale; SolverError, Cancelled
-std::vector<PlanarPoints> pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context,
-                                     const std::optional<WantedScale>& wanted = {});
+PackedParts pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context,
+                       const std::optional<WantedScale>& wanted = {});
 
 }  // namespace koebe

@@ -95,6 +95,19 @@ UprightIsland upright_island(const Outline& outline)
     return island;
 }
 
+UprightIsland turned_island(const UprightIsland& island, const Complex& turn)
+{
+    UprightIsland turned = island;
+    turned.points = turned_by(island.points, turn);
+    const Eigen::RowVector2d corner = turned.points.colwise().minCoeff();
+    turned.points.rowwise() -= corner;
+    turned.extent = turned.points.maxCoeff();
+    turned.turn = turn * island.turn;
+    const Complex moved = turn * Complex(island.corner[0], island.corner[1]) + Complex(corner[0], corner[1]);
+    turned.corner = {moved.real(), moved.imag()};
+    return turned;
+}
+
 DrawnTurns draw_island(const UprightIsland& island, double scale, std::int64_t reach)
 {
     std::array<std::vector<GridLoop>, 2> loops;

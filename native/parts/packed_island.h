@@ -20,6 +20,9 @@ struct UprightIsland {
 
 UprightIsland upright_island(const Outline& outline);
 
+/// The island turned further. @param turn of absolute value 1
+UprightIsland turned_island(const UprightIsland& island, const Complex& turn);
+
 /// An island in one of its turns.
 struct DrawnTurn {
     CellShape shape;

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "parts/packed_island.h"
+#include "parts/tight_packing.h"
 
 #include <algorithm>
 #include <array>
@@ -29,7 +30,15 @@ constexpr int most_attempts = 400;
 constexpr std::int64_t tests_a_point = 1200;  // tests on the board, after which no further attempt is made
 constexpr std::int64_t fewest_tests = 1'000'000, most_tests = 40'000'000;
 constexpr std::int64_t tests_an_attempt = 4000;  // to empty the board
-constexpr double similar = 0.8;                  // area over that of the island before which all places were looked at
+constexpr std::size_t most_tight = 100;          // islands that are packed more tightly,
+constexpr std::int64_t words_a_point = 12'000;   // with so much work
+constexpr std::int64_t fewest_words = 20'000'000, most_words = 100'000'000;
+constexpr std::size_t few_islands = 3;  // other turns are tried for so few islands,
+constexpr double held = 0.8;            // or if one is that long, in sides of the square, in the first packing
+constexpr double held_along_axes = 0.96;
+constexpr double worth_a_turn = 1.025;          // times the scale: islands leave the upright for that,
+constexpr double worth_a_turn_of_tubes = 1.05;  // and islands along the axes for that
+constexpr double similar = 0.8;                 // area over that of the island before which all places were looked at
 
 enum class Rule { lowest_top, lowest, smallest_square };
 constexpr std::array rules = {Rule::lowest_top, Rule::lowest, Rule::smallest_square};
@@ -49,6 +58,7 @@ public:
             points += outline.points.rows();
         }
         allowed_ = std::clamp(tests_a_point * points, fewest_tests, most_tests);
+        if (outlines.size() <= most_tight) allowed_ = fewest_tests;
     }
 
     IslandPacking pack()
@@ -202,13 +212,42 @@ private:
     std::uint64_t random_ = 1;
 };
 
+/// The longest side of an upright island, in sides of the square.
+/// @param along_axes only of islands that lie along the axes
+double longest(const std::vector<Outline>& outlines, bool along_axes, double scale)
+{
+    double most = 0.0;
+    for (const Outline& outline : outlines)
+        if (outline.along_axes || !along_axes) most = std::max(most, upright_island(outline).extent);
+    return most * scale;
+}
+
+/// Replaces the packing by tighter ones. Islands leave the upright only if that makes them clearly larger.
+void tighten(const std::vector<Outline>& outlines, IslandPacking& best)
+{
+    std::int64_t points = 0;
+    for (const Outline& outline : outlines) points += outline.points.rows();
+    const std::int64_t words = std::clamp(words_a_point * points, fewest_words, most_words);
+    const auto attempt = [&](Turns turns, double gain, std::int64_t most) {
+        if (IslandPacking tight = pack_tightly(outlines, best.margin, turns, most); tight.scale > gain * best.scale)
+            best = std::move(tight);
+    };
+    const bool is_held = outlines.size() <= few_islands || longest(outlines, false, best.scale) > held;
+    attempt(Turns::quarter, 1.0, is_held ? words / 2 : words);
+    if (is_held) attempt(Turns::free, worth_a_turn, words / 2);
+    if (longest(outlines, true, best.scale) > held_along_axes)
+        attempt(Turns::free_for_all, worth_a_turn_of_tubes, words / 2);
+}
+
 }  // namespace
 
 IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin)
 {
     if (outlines.empty()) return {{}, 1.0, margin};
     require_finite_outlines(outlines);
-    return Packer(outlines, margin).pack();
+    IslandPacking best = Packer(outlines, margin).pack();
+    if (outlines.size() <= most_tight) tighten(outlines, best);
+    return best;
 }
 
 }  // namespace koebe

@@ -162,9 +162,12 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
     const double unit = length_of_unit();
     context.begin_stage("pack", 0.9, 1.0);
-    const std::vector<PlanarPoints> places =
-        pack_parts(mesh.parts, options.threads, context, wanted_scale(mesh, options, unit));
-    PartsLayout layout = layout_at(std::move(mesh), places);
+    const PackedParts packed = pack_parts(mesh.parts, options.threads, context, wanted_scale(mesh, options, unit));
+    std::vector<Index> anew;  // faces
+    for (std::size_t k = 0; k < mesh.parts.size(); ++k)
+        if (packed.anew[k]) anew.insert(anew.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());
+    std::ranges::sort(anew);
+    PartsLayout layout = layout_at(std::move(mesh), packed.places);
     const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report describes it
 
     PartsResult result;
@@ -193,6 +196,12 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.converged =
         layout.crossing.empty() && result.distortion.flipped.size() == result.distortion.below_resolution.size();
     result.warnings = warnings_of(layout, left_out, result.distortion);
+    if (!anew.empty())
+        result.warnings.push_back(
+            {WarningKind::not_even,
+             counted(anew.size(), "face") +
+                 " in parts that were drawn anew, less even: they overlapped themselves as stored",
+             anew});
     take_verdict({.most_lost = options.most_lost, .advice = lower_price}, result);
     result.part = std::move(layout.part);
     result.peak_memory_mb = peak_memory_mb();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace koebe {
@@ -34,14 +35,41 @@ TEST(Packing, four_squares_fill_the_square_however_they_lay)
     EXPECT_GT(side, 0.998 * most);
 }
 
-TEST(Packing, a_long_island_stands_upright_and_fills_the_height)
+TEST(Packing, an_island_stands_upright_unless_it_is_long)
 {
-    const std::vector<Outline> outlines = {test::rectangle(5.0, 1.0, 0.3)};
+    const std::vector<Outline> outlines = {test::rectangle(5.0, 4.0, 0.3)};
     const IslandPacking packing = pack_islands(outlines, margin);
     const PlanarPoints at = place_island(outlines[0].points, packing.places[0], packing.scale);
     const Eigen::RowVector2d size = at.colwise().maxCoeff() - at.colwise().minCoeff();
     EXPECT_NEAR(size[1], 1.0 - margin, 1e-3);
-    EXPECT_NEAR(size[0], 0.2 * size[1], 1e-12);
+    EXPECT_NEAR(size[0], 0.8 * size[1], 1e-12);
+    // The side of the smallest square round the long island is 6 / sqrt(2) instead of 5.
+    for (const bool along_axes : {false, true}) {
+        Outline island = test::rectangle(5.0, 1.0, along_axes ? 0.0 : 0.3);
+        island.along_axes = along_axes;
+        const IslandPacking diagonal = pack_islands({island}, margin);
+        EXPECT_GT(diagonal.scale, 0.99 * std::sqrt(2.0) / 6.0 * (1.0 - margin));
+        EXPECT_GE(test::least_gap({island}, diagonal), margin);
+    }
+}
+
+TEST(Packing, few_islands_lie_close)
+{
+    // Two right triangles with legs of 1 make a square.
+    Outline triangle;
+    triangle.points.resize(3, 2);
+    triangle.points << 0.0, 0.0, 1.0, 0.0, 0.0, 1.0;
+    triangle.loops = {{0, 1, 2}};
+    EXPECT_GT(pack_islands({triangle, triangle}, margin).scale, 0.97);
+    std::mt19937_64 random(3);
+    std::vector<Outline> islands;
+    for (int i = 0; i < 9; ++i) islands.push_back(test::random_island(random));
+    const IslandPacking packing = pack_islands(islands, margin), again = pack_islands(islands, margin);
+    EXPECT_GE(test::least_gap(islands, packing), margin);
+    for (std::size_t i = 0; i < islands.size(); ++i) {
+        EXPECT_EQ(packing.places[i].turn, again.places[i].turn);
+        EXPECT_EQ(packing.places[i].offset, again.places[i].offset);
+    }
 }
 
 TEST(Packing, a_hole_takes_in_an_island)

@@ -1,0 +1,52 @@
+#include "mesh/topology.h"
+#include "parts/pack_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace koebe;
+
+namespace {
+
+/// A flat strip whose map winds round the origin by that angle. Above a full turn it overlaps itself.
+FlatPart strip(double angle)
+{
+    constexpr Index length = 60, across = 4;
+    const Index count = (length + 1) * (across + 1);
+    FlatPart part;
+    part.vertices = Vertices::Zero(count, 3);
+    part.points = PlanarPoints::Zero(count, 2);
+    Triangles triangles(2 * length * across, 3);
+    Index f = 0;
+    for (Index i = 0; i <= length; ++i)
+        for (Index k = 0; k <= across; ++k) {
+            const Index v = i * (across + 1) + k;
+            const double turn = angle * i / length, r = 0.5 + 0.1 * k;
+            part.vertices.row(v) << 0.5 * turn, -0.1 * k, 0.0;
+            part.points.row(v) << r * std::cos(turn), r * std::sin(turn);
+            part.original.push_back(v);
+            if (i == length || k == across) continue;
+            triangles.row(f++) << v, v + 1, v + across + 2;
+            triangles.row(f++) << v, v + across + 2, v + across + 1;
+        }
+    for (Index face = 0; face < f; ++face) part.faces.push_back(face);
+    part.surface = require_bordered_genus_zero(triangles, count);
+    part.held.assign(static_cast<std::size_t>(count), 0);
+    return part;
+}
+
+}  // namespace
+
+TEST(PackParts, a_part_that_overlaps_itself_is_drawn_anew_and_says_so)
+{
+    for (const double turns : {0.9, 1.2}) {
+        std::vector<FlatPart> flats = {strip(2.0 * std::numbers::pi * turns)};
+        ExecutionContext context;
+        const PackedParts packed = pack_parts(flats, 1, context);
+        EXPECT_EQ(packed.anew[0] != 0, turns > 1.0);
+        EXPECT_TRUE(flats[0].one_to_one);
+        EXPECT_TRUE(loops_apart(flats[0], packed.places[0]));
+    }
+}
