@@ -65,6 +65,7 @@ UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionCont
         if (i == most_rooms || report.tangled.empty() || report.tangled.size() > few_flips ||
             !make_room(whole, report.tangled, map))
             break;
+        effort.renew();  // the first search may have spent it all, and few problems are left
     }
     std::sort(report.freed.begin(), report.freed.end());
     return report;
