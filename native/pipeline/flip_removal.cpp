@@ -13,6 +13,8 @@ namespace {
 constexpr double room_factor = 0.8;  // of a circle's radius
 constexpr int most_rooms = 4;
 constexpr std::size_t few_flips = 4;  // more flips have a worse cause than two circles too near
+constexpr int most_starts = 4;
+constexpr std::size_t some_flips = 16;  // left by a search that another start is worth
 
 /// Shrinks the inner circles at which faces are still flipped: between two circles less than an edge apart, such faces
 /// have no upright place. @return whether there are such circles
@@ -37,20 +39,8 @@ bool make_room(const MapInput& whole, const std::vector<Index>& flipped, CircleM
     return !loops.empty();
 }
 
-}  // namespace
-
-CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
-{
-    if (cut.flaps.empty()) return map;
-    const PlanarPoints core_uv = std::move(map.uv);
-    map.uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
-    map.uv(cut.vertices, Eigen::all) = core_uv;
-    map.off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, map.uv, context);
-    std::sort(map.off_circle.begin(), map.off_circle.end());
-    return map;
-}
-
-UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionContext& context)
+/// Turns flipped faces back. Where few of them are left, shrinks circles and goes on.
+UntangleReport search(const MapInput& whole, CircleMap& map, ExecutionContext& context)
 {
     UntangleReport report;
     RepairEffort effort(whole.surface.triangles.rows());
@@ -69,6 +59,36 @@ UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionCont
     }
     std::sort(report.freed.begin(), report.freed.end());
     return report;
+}
+
+}  // namespace
+
+CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
+{
+    if (cut.flaps.empty()) return map;
+    const PlanarPoints core_uv = std::move(map.uv);
+    map.uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
+    map.uv(cut.vertices, Eigen::all) = core_uv;
+    map.off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, map.uv, context);
+    std::sort(map.off_circle.begin(), map.off_circle.end());
+    return map;
+}
+
+UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionContext& context)
+{
+    CircleMap start = map;
+    UntangleReport first = search(whole, map, context);
+    if (first.tangled.empty() || first.tangled.size() > some_flips) return first;
+    CircleMap first_map = map;
+    std::vector<Index> tangled = first.tangled;
+    for (int i = 1; i < most_starts && make_room(whole, tangled, start); ++i) {
+        map = start;
+        UntangleReport report = search(whole, map, context);
+        if (report.tangled.empty()) return report;
+        tangled = std::move(report.tangled);
+    }
+    map = std::move(first_map);
+    return first;
 }
 
 }  // namespace koebe
