@@ -15,11 +15,14 @@ constexpr std::size_t small_steps = 2000;  // further steps for a small surface
 }  // namespace
 
 RepairEffort::RepairEffort(Eigen::Index faces, std::size_t small)
-    : most_(steps_of_all * static_cast<std::size_t>(faces) +
-            std::min(small, small_steps * static_cast<std::size_t>(faces))),
-      limit_(most_)
+    : all_(steps_of_all * static_cast<std::size_t>(faces) +
+           std::min(small, small_steps * static_cast<std::size_t>(faces))),
+      most_(all_),
+      limit_(all_)
 {
 }
+
+void RepairEffort::renew() { limit_ = most_ = spent_ + all_; }
 
 int RepairEffort::affordable(Eigen::Index faces) const
 {

@@ -21,6 +21,9 @@ public:
     /// Limits the total spent so far and from now on.
     void set_limit(std::size_t limit) { limit_ = limit; }
 
+    /// Allows as much again as at the start, from now on.
+    void renew();
+
     /// Number of Newton steps allowed for so many faces; 0 if too few to be of use.
     int affordable(Eigen::Index faces) const;
     bool exhausted() const { return affordable(0) == 0; }
@@ -31,7 +34,7 @@ public:
     void note_failure(std::size_t problem) { failed_.insert(problem); }
 
 private:
-    std::size_t most_, limit_, spent_ = 0;
+    std::size_t all_, most_, limit_, spent_ = 0;
     std::unordered_set<std::size_t> failed_;
 };
 

@@ -13,6 +13,8 @@ namespace {
 constexpr double room_factor = 0.8;  // of a circle's radius
 constexpr int most_rooms = 4;
 constexpr std::size_t few_flips = 4;  // more flips have a worse cause than two circles too near
+constexpr int most_starts = 4;
+constexpr std::size_t some_flips = 16;  // left by a search that another start is worth
 
 /// Shrinks the inner circles at which faces are still flipped: between two circles less than an edge apart, such faces
 /// have no upright place. @return whether there are such circles
@@ -37,6 +39,28 @@ bool make_room(const MapInput& whole, const std::vector<Index>& flipped, CircleM
     return !loops.empty();
 }
 
+/// Turns flipped faces back. Where few of them are left, shrinks circles and goes on.
+UntangleReport search(const MapInput& whole, CircleMap& map, ExecutionContext& context)
+{
+    UntangleReport report;
+    RepairEffort effort(whole.surface.triangles.rows());
+    for (int i = 0;; ++i) {
+        UntangleReport more = untangle(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv,
+                                       context, {.held = held_vertices(whole), .effort = &effort});
+        map.off_circle.insert(map.off_circle.end(), more.freed.begin(), more.freed.end());
+        std::sort(map.off_circle.begin(), map.off_circle.end());
+        report.repairs += more.repairs;
+        report.freed.insert(report.freed.end(), more.freed.begin(), more.freed.end());
+        report.tangled = std::move(more.tangled);
+        if (i == most_rooms || report.tangled.empty() || report.tangled.size() > few_flips ||
+            !make_room(whole, report.tangled, map))
+            break;
+        effort.renew();  // the first search may have spent it all, and few problems are left
+    }
+    std::sort(report.freed.begin(), report.freed.end());
+    return report;
+}
+
 }  // namespace
 
 CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
@@ -52,22 +76,19 @@ CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, Ex
 
 UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionContext& context)
 {
-    UntangleReport report;
-    RepairEffort effort(whole.surface.triangles.rows());
-    for (int i = 0;; ++i) {
-        UntangleReport more = untangle(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv,
-                                       context, {.held = held_vertices(whole), .effort = &effort});
-        map.off_circle.insert(map.off_circle.end(), more.freed.begin(), more.freed.end());
-        std::sort(map.off_circle.begin(), map.off_circle.end());
-        report.repairs += more.repairs;
-        report.freed.insert(report.freed.end(), more.freed.begin(), more.freed.end());
-        report.tangled = std::move(more.tangled);
-        if (i == most_rooms || report.tangled.empty() || report.tangled.size() > few_flips ||
-            !make_room(whole, report.tangled, map))
-            break;
+    CircleMap start = map;
+    UntangleReport first = search(whole, map, context);
+    if (first.tangled.empty() || first.tangled.size() > some_flips) return first;
+    CircleMap first_map = map;
+    std::vector<Index> tangled = first.tangled;
+    for (int i = 1; i < most_starts && make_room(whole, tangled, start); ++i) {
+        map = start;
+        UntangleReport report = search(whole, map, context);
+        if (report.tangled.empty()) return report;
+        tangled = std::move(report.tangled);
     }
-    std::sort(report.freed.begin(), report.freed.end());
-    return report;
+    map = std::move(first_map);
+    return first;
 }
 
 }  // namespace koebe

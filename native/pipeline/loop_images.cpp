@@ -7,6 +7,7 @@
 #include "iteration/koebe_condensed.h"
 #include "iteration/koebe_mesh.h"
 #include "pipeline/refinement.h"
+#include "surface/curvature_weights.h"
 
 #include <cmath>
 #include <utility>
@@ -78,7 +79,7 @@ void AssembledInput::take_metric(const MapInput& input)
     places.reset();
     uses = 1;
     metric = intrinsic_metric(input.vertices, input.surface);
-    take_laplacian(half_cotangents(metric.lengths), input);
+    take_laplacian(curvature_weights(metric, input.surface.vertex_count), input);
 }
 
 void AssembledInput::take_laplacian(const EdgeLengths& halves, const MapInput& input)
@@ -95,6 +96,7 @@ bool AssembledInput::move_metric(const MapInput& input)
     metric = *std::move(kept);
     factored = false;
     moved = true;
+    correct_for_curvature(metric, input.surface.vertex_count, halves);
     if (uses > 1) {
         if (!places) places.emplace(metric.triangles, laplacian);
         places->fill(halves, laplacian);

@@ -17,7 +17,7 @@ namespace koebe {
 /// The matrices of a surface, assembled in two steps, and again when its vertices have moved.
 struct AssembledInput {
     IntrinsicMetric metric;
-    SparseMatrix laplacian;                    ///< cotan weights of the metric
+    SparseMatrix laplacian;                    ///< curvature_weights of the metric
     int uses = 0;                              ///< metrics so far on its triangles, counted up to two
     std::optional<LaplacianPlaces> places;     ///< of these triangles, from the third metric on them
     std::unique_ptr<BoundarySolver> boundary;  ///< the Laplacian's factor

@@ -4,7 +4,7 @@
 #include "execution/stopwatch.h"
 #include "schottky/circle_cut.h"
 #include "schottky/glued_state.h"
-#include "surface/intrinsic_metric.h"
+#include "surface/curvature_weights.h"
 
 #include <cmath>
 #include <limits>
@@ -96,8 +96,8 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
     CutMap map;
     map.cut = std::move(cut);
     const IntrinsicMetric metric = intrinsic_metric(map.cut.vertices, map.cut.surface);
-    const SparseMatrix laplacian =
-        cotan_laplacian(metric.triangles, half_cotangents(metric.lengths), map.cut.surface.vertex_count);
+    const SparseMatrix laplacian = cotan_laplacian(
+        metric.triangles, curvature_weights(metric, map.cut.surface.vertex_count), map.cut.surface.vertex_count);
     seconds.metric += stage.lap();
     CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut));
     seconds.factor += stage.lap();

@@ -2,6 +2,7 @@
 
 #include "linear/sparse_cholesky.h"
 #include "planar/planar_predicates.h"
+#include "surface/curvature_weights.h"
 
 #include <cmath>
 
@@ -29,13 +30,13 @@ bool apart_in_tile(const std::vector<Circle>& circles, const std::vector<Complex
 
 VectorXd jump_load(const PeriodicSurface& domain, const OneForm& form)
 {
-    return divergence(domain.metric.triangles, half_cotangents(domain.metric.lengths), form,
+    return divergence(domain.metric.triangles, curvature_weights(domain.metric, domain.surface.vertex_count), form,
                       domain.surface.vertex_count);
 }
 
 SparseMatrix laplacian_of(const PeriodicSurface& domain)
 {
-    return cotan_laplacian(domain.metric.triangles, half_cotangents(domain.metric.lengths),
+    return cotan_laplacian(domain.metric.triangles, curvature_weights(domain.metric, domain.surface.vertex_count),
                            domain.surface.vertex_count);
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "mesh/connectivity.h"
+#include "surface/curvature_weights.h"
 #include "tiles/floating_loops.h"
 #include "tiles/rim_bends.h"
 
@@ -14,7 +15,8 @@ namespace {
 /// Integral of |du + form|^2.
 double energy(const PeriodicSurface& domain, const VectorXd& u, const OneForm& form)
 {
-    return squared_norm(half_cotangents(domain.metric.lengths), form + exterior_derivative(domain.metric.triangles, u));
+    return squared_norm(curvature_weights(domain.metric, domain.surface.vertex_count),
+                        form + exterior_derivative(domain.metric.triangles, u));
 }
 
 /// The vertex near an extreme one that is the slit's tip: on the edges before and after it, the surface must lie on

@@ -10,6 +10,7 @@
 #include "linear/sparse_cholesky.h"
 #include "quality/map_clock.h"
 #include "quality/take_verdict.h"
+#include "surface/curvature_weights.h"
 #include "tiles/flat_map.h"
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
@@ -31,7 +32,7 @@ using std::numbers::pi;
 class FilledTorus {
 public:
     explicit FilledTorus(const PeriodicSurface& domain)
-        : domain_(domain), weights_(half_cotangents(domain.metric.lengths))
+        : domain_(domain), weights_(curvature_weights(domain.metric, domain.surface.vertex_count))
     {
         double blocks = 0.0;
         for (const VertexLoop& loop : domain.loops) blocks += std::pow(static_cast<double>(loop.size()), 2);

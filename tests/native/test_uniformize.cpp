@@ -83,7 +83,7 @@ TEST_P(ExactDomain, circles_converge_with_second_order)
 INSTANTIATE_TEST_SUITE_P(Condensed, ExactDomain,
                          testing::Values(ExactCase{Lift::polynomial, Engine::condensed, 2e-4},
                                          ExactCase{Lift::sphere, Engine::condensed, 2e-4},
-                                         ExactCase{Lift::enneper, Engine::condensed, 2e-4}),
+                                         ExactCase{Lift::enneper, Engine::condensed, 3e-5}),
                          [](const auto& info) { return to_string(info.param.lift); });
 INSTANTIATE_TEST_SUITE_P(Mesh, ExactDomain,
                          testing::Values(ExactCase{Lift::polynomial, Engine::mesh, 1e-3},

@@ -173,3 +173,15 @@ TEST(Untangle, what_cannot_be_turned_back_costs_no_more_than_the_effort_and_is_n
     EXPECT_GT(once, 0u);
     EXPECT_EQ(effort.spent(), once);
 }
+
+TEST(Untangle, an_effort_that_is_renewed_allows_as_much_again)
+{
+    RepairEffort effort(1000);
+    const std::size_t all = effort.most();
+    const int step = effort.affordable(1000);
+    while (!effort.exhausted()) effort.spend(1000, effort.affordable(1000) > 0 ? effort.affordable(1000) : 1);
+    effort.renew();
+    EXPECT_EQ(effort.left(), all);
+    EXPECT_EQ(effort.affordable(1000), step);
+    EXPECT_FALSE(effort.exhausted());
+}
