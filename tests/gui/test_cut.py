@@ -9,7 +9,7 @@ def test_a_closed_model_is_mapped_by_the_button_and_its_cuts_are_shown(window):
     window.look_at_model()
     window.choose(shape="DISK")
     window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
-    window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1", 30.0)
+    window.wait("len(bpy.context.window_manager.koebe_uv.islands) == 1", 240.0)
     assert window.ask(f"{ENTRY}.mapped") and window.ask(f"{ENTRY}.flipped") == 0
     assert "cut through 1 handle" in window.ask(f"{ENTRY}.note")
     window.picture("65_cut")

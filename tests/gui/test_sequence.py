@@ -29,7 +29,7 @@ def test_the_button_maps_the_frames_of_the_scene(window):
     window.picture("90_sequence_options")
     window.choose(target="LAYERS", scene_range=False, frame_start=1, frame_end=4)
     window.click(*window.find_button("VIEW_3D", "koebe_sequence"))
-    window.wait(f"not heart.computing and len({REPORT}) == 4", 30.0)
+    window.wait(f"not heart.computing and len({REPORT}) == 4", 240.0)
     window.show_textures()
     window.picture_of_uvs("91_sequence")
     layers = "[layer.name for layer in bpy.context.view_layer.objects.active.data.uv_layers]"
@@ -38,7 +38,7 @@ def test_the_button_maps_the_frames_of_the_scene(window):
     assert window.ask(FRAME) == 7
     window.move(*window.middle("VIEW_3D"))
     window.key("ctrl+z")
-    window.wait(f"{layers} == []", 20.0)
+    window.wait(f"{layers} == []", 240.0)
 
 
 def pixels(window, name, area):

@@ -29,7 +29,7 @@ def test_a_body_by_its_button_in_both_layouts(window):
         window.move(*window.middle("VIEW_3D"))
         window.settle()
         window.click(*window.find_button("VIEW_3D", "shape='SPHERE'"))
-        window.wait(DONE, 30.0)
+        window.wait(DONE, 240.0)
         window.show_textures()
         window.picture_of_uvs(f"8{number + 1}_{layout}")
         assert window.ask(f"[{ENTRY}.domain, {ENTRY}.layout, {ENTRY}.mapped, {ENTRY}.converged]") == [

@@ -25,7 +25,7 @@ def test_a_torus_by_its_button(window):
     window.open_part("domains")
     window.picture("70_other_domains")
     window.click(*window.find_button("VIEW_3D", "shape='TORUS'"))
-    window.wait(DONE, 30.0)
+    window.wait(DONE, 240.0)
     window.show_textures()
     window.picture_of_uvs("71_torus")
     assert window.ask(f"[{ENTRY}.domain, {ENTRY}.mapped, {ENTRY}.flipped]") == ["torus", True, 0]

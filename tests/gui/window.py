@@ -77,7 +77,7 @@ class Window:
     def run(self, code):
         """Run code inside; return what it leaves in `result`."""
         with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as line:
-            line.settimeout(60)
+            line.settimeout(120)
             line.connect(self.path)
             line.sendall(json.dumps({"code": code}).encode() + b"\n")
             with line.makefile() as answers:
@@ -89,7 +89,7 @@ class Window:
         """Value of an expression inside."""
         return self.run(f"result = {expression}")
 
-    def wait(self, expression, seconds=60.0):
+    def wait(self, expression, seconds=120.0):
         """Wait until an expression is true inside."""
         end = time.monotonic() + seconds
         while True:
@@ -160,13 +160,13 @@ class Window:
         domain in the report, a shape of the main button. Returns what the report offered."""
         shape = "HANDLES" if taking == "schottky" else taking.upper()
         self.press(f"uv.koebe_{refusing}")
-        self.wait(DONE, 30.0)
+        self.wait(DONE, 240.0)
         self.settle()
         self.picture(name)
         refused, offer = self.ask(f"[not {ENTRY}.mapped, {ENTRY}.offer]")
         assert refused
         self.click(*self.find_button("VIEW_3D", f"shape='{shape}'"))
-        self.wait(f"{DONE} and {ENTRY}.domain == {taking!r}", 60.0)
+        self.wait(f"{DONE} and {ENTRY}.domain == {taking!r}", 240.0)
         return offer
 
     def picture_of_uvs(self, name):
@@ -181,7 +181,7 @@ class Window:
         assert self.ask(LAYERS) == 1
         for _ in range(times):
             self.key("ctrl+z")
-        self.wait(f"{LAYERS} == 0", 20.0)
+        self.wait(f"{LAYERS} == 0", 240.0)
 
     # ---- where things are
 
