@@ -81,7 +81,7 @@ class FlattenJob:
 
     def flats(self) -> list[Flat]:
         """The pieces of each object that is still there, with UVs for their copy: the object's own, or the pieces."""
-        found = []
+        found: list[Flat] = []
         for name, surface, pattern in self._done:
             obj = bpy.data.objects.get((name, None))
             try:

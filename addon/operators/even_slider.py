@@ -2,6 +2,7 @@
 """The operator that drags the slider Even, and shows the UVs at once."""
 
 import contextlib
+from typing import Any
 
 import bpy
 
@@ -103,7 +104,8 @@ class UV_OT_koebe_even(bpy.types.Operator):
             return {"CANCELLED"}
         settings.even, settings.keep_angles = even, False
         options = {name: getattr(settings, name) for name in UNWRAP_OPTION_NAMES}
-        bpy.ops.uv.koebe_unwrap("INVOKE_DEFAULT", **options)
+        unwrap: Any = bpy.ops.uv
+        unwrap.koebe_unwrap("INVOKE_DEFAULT", **options)
         return {"FINISHED"}
 
     def cancel(self, context: bpy.types.Context) -> None:

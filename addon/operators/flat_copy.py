@@ -113,7 +113,7 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
 
     def _as_they_are(self, context: bpy.types.Context) -> set[str]:
         found, problems = self._read(context, self.layer)
-        return self._lay(context, found, problems, tuple(context.scene.cursor.location))
+        return self._lay(context, found, problems, _at_cursor(context))
 
     def _lay(
         self, context: bpy.types.Context, found: list[Flat], problems: list[str], corner: tuple[float, float, float]
@@ -132,6 +132,11 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
             if made:
                 _select_only(run, context, made)
             return self._say(done, problems, "")
+
+
+def _at_cursor(context: bpy.types.Context) -> tuple[float, float, float]:
+    x, y, z = context.scene.cursor.location
+    return x, y, z
 
 
 def _place_beside(flats: list[Flat]) -> tuple[float, float, float]:
@@ -209,7 +214,9 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
         return ".dxf" if self.pieces == "TRUE" and self.drawing == "DXF" else ".svg"
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        return ExportHelper.invoke(self, context, event)
+        browser: Any = ExportHelper
+        answer: set[str] = browser.invoke(self, context, event)
+        return answer
 
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.use_property_split = True
