@@ -36,9 +36,9 @@ constexpr std::int64_t fewest_words = 20'000'000, most_words = 100'000'000;
 constexpr std::size_t few_islands = 3;  // other turns are tried for so few islands,
 constexpr double held = 0.8;            // or if one is that long, in sides of the square, in the first packing
 constexpr double held_along_axes = 0.96;
-constexpr double worth_a_turn = 1.025;          // times the scale: islands leave the upright for that,
-constexpr double worth_a_turn_of_tubes = 1.05;  // and islands along the axes for that
-constexpr double similar = 0.8;                 // area over that of the island before which all places were looked at
+constexpr double worth_leaning = 1.025;       // times the scale: islands leave the upright for that,
+constexpr double worth_leaning_tubes = 1.05;  // and islands along the axes for that
+constexpr double similar = 0.8;               // area over that of the island before which all places were looked at
 
 enum class Rule { lowest_top, lowest, smallest_square };
 constexpr std::array rules = {Rule::lowest_top, Rule::lowest, Rule::smallest_square};
@@ -214,7 +214,7 @@ private:
 
 /// The longest side of an upright island, in sides of the square.
 /// @param along_axes only of islands that lie along the axes
-double longest(const std::vector<Outline>& outlines, bool along_axes, double scale)
+double longest_side(const std::vector<Outline>& outlines, bool along_axes, double scale)
 {
     double most = 0.0;
     for (const Outline& outline : outlines)
@@ -228,15 +228,15 @@ void tighten(const std::vector<Outline>& outlines, IslandPacking& best)
     std::int64_t points = 0;
     for (const Outline& outline : outlines) points += outline.points.rows();
     const std::int64_t words = std::clamp(words_a_point * points, fewest_words, most_words);
-    const auto attempt = [&](Turns turns, double gain, std::int64_t most) {
+    const auto attempt = [&](IslandTurns turns, double gain, std::int64_t most) {
         if (IslandPacking tight = pack_tightly(outlines, best.margin, turns, most); tight.scale > gain * best.scale)
             best = std::move(tight);
     };
-    const bool is_held = outlines.size() <= few_islands || longest(outlines, false, best.scale) > held;
-    attempt(Turns::quarter, 1.0, is_held ? words / 2 : words);
-    if (is_held) attempt(Turns::free, worth_a_turn, words / 2);
-    if (longest(outlines, true, best.scale) > held_along_axes)
-        attempt(Turns::free_for_all, worth_a_turn_of_tubes, words / 2);
+    const bool is_held = outlines.size() <= few_islands || longest_side(outlines, false, best.scale) > held;
+    attempt(IslandTurns::quarter, 1.0, is_held ? words / 2 : words);
+    if (is_held) attempt(IslandTurns::free, worth_leaning, words / 2);
+    if (longest_side(outlines, true, best.scale) > held_along_axes)
+        attempt(IslandTurns::free_for_all, worth_leaning_tubes, words / 2);
 }
 
 }  // namespace

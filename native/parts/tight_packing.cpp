@@ -26,10 +26,10 @@ Complex turn_of(int k)
 }
 
 /// The island in each of its angles: upright, and if turns are free in others too, also in the smallest square.
-std::vector<UprightIsland> angles_of(const Outline& outline, Turns turns)
+std::vector<UprightIsland> angles_of(const Outline& outline, IslandTurns turns)
 {
     std::vector<UprightIsland> found{upright_island(outline)};
-    if (turns == Turns::quarter || (turns == Turns::free && outline.along_axes)) return found;
+    if (turns == IslandTurns::quarter || (turns == IslandTurns::free && outline.along_axes)) return found;
     int smallest = 0;
     double least = found[0].extent;
     for (int k = 1; k < angles; ++k)
@@ -50,7 +50,7 @@ struct Drawn {
 
 class TightPacker {
 public:
-    TightPacker(const std::vector<Outline>& outlines, double margin, Turns turns) : margin_(margin)
+    TightPacker(const std::vector<Outline>& outlines, double margin, IslandTurns turns) : margin_(margin)
     {
         for (const Outline& outline : outlines) {
             islands_.push_back(angles_of(outline, turns));
@@ -216,7 +216,7 @@ private:
 
 }  // namespace
 
-IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, Turns turns, std::int64_t most)
+IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, IslandTurns turns, std::int64_t most)
 {
     return TightPacker(outlines, margin, turns).pack(most);
 }

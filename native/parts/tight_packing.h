@@ -10,7 +10,7 @@
 namespace koebe {
 
 /// Turns that islands get.
-enum class Turns {
+enum class IslandTurns {
     quarter,      ///< by 90 degrees: islands stay upright
     free,         ///< by more angles, except islands that lie along the axes already
     free_for_all  ///< by more angles
@@ -19,6 +19,6 @@ enum class Turns {
 /// Packs islands by moving them apart in a square that becomes smaller and smaller: first on a coarse board, anywhere
 /// and in any turn (`separation.h`); then on a fine board, along short ways.
 /// @param most work, in words compared @return a scale of 0 if it found no packing
-IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, Turns turns, std::int64_t most);
+IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, IslandTurns turns, std::int64_t most);
 
 }  // namespace koebe
