@@ -5,6 +5,7 @@
 #include "pipeline/outer_loop.h"
 #include "pipeline/uniformize.h"
 #include "planar_map.h"
+#include "surface/importance.h"
 
 #include <gtest/gtest.h>
 
