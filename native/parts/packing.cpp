@@ -33,12 +33,10 @@ constexpr std::int64_t tests_an_attempt = 4000;  // to empty the board
 constexpr std::size_t most_tight = 100;          // islands that are packed more tightly,
 constexpr std::int64_t words_a_point = 12'000;   // with so much work
 constexpr std::int64_t fewest_words = 20'000'000, most_words = 100'000'000;
-constexpr std::size_t few_islands = 3;  // other turns are tried for so few islands,
-constexpr double held = 0.8;            // or if one is that long, in sides of the square, in the first packing
-constexpr double held_along_axes = 0.96;
-constexpr double worth_leaning = 1.025;       // times the scale: islands leave the upright for that,
-constexpr double worth_leaning_tubes = 1.05;  // and islands along the axes for that
-constexpr double similar = 0.8;               // area over that of the island before which all places were looked at
+constexpr std::size_t few_islands = 3;   // other turns are tried for so few islands,
+constexpr double held = 0.8;             // or if one is that long, in sides of the square, in the first packing
+constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that
+constexpr double similar = 0.8;          // area over that of the island before which all places were looked at
 
 enum class Rule { lowest_top, lowest, smallest_square };
 constexpr std::array rules = {Rule::lowest_top, Rule::lowest, Rule::smallest_square};
@@ -213,12 +211,10 @@ private:
 };
 
 /// The longest side of an upright island, in sides of the square.
-/// @param along_axes only of islands that lie along the axes
-double longest_side(const std::vector<Outline>& outlines, bool along_axes, double scale)
+double longest_side(const std::vector<Outline>& outlines, double scale)
 {
     double most = 0.0;
-    for (const Outline& outline : outlines)
-        if (outline.along_axes || !along_axes) most = std::max(most, upright_island(outline).extent);
+    for (const Outline& outline : outlines) most = std::max(most, upright_island(outline).extent);
     return most * scale;
 }
 
@@ -232,11 +228,9 @@ void tighten(const std::vector<Outline>& outlines, IslandPacking& best)
         if (IslandPacking tight = pack_tightly(outlines, best.margin, turns, most); tight.scale > gain * best.scale)
             best = std::move(tight);
     };
-    const bool is_held = outlines.size() <= few_islands || longest_side(outlines, false, best.scale) > held;
+    const bool is_held = outlines.size() <= few_islands || longest_side(outlines, best.scale) > held;
     attempt(IslandTurns::quarter, 1.0, is_held ? words / 2 : words);
     if (is_held) attempt(IslandTurns::free, worth_leaning, words / 2);
-    if (longest_side(outlines, true, best.scale) > held_along_axes)
-        attempt(IslandTurns::free_for_all, worth_leaning_tubes, words / 2);
 }
 
 }  // namespace

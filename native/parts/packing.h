@@ -29,11 +29,10 @@ struct IslandPacking {
 
 /// Puts islands into the unit square, as large as it can. No island is mirrored. Each is turned so that its smallest
 /// enclosing rectangle lies along the axes, unless it lies along them already. Other turns are used only where they
-/// make all islands larger by 2.5 %; islands that lie along the axes already keep to quarter turns, unless other turns
-/// make all islands larger by 5 %. Outlines are drawn on a grid of cells, with half the margin round them. Large
-/// islands are placed first, each in the lowest free place; small islands go into hollows and holes. Several orders and
-/// rules are tried. Up to 100 islands are then moved closer together (tight_packing.h). All decisions are on integers,
-/// so the result is the same on every system.
+/// make all islands larger by 2.5 %. Islands that lie along the axes already keep to quarter turns. Outlines are drawn
+/// on a grid of cells, with half the margin round them. Large islands are placed first, each in the lowest free place;
+/// small islands go into hollows and holes. Several orders and rules are tried. Up to 100 islands are then moved closer
+/// together (tight_packing.h). All decisions are on integers, so the result is the same on every system.
 /// @param margin distance of two islands, and twice the distance from the border, in sides of the square. Many islands
 /// get a smaller margin, so that they have room
 /// @throws SolverError points that are NaN or infinite

@@ -29,7 +29,7 @@ Complex turn_of(int k)
 std::vector<UprightIsland> angles_of(const Outline& outline, IslandTurns turns)
 {
     std::vector<UprightIsland> found{upright_island(outline)};
-    if (turns == IslandTurns::quarter || (turns == IslandTurns::free && outline.along_axes)) return found;
+    if (turns == IslandTurns::quarter || outline.along_axes) return found;
     int smallest = 0;
     double least = found[0].extent;
     for (int k = 1; k < angles; ++k)

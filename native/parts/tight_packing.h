@@ -11,9 +11,8 @@ namespace koebe {
 
 /// Turns that islands get.
 enum class IslandTurns {
-    quarter,      ///< by 90 degrees: islands stay upright
-    free,         ///< by more angles, except islands that lie along the axes already
-    free_for_all  ///< by more angles
+    quarter,  ///< by 90 degrees: islands stay upright
+    free      ///< by more angles, except islands that lie along the axes already
 };
 
 /// Packs islands by moving them apart in a square that becomes smaller and smaller: first on a coarse board, anywhere
