@@ -2,7 +2,7 @@
 """The operator that drags the slider Even, and shows the UVs at once."""
 
 import contextlib
-from typing import Any
+from typing import Any, ClassVar
 
 import bpy
 
@@ -32,13 +32,14 @@ class UV_OT_koebe_even(bpy.types.Operator):
     bl_label = "Koebe Drag Even"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "BLOCKING", "GRAB_CURSOR"}
+    dragged: ClassVar[str] = ""  # the object whose UVs are dragged now: the circles of its report lie elsewhere
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        self.report({"ERROR"}, "Koebe UV: the slider is dragged in a window: a script sets even of uv.koebe_unwrap")
+        self.report({"ERROR"}, "Koebe UV: only a mouse can drag this slider. In a script, give even to uv.koebe_unwrap")
         return {"CANCELLED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -55,6 +56,7 @@ class UV_OT_koebe_even(bpy.types.Operator):
         self._worker: Worker | None = None
         self._way = 0.0
         self.moves = 0
+        UV_OT_koebe_even.dragged = obj.name
         self._timer = context.window_manager.event_timer_add(POLL_SECONDS, window=context.window)
         context.window_manager.modal_handler_add(self)
         self._say(context)
@@ -117,11 +119,12 @@ class UV_OT_koebe_even(bpy.types.Operator):
             self._worker = None
         context.window_manager.event_timer_remove(self._timer)
         context.workspace.status_text_set(None)
+        UV_OT_koebe_even.dragged = ""
         self._job.put_back()
         redraw(context)
 
     def _say(self, context: bpy.types.Context) -> None:
-        keys = "Click or Enter: Unwrap So      Shift: Slowly      Esc: Cancel"
+        keys = "Click or Enter: Unwrap with This Even      Shift: Slowly      Esc: Cancel"
         text = f"Koebe UV: Even {self._drag.even:.2f}      {keys}"
         context.workspace.status_text_set(text)
 

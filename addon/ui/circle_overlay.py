@@ -11,6 +11,7 @@ from ..blender import sequence_player
 from ..blender.targets import target_objects
 from ..maps.option_table import LARGEST
 from ..maps.options import label_of
+from ..operators.even_slider import UV_OT_koebe_even
 from ..operators.moebius import UV_OT_koebe_moebius
 from ..state.run_report import KoebeIslandReport, report_of
 from . import drawing
@@ -32,7 +33,7 @@ def visible_islands(context: bpy.types.Context) -> Iterator[KoebeIslandReport]:
     shown: dict[str, tuple[str, str]] = {}  # by object: layer and shape
     for obj in target_objects(context):
         active = obj.data.uv_layers.active
-        if active is not None:
+        if active is not None and obj.name != UV_OT_koebe_even.dragged:
             frame = sequence_player.frame_shown(obj, active.name, now)
             shown[obj.name] = (active.name, "") if frame is None else ("", label_of(frame))
     for entry in report_of(context).islands:
