@@ -10,8 +10,8 @@
 namespace koebe {
 namespace {
 
-constexpr double flat = 1e-12;           // radians: defects below it are rounding
-constexpr double most_correction = 0.1;  // of a weight
+constexpr double flat = 1e-12;   // radians: defects below it are rounding
+constexpr double coarse = 0.01;  // K d^2 / 12: a surface that bends as much from face to face is not sampled
 
 /// 1 for each vertex on a boundary edge.
 std::vector<char> rim_of(const IntrinsicMetric& metric, Index vertex_count)
@@ -56,6 +56,13 @@ VectorXd defect_sines(const Triangles& triangles, Index vertex_count, const Edge
     return sines;
 }
 
+/// A correction, which vanishes where it is not small: there the angle defects are noise or a crease.
+double faded(double correction)
+{
+    const double ratio = correction / coarse;
+    return correction / (1.0 + ratio * ratio * ratio * ratio);
+}
+
 /// Gives each vertex of the rim the mean of its inner neighbours.
 void continue_to_rim(const IntrinsicMetric& metric, const std::vector<char>& rim, VectorXd& curvature)
 {
@@ -85,7 +92,7 @@ void correct_for_curvature(const IntrinsicMetric& metric, Index vertex_count, Ed
     for (Index h = 0; h < static_cast<Index>(metric.twin.size()); ++h) {
         const double length = metric.lengths.data()[h];
         const double mean = 0.5 * (curvature[origin(metric.triangles, h)] + curvature[target(metric.triangles, h)]);
-        weights.data()[h] *= 1.0 + std::clamp(mean * length * length / 12.0, -most_correction, most_correction);
+        weights.data()[h] *= 1.0 + faded(mean * length * length / 12.0);
     }
 }
 

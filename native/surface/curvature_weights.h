@@ -10,8 +10,8 @@ namespace koebe {
 /// have d^2 / 12 times the integral of |D^2 u|^2 too much energy, of which Bochner's formula leaves -K |grad u|^2
 /// inside (docs/numerics.md, "The angles"). K of an inner vertex is the sine of its angle defect over a third of the
 /// area of its faces, and +-1 over that area for defects above a right angle. A boundary vertex takes the mean of its
-/// inner neighbours, an edge the mean of its ends. K d^2 / 12 is at most 0.1. Defects below 1e-12 count as 0, so that
-/// flat surfaces keep their weights.
+/// inner neighbours, an edge the mean of its ends. x = K d^2 / 12 is divided by 1 + (x / 0.01)^4, as large angle
+/// defects are noise or a crease. Defects below 1e-12 count as 0, so that flat surfaces keep their weights.
 /// @param weights in: half_cotangents of the metric's lengths
 void correct_for_curvature(const IntrinsicMetric& metric, Index vertex_count, EdgeLengths& weights);
 
