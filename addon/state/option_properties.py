@@ -5,6 +5,7 @@ import dataclasses
 from typing import Any
 
 import bpy
+import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from ..maps.domains import DOMAINS
@@ -78,9 +79,15 @@ def copy_options(source: Any, target: Any, of: str = "uniformize") -> None:
             setattr(target, name, getattr(source, name))
 
 
+def _value(properties: Any, name: str) -> Any:
+    """An option as Blender shows it: 0.3, and not the nearest 32-bit number. So the command makes the same map."""
+    value = getattr(properties, name)
+    return float(str(np.float32(value))) if isinstance(value, float) else value
+
+
 def sequence_options_of(properties: Any) -> Options:
     """The `Options` of the sequence operator. Raises OptionError."""
-    values = {name: getattr(properties, name) for name in SEQUENCE_OPTION_NAMES if name in OPTION_NAMES}
+    values = {name: _value(properties, name) for name in SEQUENCE_OPTION_NAMES if name in OPTION_NAMES}
     return Options(**values, placement="pack")
 
 
@@ -88,17 +95,17 @@ def choice_of(of: str, properties: Any) -> Any:
     """The `PartsChoice` of an operator, or its domain's choice. Raises OptionError."""
     kind: Any = PartsChoice if of == "parts" else DOMAINS[of].choice
     known = {field.name for field in dataclasses.fields(kind)}.intersection(option_names(of))
-    return kind(**{name: getattr(properties, name) for name in known})
+    return kind(**{name: _value(properties, name) for name in known})
 
 
 def written_options_of(properties: Any) -> Options:
     """The `Options` for writing: layer and checker. Raises OptionError."""
-    return Options(**{name: getattr(properties, name) for name in WRITTEN})
+    return Options(**{name: _value(properties, name) for name in WRITTEN})
 
 
 def options_of(properties: Any, **others: Any) -> Options:
     """The `Options` of a property group, but for those that are given. Raises OptionError."""
-    return Options(**{**{name: getattr(properties, name) for name in OPTION_NAMES}, **others})
+    return Options(**{**{name: _value(properties, name) for name in OPTION_NAMES}, **others})
 
 
 def register() -> None:
