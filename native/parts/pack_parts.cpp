@@ -78,8 +78,8 @@ IslandPacking pack_outlines(const std::vector<Outline>& outlines, const std::opt
     if (!wanted) return largest;
     const double factor = wanted->scale / largest.scale;
     if (factor > 1.0) throw_too_dense(*wanted, largest.scale);
-    if (IslandPacking wider = pack_islands(outlines, room / factor); wider.scale >= wanted->scale)
-        return shrunk(std::move(wider), wanted->scale / wider.scale);
+    if (const IslandPacking wider = pack_islands(outlines, room / factor); wider.scale >= wanted->scale)
+        return shrunk(wider, wanted->scale / wider.scale);
     return shrunk(std::move(largest), factor);
 }
 
