@@ -37,7 +37,7 @@ ifndef AT_ONCE
 endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
-.PHONY: help build native programs wheel package dist matrix lint lint-python lint-native check check-native check-python check-form \
+.PHONY: help build native programs wheel package dist matrix lint lint-python lint-native check check-native check-form \
         test test-all test-native test-python test-long test-labs test-blender test-gui test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
@@ -105,14 +105,15 @@ test-all: lint test test-long test-fuzz $(ALL_BPY:%=test-bpy-%) ## before a rele
 
 # The native tests whole; of the others those that are not marked slow.
 check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
-	@begin=$$(date +%s); $(SIDE_BY_SIDE) check-python check-native check-form; \
+	@begin=$$(date +%s); $(SIDE_BY_SIDE) check-native check-python-a-m check-python-n-z check-form; \
 	    result=$$?; echo "make check: $$(($$(date +%s) - begin)) s"; exit $$result
 
 check-native:
 	@for program in koebe_tests koebe_thread_tests koebe_kernel_tests; do build/tests/native/$$program --gtest_brief=1 || exit 1; done
 
-check-python:
-	@PYTHONPATH=build/python $(PYTHON) -m pytest -q -p no:cacheprovider -m 'not slow' tests/python
+# By the first letter of the files: two halves of the time.
+check-python-%:
+	@PYTHONPATH=build/python $(PYTHON) -m pytest -q -p no:cacheprovider -m 'not slow' tests/python/test_[$*]*.py
 
 check-form: lint-python
 	git diff --name-only --diff-filter=d HEAD -- '*.h' '*.cpp' | xargs --no-run-if-empty clang-format --dry-run -Werror

@@ -189,6 +189,7 @@ def test_a_ring_with_radial_slits_has_the_certified_modulus():
     assert height == pytest.approx(1 / found.capacities[0].mean(), rel=5e-3)
 
 
+@pytest.mark.slow
 def test_the_width_falls_with_the_square_of_the_number_of_faces():
     """Quadratic functions, and faces cut where the corners need it."""
     runs = [koebe.certified_moduli(*ring(), width=width) for width in (1e-2, 1e-4, 1e-6)]

@@ -150,6 +150,7 @@ def ring_error(steps):
     return max(errors)
 
 
+@pytest.mark.slow
 def test_a_round_annulus_with_round_holes_is_unrolled_with_second_order():
     errors = [ring_error(steps) for steps in (6, 12, 24)]
     assert errors[0] < 2e-2

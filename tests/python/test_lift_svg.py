@@ -168,6 +168,7 @@ def test_a_damaged_drawing_is_refused(lifted, text):
         lifted(text, perforate=True)
 
 
+@pytest.mark.slow
 def test_any_cut_or_changed_byte_is_refused_or_drawn(lifted):
     letter = path(LETTER_O, 'fill-rule="evenodd" transform="rotate(30)"')
     whole = svg(letter + '<rect x="2" y="30" width="4" height="3"/>')

@@ -99,6 +99,7 @@ def spheroid_error(frequency, height):
 
 
 @pytest.mark.parametrize("height", [0.5, 2.0], ids=["oblate", "prolate"])
+@pytest.mark.slow
 def test_a_spheroid_is_mapped_with_second_order(height):
     """The isometric latitude; the points' mean is 0 as by symmetry that of the exact map."""
     errors = [spheroid_error(frequency, height) for frequency in (7, 14, 28, 56)]
