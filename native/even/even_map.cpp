@@ -36,10 +36,9 @@ constexpr double least_weight = 1e-3;      // weight of a face of the surface, o
 constexpr double hopeless = 100.0;         // ratio of a face's stretches: above it a face weighs less
 constexpr std::size_t any_circle = 3;      // points lie on a circle wherever they are
 constexpr double least_gap = 1e-4;         // between loops, over the extent
-constexpr double area_rounding =
-    1.5e-7;                            // twice the area a face can lose by 32-bit floats, over its edge and the extent
-constexpr double roomy_face = 1000.0;  // times that: a face as large is not hindered
-constexpr double shortest_drawn = 1e-7;  // over the extent: shorter edges say nothing about a loop's course
+constexpr double area_rounding = 1.5e-7;   // twice the area lost by 32-bit floats, over the edge and the extent
+constexpr double roomy_face = 1000.0;      // times that: a face as large is not hindered
+constexpr double shortest_drawn = 1e-7;    // over the extent: shorter edges say nothing about a loop's course
 constexpr std::array grids{1 << 19, 1 << 20, 1 << 21, 1 << 22};  // points along the extent; 32-bit floats have 1 << 24
 
 double area(const CornerPlaces& at) { return 0.5 * cross(at[1] - at[0], at[2] - at[0]); }

@@ -5,7 +5,6 @@
 
 #include <pybind11/eigen.h>
 
-#include <chrono>
 #include <mutex>
 
 namespace py = pybind11;
@@ -30,8 +29,7 @@ void bind_even_dial(py::module_& m)
         }))
         .def("move", [](SharedDial& shared, double even, int steps, const CancelToken& cancel) {
             return without_gil(py::none(), cancel, [&](ExecutionContext& context) {
-                std::unique_lock lock(shared.busy, std::defer_lock);
-                while (!lock.try_lock_for(std::chrono::milliseconds(20))) context.checkpoint();
+                const auto lock = alone(shared.busy, context);
                 const bool moved = shared.dial.move(even, steps, context);
                 return std::make_pair(shared.dial.points(), moved);
             });

@@ -5,7 +5,6 @@
 
 #include <pybind11/eigen.h>
 
-#include <chrono>
 #include <mutex>
 
 namespace py = pybind11;
@@ -34,8 +33,7 @@ void bind_surface(py::module_& m)
         .def("uniformize", [](SharedSolver& shared, const Eigen::Ref<const Vertices>& vertices,
                               const py::object& progress, const CancelToken& cancel) {
             return without_gil(progress, cancel, [&](ExecutionContext& context) {
-                std::unique_lock lock(shared.busy, std::defer_lock);
-                while (!lock.try_lock_for(std::chrono::milliseconds(20))) context.checkpoint();
+                const auto lock = alone(shared.busy, context);
                 return shared.solver.uniformize(vertices, context);
             });
         });
