@@ -604,13 +604,13 @@ def test_a_claim_of_another_host_holds_while_it_is_renewed(library, tmp_path):
     out = tmp_path / "out"
     file = claim_file(out, "a.obj", host="elsewhere", process=1)
     begin = time.monotonic()
-    run = start(library / "a.obj", "--output", out, "--stale", 1)
-    while time.monotonic() - begin < 3:
+    run = start(library / "a.obj", "--output", out, "--stale", 2)
+    while time.monotonic() - begin < 4:
         os.utime(file)
-        time.sleep(0.2)
+        time.sleep(0.1)
         assert run.poll() is None
-    assert run.wait(timeout=20) == 0
-    assert time.monotonic() - begin > 3.7
+    assert run.wait(timeout=60) == 0
+    assert time.monotonic() - begin > 5.7
     assert set(contents(out)) == {"a.obj", "a.json", "summary.json"}
 
 
@@ -629,7 +629,7 @@ def test_a_claim_of_a_dead_process_is_taken_over(library, tmp_path, owner):
     claim_file(out, "a.obj", **owner)
     begin = time.monotonic()
     assert batch(library / "a.obj", "--output", out).returncode == 0
-    assert time.monotonic() - begin < (2 if owner else 20)
+    assert time.monotonic() - begin < 60  # a claim of another host would hold for 120
     assert not (out / ".koebe-batch").exists()
 
 

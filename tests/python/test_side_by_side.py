@@ -112,11 +112,11 @@ def test_work_that_is_to_be_done_again_is_not_counted(side):
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_an_error_stops_the_others_and_is_raised_when_they_have_ended(side, threads):
-    work = Work(side, [1] * 10, seconds=5, fails={0})
+    work = Work(side, [1] * 10, seconds=40, fails={0})
     begin = time.monotonic()
     with pytest.raises(ZeroDivisionError):
         run(side, work, threads)
-    assert time.monotonic() - begin < 2 and work.running == 0
+    assert time.monotonic() - begin < 20 and work.running == 0
     assert len(work.started) <= threads
 
 
@@ -129,7 +129,7 @@ def test_an_exception_of_the_progress_ends_everything(side):
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         run(side, work, 2, progress)
-    assert time.monotonic() - begin < 4 and work.running == 0 and len(work.started) <= 4
+    assert time.monotonic() - begin < 15 and work.running == 0 and len(work.started) <= 4
 
 
 def test_surfaces_that_are_numbered_one_after_the_other_are_seen_to_be_several(addon):
