@@ -26,7 +26,7 @@ public:
     struct Pull {
         double rim = 0.0;       ///< of loop vertices to their circles
         double centre = 0.0;    ///< of fans' centres to the circles' centres
-        double regular = 1e-3;  ///< weight of the fans, drawn to regular polygons, against the surface's faces
+        double regular = 1e-3;  ///< of the fans, whose wanted shape is a regular polygon; the surface's faces weigh 1
         double place = 0.0;     ///< of the vertex for 0 to its place
         PatchShape shape = PatchShape::surface;  ///< wanted shape of the faces
     };

@@ -88,7 +88,7 @@ public:
 
 private:
     const Triangles& triangles_;
-    std::vector<Complex> turn_;  // (3F) of length 1, by the angle on the surface; 0 without an angle
+    std::vector<Complex> turn_;  // (3F) exp(i alpha) for a corner's angle alpha on the surface; 0 in faces without area
     std::vector<double> least_area_;
     std::vector<Index> begin_;
     std::vector<Corner> corners_;

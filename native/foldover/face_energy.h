@@ -54,8 +54,9 @@ struct Symmetric {
 };
 
 /// Derivatives of a face's term by its corners, with the Hessian made positive semidefinite. c are the shape's numbers.
-/// The Hessian is `like` conj(c_k) c_l + `unlike` c_k conj(c_l), as turns and scalings, plus `along` in the directions
-/// u and w, in which |like| and |unlike| of the map grow.
+/// The Hessian's block of corners k and l is a sum of two terms. The first term is the complex number
+/// `like` conj(c_k) c_l + `unlike` c_k conj(c_l), as a 2x2 matrix. The second term is `along` in the plane of u and w.
+/// In the direction u the |like| of the map grows, and in the direction w its |unlike|.
 struct FaceDerivatives {
     double term;
     std::array<Complex, 3> gradient;

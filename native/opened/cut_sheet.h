@@ -16,7 +16,8 @@ public:
     /// Puts each piece's unit disk onto its circle in [-1, 1]^2.
     void place(const std::vector<MappedPiece>& mapped, const std::vector<Circle>& places);
 
-    /// Pieces with flips above resolution, ascending. Rounding differs where a disk is small.
+    /// Pieces with flips above resolution, ascending. They can differ from the flips in the piece's own unit disk,
+    /// because a small disk is rounded differently.
     std::vector<std::size_t> flipped_pieces() const;
 
     /// Turns flipped faces of a piece back in place (untangle), and changes the UVs of its own disk likewise.

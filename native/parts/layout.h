@@ -9,7 +9,8 @@
 
 namespace koebe {
 
-/// The corners of a face are in the order in which it was mapped: some faces were turned.
+/// The corners of a face are in the order in which the face was mapped. For the faces `reoriented` this is the reverse
+/// of the input's order.
 struct PartsLayout {
     Vertices vertices;        ///< the input's vertices, scaled so that all areas sum to 1
     Triangles triangles;      ///< (F, 3) faces of the input, turned to one orientation in each piece
