@@ -29,8 +29,8 @@ struct FaceMap {
     double squared_norm() const { return 2.0 * (std::norm(like) + std::norm(unlike)); }
 };
 
-/// A face's wanted shape, as three numbers. `like` is the sum of numbers times corners of the image. `unlike` has the
-/// conjugate numbers.
+/// A face's wanted shape, as three numbers. `like` of the map is the sum of these numbers times the corners of the
+/// image. `unlike` is the same sum with the conjugate numbers.
 struct WantedShape {
     /// @param edges columns: 0-1 and 0-2
     explicit WantedShape(const Eigen::Matrix2d& edges);
