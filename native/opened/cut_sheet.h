@@ -20,7 +20,8 @@ public:
     /// because a small disk is rounded differently.
     std::vector<std::size_t> flipped_pieces() const;
 
-    /// Turns flipped faces of a piece back in place (untangle), and changes the UVs of its own disk likewise.
+    /// Turns flipped faces of a piece back in place (untangle), and changes the UVs in the piece's own disk in the same
+    /// way.
     /// @param mapped still in the piece's own numbers
     void turn_back(std::size_t piece, const Circle& place, MappedPiece& mapped, const ExecutionContext& context);
 
