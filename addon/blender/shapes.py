@@ -112,8 +112,8 @@ def _evaluated(
         if not _same_faces(mesh, surface):
             making = ", ".join(repr(one.name) for one in obj.modifiers if one.show_viewport)
             raise TransferError(
-                f"{obj.name}: in {label_of(frame)} its modifiers ({making or 'none of its own'}) make other faces than "
-                "the mesh has: turn off in the viewport each modifier that adds, removes or joins faces"
+                f"{obj.name}: in {label_of(frame)} it has other faces than its mesh (modifiers: {making or 'none'}): "
+                "turn off in the viewport each modifier that adds, removes or joins faces"
             )
         corners = None
         if with_triangles:

@@ -30,7 +30,8 @@ WORDS = {
         "faces", "Even has no effect here, as faces would turn over: {count}. Lower Even, or choose more parts"),
     "lost_area": ("faces", ""),  # what is said of it has the share of the area
     "left_out": (
-        "faces", "Without UVs, as they repeat another face: {count}. Use Mesh ▸ Clean Up ▸ Merge by Distance"),
+        "faces",
+        "Without UVs, because another face has the same vertices: {count}. Use Mesh ▸ Clean Up ▸ Merge by Distance"),
     "not_mapped": ("faces", "Without UVs, all at one point: {count}. Repair the mesh there"),
 }  # fmt: skip
 NOUNS = {"faces": ("face", None), "vertices": ("vertex", "vertices"), "loops": ("boundary", "boundaries")}

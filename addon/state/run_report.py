@@ -79,7 +79,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     handles: IntProperty(description="Of a fundamental domain: the handles that are cut open")
     by_circles: BoolProperty(description="Of a fundamental domain: whether the UVs are cut along circles, or edges")
     offer: StringProperty(description="The operators that take an island that this one does not, with spaces between")
-    moved: StringProperty(description="What a Möbius map by hand has made of the island, empty without one")
+    moved: StringProperty(description="How the island was changed after its map, by hand or by symmetry. Else empty")
     corners: StringProperty(description="Corners of the mesh on the loops of an island that was moved, as JSON")
     history: StringProperty(description="What the report was for each state of such an island, as JSON")
     warnings: CollectionProperty(type=KoebeWarningReport, description="What to watch out for, in an artist's words")

@@ -56,7 +56,7 @@ private:
         if (fs::is_directory(input, error)) return add_folder(fs::canonical(input));
         if (!fs::exists(input, error)) throw UsageError(utf8(input) + " does not exist");
         if (is_blend(input) && !options_.with_blends)
-            throw UsageError(utf8(input) + " is a .blend file: name the program with --blender");
+            throw UsageError(utf8(input) + " is a .blend file: give the Blender program with --blender");
         if (!is_mesh(input) && !is_blend(input))
             throw UsageError(utf8(input) + " is not a mesh file: mesh files end in .obj, .off, .ply or .stl");
         // A link gives its own name, as its target may be called anything.

@@ -15,12 +15,12 @@ struct CanonicalMesh {
     Triangles triangles;                   ///< (F, 3) each with its corners in the input's cyclic order
     std::vector<Index> original_vertices;  ///< the input's vertex for each vertex; unused vertices come last
     std::vector<Index> original_faces;     ///< the input's face for each face
-    std::vector<char> first_corners;       ///< of each face: the corner that came first in the input
+    std::vector<char> first_corners;       ///< of each face: the corner that is first in the input
     Eigen::Matrix3d turn;                  ///< as in CanonicalPosition
 
-    /// The number here of an input's vertex. Numbers that are negative or too large stay as they are.
+    /// The canonical number of an input's vertex. Numbers that are negative or too large stay unchanged.
     Index vertex(Index original) const;
-    /// The input's values in the order of the vertices or faces here; empty if there are none.
+    /// The input's values in the order of the canonical vertices or faces; empty if there are no values.
     template <class Value>
     std::vector<Value> of_vertices(const std::vector<Value>& values) const
     {
@@ -35,7 +35,7 @@ struct CanonicalMesh {
     // Back to the input's numbers, in place.
     void name_vertex(Index& v) const { name(v, original_vertices); }
     void name_face(Index& f) const { name(f, original_faces); }
-    void name_path(std::vector<Index>& vertices) const;      ///< keeps its order
+    void name_path(std::vector<Index>& vertices) const;      ///< keeps the path's order
     void name_loop(VertexLoop& loop) const;                  ///< then its lowest vertex comes first
     void name_vertices(std::vector<Index>& vertices) const;  ///< then ascending
     void name_faces(std::vector<Index>& faces) const;        ///< then ascending
@@ -78,17 +78,18 @@ private:
     }
 };
 
-/// A patch is a set of faces joined over edges in one orientation. Each is numbered from an edge of its own
-/// (canonical_walk.h), larger patches first. Faces that name a vertex twice, or duplicate another face, come last.
+/// A patch is a set of faces joined over edges in one orientation. Each patch is numbered from an edge of its own
+/// (canonical_walk.h), larger patches first. Faces that name a vertex twice, or repeat another face, come last.
 /// Positions are as in canonical_form.h.
 /// @return the unchanged input if its arrays are not a mesh (empty, not finite, out of range, at one point): the reader
 /// reports it
 CanonicalMesh canonical_mesh(const Vertices& vertices, const Triangles& triangles);
 
-/// Throws the error with the input's numbers. @throws error
+/// Throws the error with its numbers changed to the input's. @throws error
 [[noreturn]] void throw_named(const CanonicalMesh& mesh, const KoebeError& error);
 
-/// Does work on the canonical mesh. Returns the result in the input's numbers, so it follows from the shape alone.
+/// Calls work on the canonical mesh. Returns the result in the input's numbers, so the result follows from the shape
+/// alone.
 /// @param work (const CanonicalMesh&) -> Result @param name (const CanonicalMesh&, Result&): to the input's numbers
 template <class Work, class Name>
 auto in_canonical_form(const Vertices& vertices, const Triangles& triangles, const Work& work, const Name& name)

@@ -11,7 +11,7 @@ namespace koebe {
 struct CanonicalPosition {
     Vertices vertices;  ///< (V, 3) within the unit ball, rounded to a grid
     double thinnest = 0.0;
-    Eigen::Matrix3d turn;  ///< its columns are the axes: a direction d of the input, a row, is d * turn here
+    Eigen::Matrix3d turn;  ///< its columns are the axes: a direction d of the input, a row vector, becomes d * turn
 };
 
 /// The position of a surface with canonical numbers. @throws InputError all vertices lie at one point

@@ -7,7 +7,7 @@
 
 namespace koebe {
 
-/// Faces and the half-edges across their edges, which join the faces of a patch.
+/// Faces, and for each half-edge its twin in the neighbouring face. Twins join the faces of a patch.
 struct JoinedFaces {
     const Triangles& triangles;
     const std::vector<Index>& twin;  ///< (3F) or no_twin
@@ -18,9 +18,9 @@ struct JoinedFaces {
 
 /// The half-edge of each patch at which a walk over its faces starts. Larger patches come first.
 ///
-/// It is the longest boundary edge, or the longest edge of a patch without boundary. Among edges of equal length those
-/// with a rare neighbourhood are preferred, then the first by a hash of edge lengths (Weisfeiler and Lehman 1968). With
-/// several patches the hash includes distances from the middle of all.
+/// It is the longest boundary edge, or the longest edge of a patch without boundary. Among edges of equal length, edges
+/// with a rare neighbourhood are preferred, and then the first edge by a hash of edge lengths (Weisfeiler and Lehman
+/// 1968). With several patches the hash includes distances from the middle of all patches.
 /// @param positions (V, 3) about 0 and of about unit size
 std::vector<Index> first_halfedges(const JoinedFaces& faces, const Vertices& positions);
 

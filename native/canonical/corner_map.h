@@ -7,7 +7,8 @@
 
 namespace koebe {
 
-/// Maps a surface in canonical form and returns the result in the input's numbers, so it follows from the shape alone.
+/// Maps a surface in canonical form and returns the result in the input's numbers, so the result follows from the shape
+/// alone.
 /// @param compute (const CanonicalMesh&, ExecutionContext&) -> Result; holds copies, as it may outlive the call
 /// @param name (const CanonicalMesh&, Result&): renames the members that a CornerMapReport does not have
 template <class Result, class Compute, class Name>
@@ -26,7 +27,7 @@ Result corner_map(const Vertices& vertices, const Triangles& triangles, Executio
     });
 }
 
-/// Maps with options, whose polygons are changed to those of the canonical mesh.
+/// Maps with options. Their polygons are changed to the polygons of the canonical mesh.
 /// @param compute (const CanonicalMesh&, Options&, ExecutionContext&) -> Result
 template <class Result, class Options, class Compute, class Name>
 Result corner_map(const Vertices& vertices, const Triangles& triangles, const Options& options,

@@ -13,8 +13,8 @@ struct CircleMap {
     std::vector<Circle> circles;       ///< of the loops, apart from each other; the unit circle first
     std::vector<Roundness> roundness;  ///< of each loop's image before it was put on its circle
     std::vector<Index> off_circle;     ///< loop vertices that are not on their circles, ascending
-    /// Loops with another circle than the surface's: shrunk because it met another circle; lost, as the image is too
-    /// small or too far from round; replaced, so that no face turns over.
+    /// Loops whose circle does not follow from the surface alone. Shrunk: the circle met a neighbour. Lost: the image
+    /// is too small or too far from round. Replaced: faces would turn over on the circle.
     std::vector<Index> shrunk, lost, replaced;
 };
 

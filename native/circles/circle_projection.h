@@ -5,9 +5,10 @@
 
 namespace koebe {
 
-/// Moves points radially onto the circle, then along it as little as possible until they run round once in order. An
-/// angle that comes before an earlier point's is pooled with it (isotonic regression, Ayer et al. 1955) at a least
-/// distance. With hardly any flux an image turns back on itself, and no interior could follow that.
+/// Moves points radially onto the circle, then along it as little as possible until they run round once in order. If
+/// the angle of a point is less than the angle of an earlier point, the two are pooled, a least distance apart
+/// (isotonic regression, Ayer et al. 1955). With hardly any flux an image turns back on itself, and the interior could
+/// not follow such an image.
 /// @param points (n) image of a loop in order, n >= 3 @param turn +1 counter-clockwise (the outer loop), -1 clockwise
 /// @param least (n) radians from each point to the next, sum below 2 pi; empty: 1e-3 of the mean
 VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int turn, const VectorXd& least = {});

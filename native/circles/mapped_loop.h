@@ -9,7 +9,7 @@
 namespace koebe {
 
 struct MappedLoop {
-    VertexLoop vertices;            ///< in order from the lowest, the surface on the left
+    VertexLoop vertices;            ///< in order from the lowest number, the surface on the left
     Roundness roundness;            ///< of the loop's image before it was put on its circle
     std::vector<Index> off_circle;  ///< vertices that are not on the circle, ascending
 };

@@ -1,4 +1,4 @@
-// Lays a map of the disk over another by an automorphism.
+// Lays a map of the disk over another map by an automorphism.
 #pragma once
 
 #include "circles/moebius.h"

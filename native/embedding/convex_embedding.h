@@ -15,20 +15,20 @@ struct FilledDisk {
     Index vertex_count;
 };
 
-/// @param loops the outer one first; it stays open
+/// @param loops the outer loop first; it stays open
 FilledDisk fill_with_fans(const Surface& surface, const std::vector<VertexLoop>& loops);
 
 /// Puts the outer loop on the unit circle, and every other vertex at the mean of its neighbours. In exact arithmetic
 /// every triangle keeps its orientation (Floater 2003, theorem 6: the boundary is strictly convex). But faces deep
-/// inside, as in stacked triangles or at the end of a limb, come out exponentially small, and at last below the
+/// inside, as in stacked triangles or at the end of a limb, become exponentially small, and can fall below the
 /// precision of numbers.
 ///
-/// So where faces come out wrong or too small, inner vertices around them are taken out (disk_complex.h) until the rest
-/// comes out right. Then they are put back one after another, as in the proof of Fary's theorem (Fary 1948) and in
-/// progressive embedding (Shen, Jiang, Zorin and Panozzo 2019). Each goes into the kernel of the polygon of its
-/// neighbours, where every face gets an area in proportion to the number of faces it stands for (star_centre.h); the
-/// neighbours then follow. Schnyder (1990) draws any triangulation on a grid of its size in this way. Faces are then
-/// about equally large.
+/// So if faces are turned over or too small, inner vertices around them are taken out (disk_complex.h) until all other
+/// faces are right. Then the vertices are put back one after another, as in the proof of Fary's theorem (Fary 1948) and
+/// in progressive embedding (Shen, Jiang, Zorin and Panozzo 2019). Each vertex goes into the kernel of the polygon of
+/// its neighbours, where every face gets an area in proportion to the number of faces it stands for (star_centre.h);
+/// the neighbours then follow. Schnyder (1990) draws any triangulation on a grid of its size in this way. Faces are
+/// then about equally large.
 /// @param rim (n) points of the outer loop on the unit circle, in order, all different
 /// @return (filled.vertex_count, 2)
 PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim,

@@ -8,13 +8,13 @@
 
 namespace koebe {
 
-/// To take a vertex out, it is slid along an edge into a neighbour: a fan of faces round that neighbour fills the
-/// polygon of the vertex's neighbours. The complex must stay simplicial: the neighbour shares no other neighbour with
-/// the vertex than the two on their common faces (Dey, Edelsbrunner, Guha and Nekhayev 1999, "link condition"). So
-/// wherever a drawing of the rest is one to one, the polygon has a kernel for the vertex to return to, at least near
-/// that neighbour.
+/// To take a vertex out, it is slid along an edge into a neighbour. Then a fan of faces round this neighbour fills the
+/// polygon of the vertex's neighbours. The complex must stay simplicial: the vertex and the neighbour have only two
+/// common neighbours, the two on their common faces (Dey, Edelsbrunner, Guha and Nekhayev 1999, "link condition"). So
+/// if a drawing without the vertex is one to one, the polygon has a kernel to which the vertex can return, at least
+/// near the neighbour.
 ///
-/// Every face stands for a number of faces of the whole mesh: those that it has replaced.
+/// Every face stands for a number of faces of the whole mesh: the faces that it has replaced.
 class DiskComplex {
 public:
     using Face = std::array<Index, 3>;
@@ -28,7 +28,7 @@ public:
     /// Faces round a vertex in no particular order.
     const std::vector<Index>& around(Index vertex) const { return around_[vertex]; }
     const Face& face(Index f) const { return faces_[f]; }
-    double weight(Index f) const { return weights_[f]; }  ///< how many faces it stands for
+    double weight(Index f) const { return weights_[f]; }  ///< number of faces that the face stands for
     bool alive(Index f) const { return alive_[f] != 0; }
     Index face_count() const { return static_cast<Index>(faces_.size()); }  ///< dead faces included
     Triangles triangles() const;                                            ///< the faces that are alive

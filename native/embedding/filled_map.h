@@ -16,23 +16,22 @@
 
 namespace koebe {
 
-/// Every move ends in a map whose faces are right wherever they were right before. Right faces are upright, fans
-/// included; the surface's faces also as stored, if they are large enough for 32-bit UVs. The outer loop runs once
-/// round the circle. A move that would break this is undone. As the fans stay upright, no loop crosses itself or
-/// another.
+/// In every move, faces that are right stay right. A right face is upright; this includes the fans. A right face of the
+/// surface is also upright as stored, if it is large enough for 32-bit UVs. The outer loop runs once round the circle.
+/// A move that would break these rules is undone. As the fans stay upright, no loop crosses itself or another loop.
 class FilledMap {
 public:
     /// Weights, dimensionless.
     struct Pull {
         double rim = 0.0;       ///< of loop vertices to their circles
         double centre = 0.0;    ///< of fans' centres to the circles' centres
-        double regular = 1e-3;  ///< weight of the fans, drawn to regular polygons, against the surface's faces
+        double regular = 1e-3;  ///< of the fans, whose wanted shape is a regular polygon; the surface's faces weigh 1
         double place = 0.0;     ///< of the vertex for 0 to its place
         PatchShape shape = PatchShape::surface;  ///< wanted shape of the faces
     };
 
-    /// Starts from convex_embedding, on a rim with more room where there is too little (roomy_rim.h).
-    /// @param flaps their rims are not pulled to the circles of inner loops
+    /// Starts from convex_embedding. The rim gets more room where faces have too little (roomy_rim.h).
+    /// @param flaps the rims of flaps are not pulled to the circles of inner loops
     /// @param places vertices with fixed places; the centre is not at 0 if its faces would turn over there
     FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
               const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places,
@@ -49,7 +48,7 @@ public:
     /// Sets whether the outer loop slides along the unit circle. At first it does.
     void let_rim_slide(bool slides);
 
-    /// The state that moves change, to return to.
+    /// The state that moves change, kept to undo them.
     struct State {
         PlanarPoints points;
         std::vector<FoldoverProblem::Mobility> mobility;

@@ -12,8 +12,8 @@ enum class HoleCircle {
     inside    ///< the hole, round its middle
 };
 
-/// Chooses a circle for each of some loops, apart from the others and inside the unit circle. At worst it is a circle
-/// that touches the loop from inside, which meets no other.
+/// Chooses a circle for each of some loops, apart from the other circles and inside the unit circle. If no other choice
+/// is left, the circle touches the loop from inside, and so meets no other circle.
 /// @param images of the loops, the unit circle's first; the holes lie on their right
 /// @param fan_centres (loops) points from which all of each hole is visible; the first is not read
 /// @param refit (loops) 1 to choose a new circle; other circles stay @param circles (loops), changed in place

@@ -12,8 +12,8 @@
 namespace koebe {
 
 /// The error of an angle: arg w, where w is the corner's image turned back by the angle on the surface. Small errors
-/// come from the series of the arctangent. It is off by at most 1e-8 of the error, and several times as fast as the
-/// library.
+/// come from the series of the arctangent. The series is off by at most 1e-8 of the error, and several times as fast as
+/// the library's function.
 inline double angle_of(Complex w)
 {
     const double x = w.real(), y = w.imag();
@@ -31,8 +31,8 @@ class AngleMap {
 public:
     enum class Mobility : char { held, sliding, free };
 
-    /// A corner of a face, seen from its vertex: the indices of its error and of the errors of the next and the
-    /// previous corner, and the vertices of these two corners.
+    /// A corner of a face, seen from its vertex. It has the indices of its own error and of the errors of the next and
+    /// the previous corner, and the vertices of these two corners.
     struct Corner {
         Index own, after, before;
         Index next, previous;
@@ -45,7 +45,7 @@ public:
         double sense;          // 1 where the loop runs counter-clockwise, else -1
     };
 
-    /// Errors of a face's corners, in the order seen from the first one.
+    /// Errors of a face's corners, in the order seen from the first corner.
     struct FaceErrors {
         double own, after, before;
         double sum() const { return std::abs(own) + std::abs(after) + std::abs(before); }
@@ -73,7 +73,7 @@ public:
     /// Twice the least area allowed for a face: what rounding to 32 bits can take, or its present area.
     double least_area(const Corner& corner) const { return least_area_[corner.own / 3]; }
 
-    /// The place of a sliding vertex after a way along its circle, length / radius.
+    /// The place of a sliding vertex after it has moved along its circle. @param length of the way, over the radius
     Complex slid(Index v, double length) const;
     const Slide& slide(Index v) const { return slides_[slide_of_[v]]; }
     void let_slide(Index v, const Slide& slide);
@@ -88,7 +88,7 @@ public:
 
 private:
     const Triangles& triangles_;
-    std::vector<Complex> turn_;  // (3F) of length 1, by the angle on the surface; 0 without an angle
+    std::vector<Complex> turn_;  // (3F) exp(i alpha) for a corner's angle alpha on the surface; 0 in faces without area
     std::vector<double> least_area_;
     std::vector<Index> begin_;
     std::vector<Corner> corners_;

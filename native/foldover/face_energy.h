@@ -29,8 +29,8 @@ struct FaceMap {
     double squared_norm() const { return 2.0 * (std::norm(like) + std::norm(unlike)); }
 };
 
-/// A face's wanted shape, as three numbers. `like` is the sum of numbers times corners of the image. `unlike` has the
-/// conjugate numbers.
+/// A face's wanted shape, as three numbers. `like` of the map is the sum of these numbers times the corners of the
+/// image. `unlike` is the same sum with the conjugate numbers.
 struct WantedShape {
     /// @param edges columns: 0-1 and 0-2
     explicit WantedShape(const Eigen::Matrix2d& edges);
@@ -54,8 +54,9 @@ struct Symmetric {
 };
 
 /// Derivatives of a face's term by its corners, with the Hessian made positive semidefinite. c are the shape's numbers.
-/// The Hessian is `like` conj(c_k) c_l + `unlike` c_k conj(c_l), as turns and scalings, plus `along` in the directions
-/// u and w, in which |like| and |unlike| of the map grow.
+/// The Hessian's block of corners k and l is a sum of two terms. The first term is the complex number
+/// `like` conj(c_k) c_l + `unlike` c_k conj(c_l), as a 2x2 matrix. The second term is `along` in the plane of u and w.
+/// In the direction u the |like| of the map grows, and in the direction w its |unlike|.
 struct FaceDerivatives {
     double term;
     std::array<Complex, 3> gradient;

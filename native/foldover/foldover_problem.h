@@ -15,11 +15,11 @@ namespace koebe {
 struct FoldoverPlaces {
     PlanarPoints points;           ///< (V, 2)
     std::vector<Track> tracks;     ///< tracks that vertices ride on
-    std::vector<Complex> periods;  ///< the first one changes only its length, not its direction
+    std::vector<Complex> periods;  ///< the first period changes only its length, not its direction
 };
 
 struct FoldoverProblem : FoldoverPlaces {
-    /// sliding: along a circle that stays. riding: along a track that moves.
+    /// How a vertex moves. sliding: along a fixed circle. riding: along a track that moves.
     enum class Mobility : char { held, sliding, free, riding };
 
     Triangles triangles;                     ///< (F, 3)
@@ -30,7 +30,7 @@ struct FoldoverProblem : FoldoverPlaces {
     std::vector<Circle> circles;             ///< (V) circles of sliding and of pulled vertices
     bool bends = false;                      ///< Newton steps count the curvature of sliding vertices' circles, too
     VectorXd pull;                           ///< (V) pull of free vertices to their circles, dimensionless; empty: 0
-    std::vector<char> pull_inside;           ///< (V) 1: pulled to the circle's centre instead; empty: no vertex is
+    std::vector<char> pull_inside;           ///< (V) 1: pulled to the circle's centre instead; empty: 0
     std::vector<int> track_of;               ///< (V) track of riding vertices; empty: no vertex rides
     CornerLifts lift;                        ///< (F) numbers of periods; empty without periods
 };

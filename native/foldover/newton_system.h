@@ -14,8 +14,8 @@
 
 namespace koebe {
 
-/// A free vertex has two unknowns, a sliding or riding vertex has one: the way along its circle or track. The unknowns
-/// of tracks and periods come last, as many faces share them. The pattern of the Hessian does not change.
+/// A free vertex has two unknowns. A sliding or riding vertex has one unknown: the way along its circle or track. The
+/// unknowns of tracks and periods come last, as many faces share them. The pattern of the Hessian does not change.
 class NewtonSystem {
 public:
     /// @param problem must not change while the system is in use, except for its places
@@ -30,8 +30,9 @@ public:
     /// Call after all faces: adds the curvature of circles that vertices ride on, where the gradient pulls outward.
     void add_bends();
 
-    /// -H^-1 gradient, with the Hessian's diagonal a little larger. Where that does not lead down: minus the gradient
-    /// over the diagonal. @return the step and its slope, which is not below 0 if neither leads down
+    /// -H^-1 gradient, with the Hessian's diagonal a little larger. If this step does not lower the sum: minus the
+    /// gradient over the diagonal. @return the step and its slope; the slope is not below 0 if neither step lowers the
+    /// sum
     std::pair<VectorXd, double> descent();
 
     /// The places after a share of a step.

@@ -24,8 +24,9 @@ struct PatchProblem {
 };
 
 /// Takes some faces of the surface with wanted shapes. Vertices on the edge of the patch are held, vertices on circles
-/// slide. Every determinant must stay above what a face can lose by rounding to 32 bits. A face that is right as stored
-/// needs at most half of its present determinant; otherwise thin faces elsewhere would keep the minimizer busy.
+/// slide. Every determinant has a floor: the part that a face can lose by rounding to 32 bits. For a face that is
+/// upright as stored the floor is at most half of its present determinant. Otherwise thin faces far from the flips
+/// would keep the minimizer busy.
 /// @param faces of the surface, ascending
 PatchProblem patch_problem(const TangledMap& map, const std::vector<Index>& faces, PatchShape shape,
                            PatchBoundary boundary);

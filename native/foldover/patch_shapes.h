@@ -9,8 +9,8 @@
 
 namespace koebe {
 
-/// Shapes to draw the faces of a patch towards: the surface's in the map's local size, equilateral ones, or the
-/// surface's in true size.
+/// The wanted shapes of a patch's faces: the shapes on the surface in the map's local size, equilateral shapes, or the
+/// shapes on the surface in true size.
 enum class PatchShape { surface, equilateral, true_size };
 
 struct PatchShapes {

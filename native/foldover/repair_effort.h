@@ -11,7 +11,8 @@ namespace koebe {
 /// The unit is a Newton step for one face, so that the search ends at the same place on every machine.
 class RepairEffort {
 public:
-    /// Allows the cost of 30 steps of the whole surface. Small surfaces get `small` more, or 2,000 steps.
+    /// Allows the cost of 30 steps of the whole surface, and in addition `small`, or the cost of 2,000 steps if this is
+    /// less.
     /// @param faces of the surface
     explicit RepairEffort(Eigen::Index faces, std::size_t small = 100000);
 
@@ -21,10 +22,10 @@ public:
     /// Limits the total spent so far and from now on.
     void set_limit(std::size_t limit) { limit_ = limit; }
 
-    /// Allows as much again as at the start, from now on.
+    /// From now on allows as much as at the start.
     void renew();
 
-    /// Number of Newton steps allowed for so many faces; 0 if too few to be of use.
+    /// Number of Newton steps allowed for so many faces; 0 if they are too few to be of use.
     int affordable(Eigen::Index faces) const;
     bool exhausted() const { return affordable(0) == 0; }
     void spend(Eigen::Index faces, int steps);

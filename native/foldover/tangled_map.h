@@ -10,7 +10,8 @@
 
 namespace koebe {
 
-/// How loop vertices may move. held: not at all. freed: if off their circle. sliding: all, along their circle if on it.
+/// How loop vertices may move. held: no vertex. freed: vertices off their circles. sliding: all, and vertices on their
+/// circles only along them.
 enum class PatchBoundary { held, freed, sliding };
 
 /// The surface, its map, and the kind of place of each vertex.
@@ -18,7 +19,7 @@ class TangledMap {
 public:
     enum class Place : char { inside, on_circle, off_circle };
 
-    /// @param loops the outer one first @param circles of the loops
+    /// @param loops the outer loop first @param circles of the loops
     /// @param off_circle loop vertices that are already off their circles @param uv (V, 2), moved in place
     TangledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                const std::vector<Circle>& circles, const std::vector<Index>& off_circle, PlanarPoints& uv);
@@ -56,8 +57,9 @@ public:
     std::size_t flipped(const std::vector<Index>& faces) const;
     /// Whether a loop edge at one of these vertices, in ascending order, meets another loop edge.
     bool loops_cross(const std::vector<Index>& moved) const;
-    /// Holes with one of these vertices, in ascending order, that run clockwise, as they should. A vertex that slides
-    /// past another on their circle turns the hole over without flipping a face; then the map covers the hole, twice.
+    /// Holes with one of these vertices, in ascending order, that run clockwise, as they should. If a vertex slides
+    /// past another vertex on their circle, the hole turns over without a flipped face. Then the map covers the hole
+    /// twice.
     std::vector<int> clockwise_holes(const std::vector<Index>& moved) const;
 
 private:

@@ -23,12 +23,12 @@ struct UntangleReport {
     std::vector<Index> tangled;  ///< faces still flipped, except those below resolution
 };
 
-/// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, from the
-/// mildest measure to the harshest, until no flipped face is left. First 2, 4, 8 and 16 rings around them with the
-/// loops held; then the same with loop vertices sliding along their circles; then with a few vertices freed from their
-/// circles, which a face may need whose vertices span more than half a circle. The first two measures may use three
-/// quarters of the effort. A problem that has failed is not tried again.
-/// @param vertices, surface, loops (the outer one first), circles the surface and its image's circles
+/// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, until no
+/// flipped face is left. There are three measures. First 2, 4, 8 and 16 rings around the faces move with the loops
+/// held. Then the same rings move with loop vertices sliding along their circles. At last a few vertices are freed from
+/// their circles: a face whose vertices span more than half a circle may need this. The first two measures may use
+/// three quarters of the effort. A neighbourhood that has failed is not tried again from the same places.
+/// @param vertices, surface, loops (the outer loop first), circles the surface and the circles of its image
 /// @param off_circle loop vertices that are already off their circles
 /// @param uv (V, 2) moved in place
 UntangleReport untangle(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,

@@ -14,8 +14,8 @@ namespace koebe {
 std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std::vector<Index>& faces, int rings,
                                                PatchBoundary boundary);
 
-/// Minimizes on one patch with its edge held. Keeps the result if fewer of its faces are tangled and no loop crosses
-/// itself or another.
+/// Minimizes on one patch with its edge held. Keeps the result if fewer of the patch's faces are tangled and no loop
+/// crosses itself or another loop.
 /// @return whether the result was kept
 bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
                   RepairEffort& effort, const ExecutionContext& context);

@@ -197,7 +197,8 @@ FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& tri
         part_doubled(mesh, surface.loops[k]);
         if (const std::vector<Index> pair = meeting_vertices(mesh, surface.loops[k]); !pair.empty())
             throw InputError(
-                "a boundary loop meets itself (vertices listed): merge the vertices or separate the halves",
+                "a boundary loop has two vertices at one place (vertices listed): merge these vertices, or "
+                "move them apart",
                 ElementKind::vertices, pair);
         fill(mesh, surface.loops[k]);
         label.resize(mesh.number_of_faces(), k);

@@ -60,9 +60,9 @@ std::int64_t take_count(std::string_view& text, const std::string& element, std:
     // Vertices and faces take at least a byte. The number of edges is not used.
     const auto most = static_cast<std::int64_t>(std::min(bytes, std::size_t{1} << 28));
     if (error == std::errc::result_out_of_range || count > most || count < -most)
-        throw InputError("the header's number of element " + element + " does not fit the file");
+        throw InputError("the header's count of " + element + " elements does not fit the file");
     if (end != word.data() + word.size() && (*end == '-' || *end == '+'))
-        throw InputError("the header's number of element " + element + " is no integer");
+        throw InputError("the header's count of " + element + " elements is no integer");
     text = {end, text.data() + text.size()};
     if (error != std::errc()) throw InputError(no_off_header);
     return count;

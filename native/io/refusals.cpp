@@ -14,7 +14,7 @@ void refuse(const std::string& element, std::size_t number, const char* complain
 
 void require_count_fits(std::size_t count, const std::string& element, std::size_t bytes)
 {
-    if (count > bytes) throw InputError("the header's number of element " + element + " does not fit the file");
+    if (count > bytes) throw InputError("the header's count of " + element + " elements does not fit the file");
 }
 
 }  // namespace koebe::io

@@ -22,8 +22,8 @@ public:
     BoundarySolver& operator=(BoundarySolver&&) noexcept = default;
     virtual ~BoundarySolver() = default;
 
-    /// Factors the Laplacian of the same surface with moved vertices; it has the same pattern.
-    /// @throws SolverError as the constructor; the solver is unusable afterwards
+    /// Factors the Laplacian of the same surface with moved vertices. The Laplacian must have the same pattern.
+    /// @throws SolverError like the constructor; the solver is unusable afterwards
     virtual void renew(const SparseMatrix& laplacian) = 0;
 
     /// Takes the boundary vertices in another order from now on, for arguments and results.

@@ -11,13 +11,13 @@
 namespace koebe {
 
 /// K + diag(0 on I, 1 on B) = L L' with the boundary B ordered last. The trailing block L_BB gives Sigma = K_BB - K_BI
-/// K_II^-1 K_IB = L_BB L_BB' - 1, the leading part is the factor of K_II (docs/method.md, "The condensed engine").
+/// K_II^-1 K_IB = L_BB L_BB' - 1, and the leading part is the factor of K_II (docs/method.md, "The condensed engine").
 ///
-/// A part of the boundary can be grounded: it is held at 0, and Sigma covers the other boundary vertices only. Then the
-/// boundary's order cannot change.
+/// A part of the boundary can be grounded: this part is held at 0, and Sigma covers only the other boundary vertices.
+/// Then the order of the boundary cannot change.
 class CondensedLaplacian final : public BoundarySolver {
 public:
-    /// @param laplacian (V, V) cotan Laplacian, both triangles stored
+    /// @param laplacian (V, V) cotan Laplacian, stored with its upper and its lower triangle
     /// @param boundary all boundary vertices; unused vertices need a positive diagonal, or are left out of the matrix
     /// @param grounded this many boundary vertices, from the first on, are grounded; sigma() has the others in their
     /// order
@@ -37,10 +37,11 @@ public:
     /// Without grounded vertices, Sigma 1 = 0.
     MatrixXd sigma() const;
 
-    /// -Sigma_RG z: the load on the others, held at 0, from values on the grounded part. @param values (g, C)
+    /// -Sigma_RG z: the load on the other boundary vertices, held at 0, from values on the grounded part. @param values
+    /// (g, C)
     MatrixXd load_of_grounded(const MatrixXd& values) const;
 
-    /// -Sigma_GR u: the flux into the grounded part from values on the others. @param values (m - g)
+    /// -Sigma_GR u: the flux into the grounded part from values on the other boundary vertices. @param values (m - g)
     VectorXd flux_to_grounded(const VectorXd& values) const;
 
 private:

@@ -22,8 +22,8 @@ MatrixXd gram(const Eigen::Ref<const MatrixXd>& a);
 /// The product L L' of a lower triangular matrix. Entries above the diagonal are not read.
 MatrixXd lower_times_transpose(const MatrixXd& lower);
 
-/// Makes Eigen's products use blocks of one size. Eigen takes the size from the processor's caches otherwise, and sums
-/// would have another order on another processor. Every call that computes starts with this.
+/// Makes Eigen's products use blocks of one size. Otherwise Eigen takes the size from the processor's caches, and the
+/// order of sums would differ from processor to processor. Every call that computes starts with this function.
 KOEBE_API void fix_product_blocks();
 
 }  // namespace koebe

@@ -1,4 +1,4 @@
-// The sparse factor of a surface with disks in its loops; the disks change.
+// The sparse factor of a surface with changing disks in its loops.
 #pragma once
 
 #include "core/types.h"
@@ -10,12 +10,12 @@
 
 namespace koebe {
 
-/// For long boundaries, where no dense matrix is kept: factors K with disks in the loops, the first loop grounded, the
-/// others in AMD's order. fill() takes other disks and recomputes only the rows that they reach. To factor K_II, a
-/// large number replaces the disks.
+/// For long boundaries, where no dense matrix is kept. Factors K with disks in the loops. The first loop is grounded,
+/// and the other loops are in AMD's order. fill() takes other disks, and recomputes only the rows that depend on them.
+/// To factor K_II, a large number replaces the disks.
 class FilledLaplacian final : public BoundarySolver {
 public:
-    /// @param laplacian (V, V) cotan Laplacian, both triangles stored
+    /// @param laplacian (V, V) cotan Laplacian, stored with its upper and its lower triangle
     /// @param loops the whole boundary, two loops or more; it keeps its order
     /// @throws SolverError if K is not positive definite on rows that no disk reaches. If K_II is not positive definite
     /// on other rows, extend() and solve_interior() return NaN
@@ -27,9 +27,9 @@ public:
     MatrixXd extend(const MatrixXd& boundary_values) override;
     InteriorSolution solve_interior(const VectorXd& load) override;
 
-    /// Factors K plus one symmetric block for each loop after the first, its rows in the constructor's order. The first
-    /// loop is grounded, with 1 on the diagonal. The last rows of the factor are the second loop's. Any other call
-    /// invalidates it.
+    /// Factors K plus one symmetric block for each loop after the first, with rows in the constructor's order. The
+    /// first loop is grounded, with 1 on the diagonal. The last rows of the factor are the second loop's. Any other
+    /// call invalidates the factor.
     /// @throws SolverError if the sum is not positive definite
     const SparseCholesky& fill(const std::vector<MatrixXd>& disks);
 
@@ -41,7 +41,7 @@ private:
     GroundColumns boundary_;
     SparseCholesky cholesky_;
     std::vector<MatrixXd> stiff_;  // replace the disks, to hold the loops at 0
-    bool is_filled_ = true;        // whether the factor is of disks
+    bool is_filled_ = true;        // whether the factor is for disks
 };
 
 }  // namespace koebe

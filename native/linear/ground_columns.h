@@ -7,8 +7,8 @@
 
 namespace koebe {
 
-/// The columns of K at some boundary vertices. They give the load of values there on the other vertices, and the flux
-/// that arrives there; K is symmetric.
+/// The columns of K at some boundary vertices. For values at these vertices they give the load on the other vertices.
+/// As K is symmetric, they also give the flux that arrives at these vertices.
 class GroundColumns {
 public:
     GroundColumns() = default;

@@ -9,7 +9,7 @@
 
 namespace koebe::detail {
 
-/// An uninitialized array: the thread that sets a value first pays for its page.
+/// An uninitialized array: the system makes a page of it in the thread that first writes there.
 class LargeArray {
 public:
     LargeArray() = default;

@@ -12,11 +12,10 @@ namespace koebe {
 /// Factor A = L L' of a symmetric positive definite matrix. It is supernodal: dense kernels do the work.
 ///
 /// Some rows B can be kept to the end. Then the trailing block gives the Schur complement A_BB - A_BI A_II^-1 A_IB =
-/// L_BB L_BB', and the leading part is the factor of A_II, I all other rows.
+/// L_BB L_BB', and the leading part is the factor of A_II. I are all other rows.
 class SparseCholesky {
 public:
-    /// @param matrix symmetric: the lower triangle, or both
-    /// @param last the rows B
+    /// @param matrix symmetric: the lower triangle, or both triangles @param last the rows B
     /// @param split_rows a matrix with more rows is cut into pieces that are factored side by side (factor/analysis.h)
     /// @throws SolverError if the matrix is not positive definite
     explicit SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last = {}, Index split_rows = 50000);
@@ -32,7 +31,8 @@ public:
     /// Factors another matrix with the same pattern. With changing blocks there is no factor until refactorize(blocks).
     void refactorize(const SparseMatrix& matrix);
 
-    /// Factors A + symmetric blocks, one for each set that changes. Only the supernodes that they reach are recomputed.
+    /// Factors A + symmetric blocks, one for each set that changes. Only the supernodes that depend on the blocks are
+    /// recomputed.
     /// @throws SolverError if the sum is not positive definite
     void refactorize(const std::vector<MatrixXd>& blocks);
 
@@ -42,7 +42,7 @@ public:
     /// Solves for each column of the right-hand side.
     MatrixXd solve(const MatrixXd& right_hand_side) const;
 
-    /// The Schur complement on B, its rows in the order in which B was given.
+    /// The Schur complement on B, with its rows in the order in which B was given.
     MatrixXd last_schur() const;
 
     /// x with the given values on B, (b, C), and (A x)_I = f_I: (n, C). @param f (n, C), not read on B; empty: 0
@@ -72,12 +72,12 @@ private:
 /// Harmonic functions with given values on a set of vertices: K_II u_I = -K_IB u_B (paper, equation 2).
 class DirichletSolver {
 public:
-    /// @param laplacian both triangles stored
+    /// @param laplacian stored with its upper and its lower triangle
     /// @param fixed (V) 1 where the value is given
     DirichletSolver(const SparseMatrix& laplacian, const std::vector<char>& fixed);
 
     /// @param values (V, C) one harmonic function a column; rows of free vertices are ignored
-    /// @return (V, C) harmonic at the free vertices, equal to the given values at the fixed ones
+    /// @return (V, C) harmonic at the free vertices, equal to the given values at the fixed vertices
     MatrixXd solve(const MatrixXd& values) const;
 
 private:

@@ -16,10 +16,12 @@ public:
     /// Puts each piece's unit disk onto its circle in [-1, 1]^2.
     void place(const std::vector<MappedPiece>& mapped, const std::vector<Circle>& places);
 
-    /// Pieces with flips above resolution, ascending. Rounding differs where a disk is small.
+    /// Pieces with flips above resolution, ascending. They can differ from the flips in the piece's own unit disk,
+    /// because a small disk is rounded differently.
     std::vector<std::size_t> flipped_pieces() const;
 
-    /// Turns flipped faces of a piece back in place (untangle), and changes the UVs of its own disk likewise.
+    /// Turns flipped faces of a piece back in place (untangle), and changes the UVs in the piece's own disk in the same
+    /// way.
     /// @param mapped still in the piece's own numbers
     void turn_back(std::size_t piece, const Circle& place, MappedPiece& mapped, const ExecutionContext& context);
 

@@ -12,7 +12,7 @@ namespace koebe {
 /// Describes a cut in the UVs: "a loop through a handle, 13 vertices".
 KOEBE_API std::string cut_text(const SurfaceCut& cut);
 
-/// The warnings about cuts and of all pieces, merged by kind.
+/// The warnings about cuts and the warnings of all pieces, merged by kind.
 std::vector<Warning> cut_warnings(const CutUniformizeResult& result);
 
 }  // namespace koebe

@@ -8,12 +8,12 @@
 
 namespace koebe {
 
-/// Disks of the given relative sizes, as large as found to fit the square [0, 1]^2. Up to 16 disks are nested, each in
-/// the lowest place where it touches two walls or disks. More disks lie in rows, the largest first. Bisection finds the
-/// size. One disk fills the square.
+/// Disks of the given relative sizes, scaled to the largest size found at which they fit the square [0, 1]^2. Up to 16
+/// disks are nested, each in the lowest place where it touches two walls or disks. More disks lie in rows, the largest
+/// first. Bisection finds the size. One disk fills the square.
 /// @param radii positive, any unit
-/// @param margin between two disks, half of it at the border, in units of the square; less for many disks, so that they
-/// have room
+/// @param margin between two disks, and half of it at the border, in units of the square; for many disks it is made
+/// smaller, so that they have room
 KOEBE_API std::vector<Circle> pack_disks(const std::vector<double>& radii, double margin = 0.02);
 
 }  // namespace koebe

@@ -22,7 +22,7 @@ public:
     /// @param order the shape's runs, in the order in which they are tested
     int first_room(const CellShape& shape, const std::vector<CellRun>& order, int y) const;
 
-    std::int64_t tests() const { return tests_; }  ///< tests so far, each of a run at 64 columns
+    std::int64_t tests() const { return tests_; }  ///< number of tests so far, each of a run at 64 columns
 
 private:
     static constexpr int levels = 8;

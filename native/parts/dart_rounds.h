@@ -19,7 +19,7 @@ struct HeldPart {
 FlatSurface flat_surface(FlatPart& flat, std::vector<RoundLoop>& round);
 
 /// Whether loops stay apart however their points are rounded: parts are turned and scaled before they are stored. The
-/// rounding is coarser than that of stored UVs.
+/// rounding is coarser than the rounding of stored UVs.
 bool survives_storing(const FlatPart& flat);
 
 /// Each round opens the most promising darts (darts.h) and relaxes their parts. Darts that released more energy than

@@ -15,7 +15,7 @@ struct Dart {
     std::vector<Index> vertices;   ///< from the tip to the boundary
     std::vector<Index> halfedges;  ///< each between two successive vertices, in either direction
     double length = 0.0;           ///< on the surface
-    double gain = 0.0;             ///< forecast of the energy that it releases
+    double gain = 0.0;             ///< forecast of the energy that the dart releases
     double cost = 0.0;             ///< in energy; less for a dart that lengthens another dart
 };
 
@@ -34,10 +34,10 @@ std::vector<Dart> shortest_darts(const FlatPart& flat, const std::vector<Index>&
 
 /// Opens darts. No two darts share a vertex. A dart with its tip on the boundary joins two loops: it is a slit. One
 /// side of a dart keeps its vertices, and the other side gets new vertices. Both sides are drawn a little apart.
-/// @return (V) the vertex that each vertex was. None if the darts cannot be opened: then nothing changes
+/// @return (V) the old number of each vertex. No value if the darts cannot be opened: then nothing changes
 std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<Dart>& darts);
 
-/// For each face the dart nearest to it on the surface; -1 without a dart within reach. @param reach (darts) the
+/// For each face the dart nearest to it on the surface; -1 if no dart is within reach. @param reach (darts) the
 /// distance up to which each dart counts
 std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach);
 

@@ -12,7 +12,7 @@
 namespace koebe {
 
 struct EvenOptions {
-    std::optional<double> even;  ///< E; without a value: an E at which the mean angle error is no worse than before
+    std::optional<double> even;        ///< E; without a value: an E that does not raise the mean angle error
     LoopForm loops = LoopForm::round;  ///< round: held vertices stay on the circles and lines of their rims
     double darts = 0.0;                ///< from 0 (no darts) to 1 (many)
     double piece = 1.0;                ///< price of one more part, as the length of a cut
@@ -24,9 +24,9 @@ struct EvenParts {
     std::vector<std::size_t> left;  ///< parts that stay as they were, although E is not 0
 };
 
-/// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, cuts
-/// parts through as well (through_rounds.h): joins loops first, and splits parts that darts did not help. New parts
-/// come last. A part that is not one to one stays as it is.
+/// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, it also
+/// cuts parts through (through_rounds.h): first it joins loops, then it splits parts that darts did not help. New parts
+/// come last. A part that is not one to one is not changed.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
 
 }  // namespace koebe

@@ -14,7 +14,7 @@ namespace koebe {
 FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                    ExecutionContext& context);
 
-/// (V) for each vertex the first of those with the same coordinates.
+/// (V) for each vertex the first vertex with the same coordinates.
 std::vector<Index> first_in_place(const Vertices& vertices);
 
 /// The length of a layout's unit in the unit of the mesh.

@@ -37,11 +37,11 @@ struct FlatOptions {
     bool round_cuts = false;  ///< rims at cuts stay on circles and lines
 };
 
-/// Lays a part flat in the kind of its map, then frees its rims (free_rims.h). A tube becomes a disk if it cannot be
+/// Lays a part flat as a disk or a tube, then frees its rims (free_rims.h). A tube becomes a disk if it cannot be
 /// opened, if it has more faces turned over, or if its slit costs more than the disk's overflow.
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context);
 
-/// An edge, by its vertices in the whole: it has the same name in every part.
+/// An edge, named by its vertices in the whole. So it has the same name in every part.
 using EdgeEnds = std::pair<Index, Index>;
 inline EdgeEnds sorted_ends(Index a, Index b) { return std::minmax(a, b); }
 
@@ -77,13 +77,13 @@ bool loops_apart(const FlatPart& part, const PlanarPoints& uv);
 /// Whether all faces are upright, and loops are simple, apart and not turned, in 64 bits. @param points (V, 2)
 bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points);
 
-/// Turns flipped faces back where the part lies in the unit square. First the boundary is held. If flips are left, all
+/// Turns flipped faces back at the part's place in the unit square. First the boundary is held. If flips are left, all
 /// vertices move, as long as no loops cross.
 /// @param uv (V, 2) in [0, 1]^2, changed in place @return faces still flipped as 32-bit floats
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context);
 
 /// If faces are turned over or loops cross, replaces the map by a map that is one to one from its start, in the same
-/// box. The part becomes a disk, less even. Nothing changes if that is no better.
+/// box. The part becomes a disk, and less even. Nothing changes if the new map is no better.
 /// @param uv (V, 2) in [0, 1]^2, changed in place
 void embed_safely(FlatPart& part, PlanarPoints& uv, ExecutionContext& context);
 

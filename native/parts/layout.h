@@ -1,4 +1,4 @@
-// The parts of a mesh where they have been laid.
+// The parts of a mesh in their places.
 #pragma once
 
 #include "cut/open_surface.h"
@@ -9,11 +9,12 @@
 
 namespace koebe {
 
-/// The corners of a face are in the order in which it was mapped: some faces were turned.
+/// The corners of a face are in the order in which the face was mapped. For the faces `reoriented` this is the reverse
+/// of the input's order.
 struct PartsLayout {
     Vertices vertices;        ///< the input's vertices, scaled so that all areas sum to 1
     Triangles triangles;      ///< (F, 3) faces of the input, turned to one orientation in each piece
-    PlanarPoints uv;          ///< (3F, 2) in [0, 1]^2, or where the parts were laid
+    PlanarPoints uv;          ///< (3F, 2) in [0, 1]^2, or in the places of the parts
     std::vector<Index> part;  ///< (F); -1: a face in no part: it is degenerate, or doubles another face
     std::vector<PartReport> parts;
     std::vector<Index> reoriented;  ///< faces that were turned
@@ -22,12 +23,12 @@ struct PartsLayout {
     double slit_length = 0.0, dart_length = 0.0;
     Index darts = 0;
     int handles_cut = 0;
-    double even = 0.0;            ///< the E of all parts, except
-    std::vector<Index> not_even;  ///< these faces: their parts stayed conformal
+    double even = 0.0;            ///< the E of all parts but the parts of `not_even`
+    std::vector<Index> not_even;  ///< faces whose parts stayed conformal
     double maps = 0.0;            ///< number of faces mapped, over the faces of the mesh
 };
 
-/// The parts as they lie by themselves, in the unit of the layout's vertices.
+/// The parts before they are packed, in the unit of the layout's vertices.
 struct FlatMesh {
     PartsLayout layout;  ///< what is known before the parts have their places
     std::vector<FlatPart> parts;
@@ -40,7 +41,7 @@ PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places);
 /// (3F, 2) of the input's corners, in their order.
 PlanarPoints uv_of_input(const PartsLayout& layout, const Triangles& input);
 
-/// Of some faces, each corner a vertex of its own. @param uv (3F, 2) in [0, 1]^2
+/// The distortion of some faces. Each corner counts as a vertex of its own. @param uv (3F, 2) in [0, 1]^2
 ComputedDistortion distortion_of_parts(const PartsLayout& layout, const PlanarPoints& uv,
                                        const std::vector<Index>& faces);
 

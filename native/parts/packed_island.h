@@ -11,10 +11,10 @@
 namespace koebe {
 
 struct UprightIsland {
-    PlanarPoints points;  ///< upright, the lower left corner of their box at 0
+    PlanarPoints points;  ///< turned upright, with the lower left corner of their box at 0
     const std::vector<VertexLoop>* loops;
     Complex turn;
-    Eigen::RowVector2d corner;  ///< of the box, before
+    Eigen::RowVector2d corner;  ///< of the box, before it was moved to 0
     double area = 0.0, extent = 0.0;
 };
 
@@ -43,7 +43,7 @@ struct CellSpot {
 IslandPlace place_of_spot(const UprightIsland& island, const DrawnTurns& turns, const CellSpot& spot, double unit,
                           double scale);
 
-/// Cells along a board for so many islands.
+/// Number of cells along a side of the board, for so many islands.
 int board_side(std::size_t count);
 
 /// @throws SolverError a point is NaN or infinite

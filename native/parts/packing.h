@@ -12,7 +12,7 @@ namespace koebe {
 struct Outline {
     PlanarPoints points;
     std::vector<VertexLoop> loops;  ///< a loop that runs against the outer loop is a hole
-    bool along_axes = false;        ///< the island lies along the axes already
+    bool along_axes = false;        ///< the island already lies along the axes
 };
 
 /// The place of an island: a point z goes to offset + scale·turn·z.
@@ -27,14 +27,15 @@ struct IslandPacking {
     double margin = 0.0;  ///< the margin that was kept
 };
 
-/// Puts islands into the unit square, as large as it can. No island is mirrored. Each is turned so that its smallest
-/// enclosing rectangle lies along the axes, unless it lies along them already. Other turns are used only where they
-/// make all islands larger by 2.5 %. Islands that lie along the axes already keep to quarter turns. Outlines are drawn
-/// on a grid of cells, with half the margin round them. Large islands are placed first, each in the lowest free place;
-/// small islands go into hollows and holes. Several orders and rules are tried. Up to 100 islands are then moved closer
-/// together (tight_packing.h). All decisions are on integers, so the result is the same on every system.
-/// @param margin distance of two islands, and twice the distance from the border, in sides of the square. Many islands
-/// get a smaller margin, so that they have room
+/// Puts islands into the unit square, as large as it can. No island is mirrored. Each island is turned so that its
+/// smallest enclosing rectangle lies along the axes, unless the island already lies along them. Other turns are used
+/// only where they make all islands larger by 2.5 %. Islands that lie along the axes already keep to quarter turns.
+/// Outlines are drawn on a grid of cells, with half the margin round them. Large islands are placed first, each in the
+/// lowest free place; small islands go into hollows and holes. Several orders and rules are tried. Up to 100 islands
+/// are then moved closer together (tight_packing.h). All decisions are on integers, so the result is the same on every
+/// system.
+/// @param margin distance of two islands, and twice the distance from the border, in sides of the square. It is made
+/// smaller for many islands, so that they have room
 /// @throws SolverError points that are NaN or infinite
 IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin);
 

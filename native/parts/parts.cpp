@@ -125,9 +125,10 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
 {
     std::vector<Warning> warnings;
     if (!left_out.empty())
-        warnings.push_back({WarningKind::collapsed_faces,
-                            counted(left_out.size(), "face") + " without area or doubling another face, in no part",
-                            left_out});
+        warnings.push_back(
+            {WarningKind::collapsed_faces,
+             counted(left_out.size(), "face") + " in no part: without area, or with the same vertices as another face",
+             left_out});
     warn_reoriented(layout.reoriented, warnings);
     if (!distortion.below_resolution.empty())
         warnings.push_back({WarningKind::below_resolution,

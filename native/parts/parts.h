@@ -19,29 +19,29 @@ struct PartsOptions : MapOptions {
     /// Cost of one more part, in overflow (evenness.h) of a surface of area 1. A cut as long as the root of the area
     /// costs as much. A higher price makes fewer parts. Positive.
     double price = 0.0037;
-    /// true: any mesh is opened and cut at its handles (cut/open_surface.h). false: only surfaces that uniformize
-    /// takes.
+    /// true: any mesh is opened and cut at its handles (cut/open_surface.h). false: other surfaces than uniformize
+    /// takes are refused.
     bool cut = true;
     std::vector<Index> polygon = {};  ///< (F) faces with the same number are not cut apart; empty: all may be
     /// Edges, as pairs of vertices. A tube is opened along them if they lead from one of its loops to the other.
     std::vector<std::array<Index, 2>> slits = {};
     /// (V) from 0 to 1: cuts and darts keep away from vertices of weight 1, where they count as price_if_shown times as
-    /// long. This places borders (hidden_cuts.h), slits and darts. Cuts through handles do not obey. Empty: nowhere.
+    /// long. Borders (hidden_cuts.h), slits and darts obey. Cuts through handles do not obey. Empty: 0 at all vertices.
     std::vector<double> show = {};
     /// true: rims at cuts lie on circles, and on the straight ends of tubes. false: they follow the surface's edges,
     /// and angles are better.
     bool round_cuts = false;
     /// E, from 0 (conformal) to 1 (true to size), see even/even_map.h. Without a value: the largest E tried at which
-    /// the mean angle error is no worse than at 0.
+    /// the mean angle error is no worse than at E = 0.
     std::optional<double> even = {};
     LoopForm loops = LoopForm::automatic;  ///< form of the surface's own loops, unless even is 0
-    /// (V) as in TileOptions, but it needs no `even`. Parts as wholes have the sizes that it asks for, at any E.
+    /// (V) as in TileOptions, but it needs no `even`. Each part as a whole has the size that it asks for, at any E.
     std::vector<double> importance = {};
     /// Darts (darts.h), from 0 (no darts) to 1 (many). A dart stays if it releases more energy than its length costs:
     /// 1e-4 / darts for the root of the area. At even = 0 there are no darts.
     double darts = 0.2;
     /// Texel density that the parts get, in pixels per unit of the mesh, as the median over the area. Without a value
-    /// they fill the square.
+    /// the parts fill the square.
     std::optional<double> density = {};
     int pixels = 2048;  ///< side of the texture; `density` counts them
     int threads = 0;    ///< most threads; 0: one for each core. The result is the same for any number
@@ -59,8 +59,8 @@ struct PartReport {
     PartKind kind = PartKind::disk;
     std::vector<Index> faces;       ///< ascending
     std::vector<VertexLoop> loops;  ///< before a tube is opened, as vertices of the input
-    /// The largest distance of each loop from its circle, over the radius. For a tube: from the end of the rectangle,
-    /// over the end's length for one turn.
+    /// The largest distance of each loop from its circle, over the radius. For a tube: the largest distance from the
+    /// end of the rectangle, over the end's length for one turn.
     std::vector<double> off_round;
     double angle_error_deg = 0.0;  ///< mean
 };
@@ -76,13 +76,13 @@ struct PartsResult : CornerMapReport {
     Index darts = 0;
     int handles_cut = 0;
     double density_ratio_5_95 = 1.0;  ///< texel density at 95 % of the area, over that at 5 %
-    double density = 0.0;             ///< texel density as in PartsOptions::density, as reached
+    double density = 0.0;             ///< texel density that was reached, as in PartsOptions::density
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
     double coverage = 0.0;            ///< share of the unit square that the faces cover, as stored
     double maps = 0.0;                ///< number of faces mapped, over the faces of the surface
 };
 
-/// Cuts a surface into parts, where more even texels are worth more than a part and its cuts cost.
+/// Cuts a surface into parts, as long as more even texels are worth more than the part and its cuts cost.
 ///
 /// A part's cost is its overflow (evenness.h): on its circle domain after the most even Moebius map, or on the unrolled
 /// tube. Parts are split by minimum cuts of the dual graph, round windows of density and about tips in log polar
@@ -91,8 +91,8 @@ struct PartsResult : CornerMapReport {
 ///
 /// @param vertices (V, 3) @param triangles (F, 3) never changed
 /// @return every face is in one part; every part is one to one, except for the faces listed in `flipped`
-/// @throws InputError, also for a density at which the parts do not fit into the square: it names the largest one;
-/// TopologyError, SolverError, Cancelled
+/// @throws InputError, also for a density at which the parts do not fit into the square: it names the largest density
+/// that fits; TopologyError, SolverError, Cancelled
 KOEBE_API PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                                ExecutionContext& context);
 

@@ -9,7 +9,7 @@
 
 namespace koebe {
 
-/// A place of an island: which of its poses, and the column and row of its lower left cell.
+/// A place of an island: the number of its pose, and the column and row of its lower left cell.
 struct IslandSpot {
     int pose = 0, x = 0, y = 0;
 };
@@ -22,9 +22,9 @@ public:
     /// @param poses of each island: its masks, in one or more turns
     explicit Separation(std::vector<std::vector<CellMask>> poses);
 
-    /// Whether it found places without overlap.
+    /// Searches places without overlap. @return whether it found such places
     /// @param side of the square, in cells @param spots where the islands begin, and where they end if it succeeds
-    /// @param is_local islands keep their pose and move along ways only @param work may not grow beyond `most`
+    /// @param is_local islands keep their pose, and move only along short ways @param most limit of work()
     bool separate(int side, std::vector<IslandSpot>& spots, bool is_local, std::int64_t most);
 
     std::int64_t work() const { return work_; }  ///< words compared so far

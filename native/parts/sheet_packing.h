@@ -17,8 +17,8 @@ struct SheetPacking {
     int sheets = 0;
 };
 
-/// Puts islands onto sheets without a change of size, each in the lowest place of the first sheet that has room; drawn
-/// on cells as above, the largest first.
+/// Puts islands onto sheets without a change of size, the largest first. Each island gets the lowest place of the first
+/// sheet that has room. Islands are drawn on cells as in packing.h.
 /// @param margin between two islands, and half of it to the edge, in the unit of the points
 /// @throws SolverError points that are NaN or infinite
 SheetPacking pack_on_sheets(const std::vector<Outline>& outlines, double margin, const SheetSize& sheet);

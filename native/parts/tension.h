@@ -1,4 +1,4 @@
-// The forces between the two sides of a path in a relaxed part: what a cut along the path would release.
+// The forces between the two sides of a path in a relaxed part. A cut along the path would release them.
 #pragma once
 
 #include "cut/seamed_mesh.h"
@@ -22,7 +22,7 @@ public:
 
     /// The force between the sides of a path at one of its vertices. Real part: how much the left side is pulled
     /// forward against the right side. Imaginary part: how much both sides are pulled apart. Both stay the same if the
-    /// path is walked the other way.
+    /// path runs in the other direction.
     /// @param from the vertex before @param to the vertex after; -1 at the boundary, where the path ends
     Complex at(Index v, Index from, Index to) const;
 

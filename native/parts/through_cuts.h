@@ -11,7 +11,7 @@ namespace koebe {
 /// What cuts cost, in energy.
 struct ThroughPrice {
     double length = 0.0;          ///< of a cut as long as the root of the surface's area
-    std::optional<double> piece;  ///< of one more piece, beside its cut; without a value no part is split
+    std::optional<double> piece;  ///< of one more piece, in addition to its cut; without a value no part is split
 };
 
 /// A path along edges. It joins two loops of a part, or splits the part in two.
@@ -23,15 +23,15 @@ struct ThroughCut {
     double cost = 0.0;             ///< in energy
 };
 
-/// The through cuts that may pay, the most promising first, few, with ends apart. A cut releases at most about
-/// 2 (|F|^2 + 12 M^2 / L^2) / Y: both fibres of a beam that breaks. F is the force between the two sides summed along
-/// the path, M the moment about the middle of the path of the force that pulls them apart, L the length of the path,
-/// and Y the stiffness as for darts (darts.h). A quarter of it is forecast, as was measured.
+/// A few through cuts that may pay, with ends apart, the most promising cut first. A cut releases at most about 2
+/// (|F|^2 + 12 M^2 / L^2) / Y, like a beam that breaks. F is the force between the two sides, summed along the path. M
+/// is the moment, about the middle of the path, of the force that pulls the sides apart. L is the length of the path,
+/// and Y is the stiffness as for darts (darts.h). The forecast is a quarter of this energy, as measured.
 /// @param flat a part relaxed for this E
 std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price);
 
-/// Cuts a part through. One piece if the cut joins two loops: the sides of the cut are drawn a little apart. Two pieces
-/// if it splits the part.
+/// Cuts a part through. If the cut joins two loops, there is one piece: the sides of the cut are drawn a little apart.
+/// If the cut splits the part, there are two pieces.
 /// @return empty if the cut cannot be opened, or if a piece would be too small
 std::vector<FlatPart> cut_through(const FlatPart& flat, const ThroughCut& cut);
 

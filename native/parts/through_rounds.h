@@ -1,4 +1,4 @@
-// Relaxed parts cut through, as long as that pays.
+// Cuts relaxed parts through, as long as cuts pay.
 #pragma once
 
 #include "execution/execution.h"
@@ -10,8 +10,8 @@
 namespace koebe {
 
 /// Cuts each part by its best through cut (through_cuts.h), relaxes the pieces, and goes on with them. A cut stays if
-/// it released more energy than it costs. On a surface that is its own mirror image cuts come in pairs: both are made,
-/// or neither. Parts with round loops stay as they are.
+/// it released more energy than it costs. On a surface that is its own mirror image cuts come in pairs: either both
+/// cuts are made, or neither. Parts with round loops are not cut.
 /// @param parts relaxed for this E; new parts come last
 /// @return whether any cut was made
 bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughPrice& price, int threads,

@@ -266,7 +266,7 @@ int run_batch(const BatchRequest& request)
     if (!request.quiet) require_standard_output();
     const batch::FileList list = files_of(request);
     if (list.blends_passed_over > 0 && !request.quiet)
-        std::fprintf(stderr, "%s of Blender's skipped: name the program with --blender\n",
+        std::fprintf(stderr, "%s of Blender's skipped: give the Blender program with --blender\n",
                      counted(list.blends_passed_over, "file").c_str());
     if (list.files.empty()) throw WrongUsage("there is no mesh file in " + request.inputs.front());
     const fs::path output = fs::weakly_canonical(batch::path_of(request.folder));

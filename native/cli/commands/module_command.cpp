@@ -152,7 +152,7 @@ void add_certified_options(CLI::App& app, ModuleRequest& request)
     add_value(app, *find_row("certified", "max_faces"), request.bounds.max_faces)->needs(certified);
     app.add_option("--between", request.between,
                    "with --certified: loops at 0 / loops at 1, for example 0,2/1; no flux runs through the other "
-                   "loops. Else each loop against all others, then each pair")
+                   "loops. By default each loop at 1 and all others at 0, then each pair")
         ->type_name("LOOPS/LOOPS")
         ->needs(certified);
 }

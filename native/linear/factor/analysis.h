@@ -12,7 +12,7 @@ namespace koebe::detail {
 /// A piece, a separator, or the rows that are kept to the end, in the factor's order.
 struct FactorPart {
     Index begin = 0, end = 0;                       ///< its rows
-    Index first_supernode = 0, last_supernode = 0;  ///< [first, last): one in a separator with rows
+    Index first_supernode = 0, last_supernode = 0;  ///< [first, last): one supernode in a separator with rows
     std::vector<Index> interface;                   ///< rows that the part touches above it in the tree, ascending
     std::vector<std::size_t> children;              ///< the child parts
 };
@@ -20,9 +20,9 @@ struct FactorPart {
 /// The supernodes, and the tree of the dissection. A matrix that is not dissected is one piece.
 struct Analysis {
     Supernodes supernodes;
-    std::vector<FactorPart> parts;  ///< pieces, then separators, each after the parts it separates, then the last rows
+    std::vector<FactorPart> parts;  ///< pieces, separators (each after the parts that it separates), the last rows
     std::size_t piece_count = 0;
-    std::vector<std::vector<std::size_t>> rounds;  ///< separators; in a round no two touch each other
+    std::vector<std::vector<std::size_t>> rounds;  ///< separators; no two separators of a round touch each other
     Index tops = 0;                                ///< first row that belongs to no piece
 
     /// Bytes that the factorization takes.
@@ -30,12 +30,12 @@ struct Analysis {
 };
 
 /// Analyzes a matrix as one piece with CHOLMOD, in the order of AMD.
-/// @param matrix symmetric: the lower triangle, or both @param last rows that are kept to the end
+/// @param matrix symmetric: the lower triangle, or both triangles @param last rows that are kept to the end
 /// @throws OutOfMemory where the factor would not fit
 Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last);
 
-/// Analyzes a matrix by nested dissection. @return nothing where the graph does not come apart
-/// @param matrix both triangles @param last rows kept to the end @param piece_rows largest size of a piece, about
+/// Analyzes a matrix by nested dissection. @return nothing if the graph cannot be cut
+/// @param matrix both triangles @param last rows kept to the end @param piece_rows about the largest size of a piece
 std::optional<Analysis> analyze_in_pieces(const SparseMatrix& matrix, const std::vector<Index>& last, Index piece_rows);
 
 }  // namespace koebe::detail

@@ -7,8 +7,9 @@
 
 namespace koebe::detail {
 
-/// Nested dissection (George 1973): pieces of the graph of a matrix, no entry between any two of them, and separators.
-/// They form a tree with its nodes in postorder: each separator comes right after the subtrees that it separates.
+/// Nested dissection (George 1973): pieces of the graph of a matrix, and separators. There is no entry between any two
+/// pieces. Pieces and separators form a tree with its nodes in postorder: each separator comes right after the subtrees
+/// that it separates.
 struct Dissection {
     struct Node {
         std::vector<Index> rows;  ///< ascending in a piece
@@ -20,7 +21,7 @@ struct Dissection {
 
 /// Makes pieces of up to about most_rows rows. Separators are level sets of breadth-first searches (George and Liu
 /// 1979) near the middle of the part they cut. The result depends on the pattern alone.
-/// @param matrix symmetric; the lower triangle, or both
+/// @param matrix symmetric; the lower triangle, or both triangles
 /// @param last rows that no node gets
 Dissection dissect(const SparseMatrix& matrix, const std::vector<Index>& last, Index most_rows);
 

@@ -9,7 +9,7 @@ namespace koebe::detail {
 
 /// The order of least degree (AMD) of a symmetric matrix, with some rows kept to the end in the given order.
 /// @param matrix its lower triangle is read
-/// @param postordered whether the other rows stand in postorder of their own elimination tree
+/// @param postordered whether all other rows stand in postorder of their own elimination tree
 std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vector<Index>& last, bool postordered,
                                      CholmodCommon& common);
 

@@ -12,7 +12,7 @@ namespace koebe::detail {
 /// @throws SolverError if the matrix is not positive definite
 void eliminate(double* columns, Index height, Index width, double* rest);
 
-/// Does the block's part of X = L^-1 X. @param block (height, width) of L @param first row of X
+/// Does the block's part of X = L^-1 X. @param block (height, width) of L @param first the block's first row in X
 /// @param update (height - width, n) out: to be added to the rows below
 void substitute_forward(const double* block, Index height, Index width, Index first, MatrixXd& x, MatrixXd& update);
 

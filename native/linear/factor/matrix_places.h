@@ -13,10 +13,10 @@ struct MatrixPlaces {
     std::vector<Index> place;  ///< place of each entry in the block
 };
 
-/// The places of a matrix that keeps its pattern. To find them takes twice as long as one use of them saves.
+/// The places of a matrix that keeps its pattern. The search for them takes twice the time that one use of them saves.
 class LastPattern {
 public:
-    /// @param matrix the lower triangle, or both @return null where places are not worth finding yet
+    /// @param matrix the lower triangle, or both triangles @return null if a search does not pay yet
     const MatrixPlaces* places(const SparseMatrix& matrix, const Supernodes& l);
 
 private:

@@ -10,8 +10,8 @@ namespace koebe::detail {
 
 /// A = L L' by the multifrontal method (Duff and Reid 1983). Supernode J with the rows R below it has a front of the
 /// rows (J, R). The front adds up the columns J of A and the updates of J's children in the elimination tree. J is
-/// eliminated, and the update on R goes to the parent. Where A changes in a few rows, only the supernodes from these
-/// rows up to the root are computed again; the updates of all others are kept.
+/// eliminated, and the update on R goes to the parent. If A changes in a few rows, only the supernodes from these rows
+/// up to the root are computed again; the updates of all other supernodes are kept.
 class MultifrontalFactor {
 public:
     /// @param l gets the values
@@ -21,7 +21,7 @@ public:
                        const std::vector<std::vector<Index>>& changing);
 
     /// Takes another A with the same pattern. There is no factor until refactorize().
-    /// @throws SolverError if it is not positive definite where nothing changes
+    /// @throws SolverError if A is not positive definite in the supernodes that do not change
     void take(const SparseMatrix& matrix);
 
     /// Factors A plus symmetric blocks, each on the rows of one set of `changing`. A has an entry, if only an explicit

@@ -20,7 +20,7 @@ struct LowerMatrix {
     double* column(Index c) const { return numbers.data() + static_cast<std::ptrdiff_t>(c) * size; }
 };
 
-/// Hands out zero matrices, in memory that was given back if possible: new memory costs time page by page.
+/// Hands out zero matrices. It reuses memory that was given back, because new memory costs time page by page.
 class RestPool {
 public:
     LowerMatrix take(Index size)

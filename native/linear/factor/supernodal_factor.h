@@ -10,15 +10,15 @@
 
 namespace koebe::detail {
 
-/// Factors the pieces on the thread's share of threads, then the separators, each a dense block, the small ones first.
-/// Any number of threads gives the same factor.
+/// Factors the pieces on the thread's share of threads. Then it factors the separators, each a dense block, the small
+/// blocks first. Any number of threads gives the same factor.
 class SupernodalFactor : public Supernodes {
 public:
     /// Allocates the values.
     explicit SupernodalFactor(Analysis analysis);
 
     /// @param matrix has the analyzed pattern; with more than one piece: both triangles
-    /// @throws SolverError if it is not positive definite; then there is no factor
+    /// @throws SolverError if the matrix is not positive definite; then there is no factor
     void factorize(const SparseMatrix& matrix);
 
     bool is_in_pieces() const { return parts_.size() > 1; }
