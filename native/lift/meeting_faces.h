@@ -1,0 +1,19 @@
+// Finds faces of a mesh in space that meet though they are no neighbours.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct MeetingFaces {
+    Index pairs = 0;
+    std::vector<Index> faces;  ///< of the pairs, ascending
+};
+
+/// Pairs of faces without a common vertex that have a common point, by exact predicates (CGAL, box intersection
+/// [Zomorodian and Edelsbrunner 2002]). Faces without area are left out.
+MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles);
+
+}  // namespace koebe
