@@ -208,7 +208,8 @@ def add_spheres():
         basket = lifted(*tube(60, 240, bowl), weave, "--shape", "ring", "--repeats", "22")
         write_text(drawing, "Koebe")
         points, faces = globe(80, pebble)
-        text = lifted(points, faces, drawing, "--shape", "sphere", "--around", str(np.argmin(points[:, 1])),
+        front = np.argmin(points[:, 1] + 3.0 * abs(points[:, 0]))
+        text = lifted(points, faces, drawing, "--shape", "sphere", "--around", str(front),
                       "--size", "1.1", "--height", "0.035")  # fmt: skip
     add("egg", hollow, metal("shell", (0.75, 0.5, 0.3, 1.0), 0.35, 0.0), (-2.2, 0.0, 0.96), (0.0, 0.0, 0.3), 0.86)
     add("basket", basket, metal("willow", (0.4, 0.22, 0.09, 1.0), 0.55, 0.0), (0.1, 0.3, 0.04), (0.0, 0.0, 0.0), 0.19)

@@ -249,8 +249,12 @@ void lift_mesh(const FlatDomain& domain, const PatternMesh& mesh, const LiftOpti
     result.uv.resize(static_cast<Eigen::Index>(bent.uv.size()), 2);
     for (std::size_t c = 0; c < bent.uv.size(); ++c)
         result.uv.row(static_cast<Eigen::Index>(c)) << bent.uv[c].real(), bent.uv[c].imag();
-    const MeetingFaces before = meeting_faces(mesh.vertices, mesh.triangles);
-    const MeetingFaces meeting = meeting_faces(result.vertices, result.triangles);
+    const auto meeting_of = [](const Vertices& vertices, const Triangles& triangles) {
+        const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
+        return meeting_faces(vertices, joined_corners(vertices, triangles, 1e-9 * diagonal));
+    };
+    const MeetingFaces before = meeting_of(mesh.vertices, mesh.triangles);
+    const MeetingFaces meeting = meeting_of(result.vertices, result.triangles);
     if (meeting.pairs > 0 && before.pairs == 0) warn_of_crossings(meeting, {}, result);
     result.crossings = meeting.pairs;
 }

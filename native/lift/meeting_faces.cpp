@@ -5,6 +5,10 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
 
 namespace koebe {
 namespace {
@@ -59,6 +63,34 @@ MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles)
     std::ranges::sort(meeting.faces);
     meeting.faces.erase(std::unique(meeting.faces.begin(), meeting.faces.end()), meeting.faces.end());
     return meeting;
+}
+
+Triangles joined_corners(const Vertices& vertices, const Triangles& triangles, double near)
+{
+    using Cell = std::array<std::int64_t, 3>;
+    const double size = 8.0 * near;
+    const auto cell_of = [&](const Eigen::RowVector3d& p) {
+        Cell cell{};
+        for (int axis = 0; axis < 3; ++axis) cell[axis] = static_cast<std::int64_t>(std::floor(p[axis] / size));
+        return cell;
+    };
+    std::map<Cell, std::vector<Index>> cells;
+    std::vector<Index> first(vertices.rows());
+    for (Index v = 0; v < static_cast<Index>(vertices.rows()); ++v) {
+        const Eigen::RowVector3d p = vertices.row(v) - vertices.row(0), step = Eigen::RowVector3d::Constant(near);
+        const Cell low = cell_of(p - step), high = cell_of(p + step);
+        first[v] = v;
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+            for (std::int64_t y = low[1]; y <= high[1]; ++y)
+                for (std::int64_t z = low[2]; z <= high[2]; ++z)
+                    if (const auto found = cells.find({x, y, z}); found != cells.end())
+                        for (const Index other : found->second)
+                            if ((vertices.row(other) - vertices.row(v)).norm() <= near) first[v] = first[other];
+        cells[cell_of(p)].push_back(v);
+    }
+    Triangles joined = triangles;
+    for (Eigen::Index c = 0; c < joined.size(); ++c) joined.data()[c] = first[joined.data()[c]];
+    return joined;
 }
 
 }  // namespace koebe

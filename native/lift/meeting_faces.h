@@ -16,4 +16,8 @@ struct MeetingFaces {
 /// [Zomorodian and Edelsbrunner 2002]). Faces without area are left out.
 MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles);
 
+/// The faces with one number for vertices that lie together, so that tiles side by side are neighbours.
+/// @param near largest distance of such vertices
+Triangles joined_corners(const Vertices& vertices, const Triangles& triangles, double near);
+
 }  // namespace koebe

@@ -50,6 +50,7 @@ def test_copies_meet_round_a_ring(bent):
     assert np.diff(angle).max() < 0.1 and len(result.triangles) == 4 * 400
     corners = result.vertices[result.triangles]
     assert np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max() < 0.3  # no face goes back over the cut
+    assert result.crossings == 0  # they only touch
     with pytest.raises(koebe.InputError, match="wider than their share"):
         bent(sheet(), repeats=4, size=2.0)
 
