@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/lift.md: a ring with a lattice of hexagons, a lampshade of Voronoi cells, a vase with text.
+"""The pictures of docs/lift.md: a ring with a lattice of hexagons, a lampshade of Voronoi cells, a vase with text; and
+in lift_sphere.jpg an egg of Voronoi cells, a woven basket, a pebble with text.
 
     blender -b --factory-startup --python-exit-code 1 -P scripts/lift_picture.py -- docs/images/lift.jpg [SAMPLES]
 
-All are closed solids that the command `koebe lift` makes; the environment variable KOEBE_COMMAND may name another one.
+The command `koebe lift` makes them; the environment variable KOEBE_COMMAND may name another one.
 """
 
 import os
@@ -55,6 +56,69 @@ def vase(height, angle):
     return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), 19.0 * height])
 
 
+def bowl(height, angle):
+    radius = 3.2 + 2.6 * np.sin(0.5 * np.pi * height) + 0.35 * height**6
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), 6.5 * height])
+
+
+def globe(steps, place):
+    """An octahedron divided by steps and put on the unit sphere: place((n, 3)) -> (n, 3)."""
+    points, faces, number = [], [], {}
+
+    def vertex(p):
+        key = tuple(p)
+        if key not in number:
+            number[key] = len(points)
+            points.append(np.array(p, float) / np.linalg.norm(p))
+        return number[key]
+
+    for signs in np.ndindex(2, 2, 2):
+        x, y, z = (1 - 2 * k for k in signs)
+        for i in range(steps):
+            for j in range(steps - i):
+                at = [vertex((x * a, y * b, z * (steps - a - b))) for a, b in
+                      ((i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)) if a + b <= steps]  # fmt: skip
+                two = [[at[0], at[1], at[2]]] + ([[at[1], at[3], at[2]]] if len(at) == 4 else [])
+                faces += two if x * y * z > 0 else [face[::-1] for face in two]
+    return place(np.array(points)), np.array(faces)
+
+
+def egg(p):
+    return p * (0.72, 0.72, 1.0) * (1.0 - 0.16 * p[:, 2:])
+
+
+def pebble(p):
+    return p * (1.0, 0.72, 0.5) * (1.0 + 0.06 * p[:, :1])
+
+
+def write_weave(file, rows):
+    """Strands that run over and under each other: two across, and so many along."""
+    lines, begin = [], 1
+
+    def strand(middle, across):
+        nonlocal begin
+        ring = np.arange(12) * np.pi / 6
+        for m in middle:
+            for a in ring:
+                p = m + 0.3 * np.cos(a) * across + (0.0, 0.0, 0.13 * np.sin(a))
+                lines.append("v {} {} {}".format(*p))
+        for i in range(len(middle) - 1):
+            for j in range(12):
+                a, b = begin + 12 * i + j, begin + 12 * i + (j + 1) % 12
+                lines.append(f"f {a} {b} {b + 12} {a + 12}")
+        begin += 12 * len(middle)
+
+    along = np.linspace(0.0, 2.0, 25)
+    up = np.linspace(0.0, rows, 12 * rows + 1)
+    for j in range(rows):
+        wave = 0.17 * (-1) ** j * np.sin(np.pi * along)
+        strand(np.column_stack([along, 0 * along + j + 0.5, wave]), np.array([0.0, -1.0, 0.0]))
+    for i in range(2):
+        wave = -0.17 * (-1) ** i * np.sin(np.pi * up)
+        strand(np.column_stack([0 * up + i + 0.5, up, wave]), np.array([1.0, 0.0, 0.0]))
+    Path(file).write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
 def write_text(file, text):
     """The outlines of a text as an SVG drawing."""
     font = bpy.data.curves.new("text", "FONT")
@@ -84,7 +148,7 @@ def lifted(points, faces, *options):
         rows = [line.split() for line in solid.read_text(encoding="ascii").splitlines()]
     return (
         [tuple(map(float, row[1:4])) for row in rows if row and row[0] == "v"],
-        [tuple(int(corner) - 1 for corner in row[1:4]) for row in rows if row and row[0] == "f"],
+        [tuple(int(corner.split("/")[0]) - 1 for corner in row[1:4]) for row in rows if row and row[0] == "f"],
     )
 
 
@@ -120,10 +184,7 @@ def add_lamp(place, energy, size, color=(1.0, 1.0, 1.0), at=(0.0, 0.0, 0.5)):
     bpy.context.scene.collection.objects.link(lamp)
 
 
-def main():
-    out, *samples = sys.argv[sys.argv.index("--") + 1 :]
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    scene = bpy.context.scene
+def add_tubes():
     ring = lifted(*tube(24, 240, finger_ring), "hexagons", "--shape", "ring", "--perforate", "--repeats", "36",
                   "--bridge", "0.45", "--thickness", "1.1")  # fmt: skip
     shade = lifted(*tube(90, 220, lampshade), "voronoi", "--shape", "ring", "--perforate", "--size", "2.4",
@@ -136,6 +197,30 @@ def main():
     add("ring", ring, metal("gold", (0.9, 0.6, 0.22, 1.0), 0.22, 1.0), (-2.15, 0.0, 0.88), (0.62, -0.3, 0.0), 0.105)
     add("shade", shade, metal("clay", (0.62, 0.55, 0.47, 1.0), 0.6, 0.0), (0.0, 0.1, 0.0), (0.0, 0.0, 0.0), 0.135)
     add("vase", text, metal("glaze", (0.05, 0.2, 0.3, 1.0), 0.25, 0.0), (2.1, 0.1, 0.0), (0.0, 0.0, VASE_TURN), 0.105)
+
+
+def add_spheres():
+    hollow = lifted(*globe(64, egg), "voronoi", "--shape", "sphere", "--perforate", "--size", "0.3", "--bridge", "0.07",
+                    "--thickness", "0.06")  # fmt: skip
+    with tempfile.TemporaryDirectory() as folder:
+        weave, drawing = Path(folder) / "weave.obj", Path(folder) / "text.svg"
+        write_weave(weave, 10)
+        basket = lifted(*tube(60, 240, bowl), weave, "--shape", "ring", "--repeats", "22")
+        write_text(drawing, "Koebe")
+        points, faces = globe(80, pebble)
+        front = np.argmin(points[:, 1] + 3.0 * abs(points[:, 0]))
+        text = lifted(points, faces, drawing, "--shape", "sphere", "--around", str(front),
+                      "--size", "1.1", "--height", "0.035")  # fmt: skip
+    add("egg", hollow, metal("shell", (0.75, 0.5, 0.3, 1.0), 0.35, 0.0), (-2.2, 0.0, 0.96), (0.0, 0.0, 0.3), 0.86)
+    add("basket", basket, metal("willow", (0.4, 0.22, 0.09, 1.0), 0.55, 0.0), (0.1, 0.3, 0.04), (0.0, 0.0, 0.0), 0.19)
+    add("pebble", text, metal("slate", (0.13, 0.16, 0.2, 1.0), 0.4, 0.0), (2.25, -0.2, 0.5), (-0.5, 0.0, 0.0), 1.0)
+
+
+def main():
+    out, *samples = sys.argv[sys.argv.index("--") + 1 :]
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    scene = bpy.context.scene
+    (add_spheres if Path(out).stem == "lift_sphere" else add_tubes)()
     bpy.ops.mesh.primitive_plane_add(size=60.0)
     bpy.context.object.data.materials.append(studio.plain_material(studio.BACKDROP))
     add_lamp((-3.0, -3.5, 5.0), 170.0, 2.5)

@@ -33,6 +33,7 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::pieces: return "pieces";
     case WarningKind::left_out: return "left_out";
     case WarningKind::not_even: return "not_even";
+    case WarningKind::crossings: return "crossings";
     case WarningKind::lost_area: return "lost_area";
     case WarningKind::not_mapped: return "not_mapped";
     }
@@ -53,6 +54,7 @@ ElementKind elements_of(WarningKind kind) noexcept
     case WarningKind::flipped:
     case WarningKind::left_out:
     case WarningKind::not_even:
+    case WarningKind::crossings:
     case WarningKind::lost_area:
     case WarningKind::not_mapped:
     case WarningKind::not_one_to_one: return ElementKind::faces;

@@ -3,10 +3,14 @@
 #include "mesh/corner_order.h"
 #include "parts/parts.h"
 #include "pipeline/uniformize.h"
+#include "quality/take_verdict.h"
+#include "sphere/sphere_map.h"
 #include "tiles/tile.h"
 #include "tiles/tile_map.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace koebe {
@@ -20,6 +24,32 @@ PlanarPoints disk_corners(const Surface& surface, const PlanarPoints& disk)
     return uv;
 }
 
+Circle hole_with(const std::vector<LoopReport>& loops, Index vertex)
+{
+    for (std::size_t k = 1; k < loops.size(); ++k)  // the first one is the outer loop
+        if (std::ranges::find(loops[k].vertices, vertex) != loops[k].vertices.end()) return loops[k].circle;
+    throw InputError("vertex " + std::to_string(vertex) + " is on no hole of the disk", ElementKind::vertices,
+                     {vertex});
+}
+
+/// The map to the sphere, and what is true of its UVs in two disks in place of the map's own layout.
+SphereSheets sphere_domain(const Vertices& vertices, const Triangles& triangles, const LiftOptions& options,
+                           const Surface& surface, MapReport& report, ExecutionContext& context)
+{
+    SphereOptions chosen;
+    chosen.most_lost = 1.0;  // judged below
+    SphereResult map = sphere_map(vertices, triangles, chosen, context);
+    SphereSheets sheets = sphere_sheets(vertices, surface.triangles, map.points,
+                                        options.around < 0 ? std::nullopt : std::optional<Index>(options.around));
+    std::erase_if(map.warnings, [](const Warning& warning) { return warning.kind == WarningKind::flipped; });
+    PlanarPoints uv(surface.triangles.size(), 2);
+    for (Eigen::Index c = 0; c < uv.rows(); ++c) uv.row(c) << sheets.home.uv[c].real(), sheets.home.uv[c].imag();
+    static_cast<Verdict&>(map.distortion) = judge_corners(vertices, surface.triangles, uv);
+    take_verdict({.advice = "Parts (--shape parts) lose less"}, map);
+    report = std::move(map);
+    return sheets;
+}
+
 }  // namespace
 
 FlatDomain flat_domain(const Vertices& vertices, const Triangles& triangles, const LiftOptions& options,
@@ -28,6 +58,13 @@ FlatDomain flat_domain(const Vertices& vertices, const Triangles& triangles, con
     validate_arrays(vertices, triangles);
     FlatDomain domain;
     domain.surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
+    if (options.around >= static_cast<Index>(vertices.rows()))
+        throw InputError("vertex " + std::to_string(options.around) + " does not exist", ElementKind::vertices,
+                         {options.around});
+    if (options.shape == LiftShape::sphere) {
+        domain.sphere = sphere_domain(vertices, triangles, options, domain.surface, domain.map, context);
+        return domain;
+    }
     PlanarPoints uv;
     double grid = 0.0;
     std::vector<Complex> periods;
@@ -36,6 +73,7 @@ FlatDomain flat_domain(const Vertices& vertices, const Triangles& triangles, con
         chosen.even = options.even.value_or(0.0);
         UniformizeResult map = uniformize(vertices, triangles, chosen, context);
         uv = disk_corners(domain.surface, map.uv);
+        if (options.around >= 0) domain.hole = hole_with(map.loops, options.around);
         domain.map = std::move(map);
     } else if (options.shape == LiftShape::parts) {
         PartsOptions chosen;
@@ -53,7 +91,7 @@ FlatDomain flat_domain(const Vertices& vertices, const Triangles& triangles, con
         grid = uv_grid;
         domain.map = std::move(map);
     }
-    domain.sheet = flat_sheet(vertices, domain.surface.triangles, uv, grid, std::move(periods));
+    domain.flat = flat_sheet(vertices, domain.surface.triangles, uv, grid, std::move(periods));
     return domain;
 }
 

@@ -35,6 +35,29 @@ std::vector<Complex> slot(double width, double height, Complex middle)
     return polygon;
 }
 
+/// A quarter of a ring about a corner of the square [-1/2, 1/2]^2, with half circles at its ends.
+/// @param corner as a sum of unit steps: (-1, -1) for the lower left one
+std::vector<Complex> quarter_ring(double width, Complex corner)
+{
+    constexpr int arc = 16, cap = 8;
+    constexpr double quarter = 0.5 * std::numbers::pi;
+    const double apart = std::numbers::sqrt2 - 1.0;  // of the middles of the two rings
+    const Complex first = -corner / std::abs(corner) * std::polar(1.0, -0.5 * quarter);  // along the square's side
+    const auto at = [&](double radius, double angle) { return 0.5 * corner + radius * first * std::polar(1.0, angle); };
+    const auto add_cap = [&](std::vector<Complex>& polygon, double angle, bool end) {
+        for (int k = 1; k < cap; ++k) {
+            const double turn = std::numbers::pi * k / cap + (end ? 0.0 : std::numbers::pi);
+            polygon.push_back(at(0.5, angle) + 0.5 * width * first * std::polar(1.0, angle + turn));
+        }
+    };
+    std::vector<Complex> polygon;
+    for (int k = 0; k <= arc; ++k) polygon.push_back(at(0.5 + 0.5 * width, apart + (quarter - 2.0 * apart) * k / arc));
+    add_cap(polygon, quarter - apart, true);
+    for (int k = arc; k >= 0; --k) polygon.push_back(at(0.5 - 0.5 * width, apart + (quarter - 2.0 * apart) * k / arc));
+    add_cap(polygon, apart, false);
+    return polygon;
+}
+
 /// A linear map of the plane.
 struct Linear {
     Complex of_one, of_i;
@@ -143,6 +166,16 @@ Lattice lattice_of(const std::string& pattern, double bridge)
         const double half = std::sqrt(0.5);  // of a diamond's side over its width, and its inner radius is half of that
         return {1.0, {0.5, 0.5}, {rounded_corners(regular_polygon(4, 0.5 * half * (1.0 - bridge), 0.0, 0.0))}};
     }
+    if (pattern == "circles") return {1.0, {0.5, side}, {regular_polygon(48, 0.5 * (1.0 - bridge), 0.0, 0.0)}};
+    if (pattern == "truchet") {
+        const double width = std::numbers::sqrt2 - 1.0 - bridge;
+        if (!(width > 0.02)) throw InputError("the bridge of truchet must be less than 0.39 of the size");
+        return {1.0,
+                {0.0, 1.0},
+                {quarter_ring(width, {-1.0, -1.0}), quarter_ring(width, {1.0, 1.0})},
+                1,
+                {quarter_ring(width, {1.0, -1.0}), quarter_ring(width, {-1.0, 1.0})}};
+    }
     return {2.0, {1.0, 2.0}, {slot(1.0 - bridge, 4.0 - bridge, 0.0)}, 2};
 }
 
@@ -179,10 +212,13 @@ LaidLattice lay_lattice(const Lattice& lattice, const std::vector<Complex>& peri
                                       j * map(lattice.b));
         }
     }
-    for (std::vector<Complex> shape : lattice.shapes) {
-        for (Complex& z : shape) z = map(z);
-        laid.shapes.push_back(std::move(shape));
-    }
+    const auto laid_shapes = [&](std::vector<std::vector<Complex>> shapes) {
+        for (std::vector<Complex>& shape : shapes)
+            for (Complex& z : shape) z = map(z);
+        return shapes;
+    };
+    laid.shapes = laid_shapes(lattice.shapes);
+    laid.other_shapes = laid_shapes(lattice.other_shapes);
     return laid;
 }
 

@@ -12,17 +12,19 @@ namespace koebe {
 /// A pattern that repeats along a and b. The middles of neighbouring cells are 1 apart.
 struct Lattice {
     Complex a, b;
-    std::vector<std::vector<Complex>> shapes;  ///< of one cell, counter-clockwise, convex
-    int columns = 1;                           ///< cells in the direction of the real axis along a
+    std::vector<std::vector<Complex>> shapes;          ///< of one cell, counter-clockwise
+    int columns = 1;                                   ///< cells in the direction of the real axis along a
+    std::vector<std::vector<Complex>> other_shapes{};  ///< if there are: of half of the cells, at random
 };
 
-/// The lattice of a built-in pattern: hexagons, triangles, diamonds or stripes.
+/// The lattice of a built-in pattern: hexagons, triangles, diamonds, stripes, truchet, or circles in rows. Truchet's
+/// cells have two quarters of a ring about opposite corners [Truchet 1704; Smith 1987].
 /// @param bridge between shapes, for cells of size 1: from 0 to below 1
 Lattice lattice_of(const std::string& pattern, double bridge);
 
 /// A lattice laid over a domain: the shapes around each place, and these places.
 struct LaidLattice {
-    std::vector<std::vector<Complex>> shapes;
+    std::vector<std::vector<Complex>> shapes, other_shapes;
     std::vector<Complex> places;
     double bend = 1.0;  ///< longest over shortest image of a unit vector: above 1 the lattice is no longer regular
 };

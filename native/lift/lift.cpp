@@ -5,16 +5,14 @@
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
-#include "io/extension.h"
-#include "io/file_bytes.h"
+#include "lift/bent_mesh.h"
 #include "lift/flat_domain.h"
-#include "lift/grey_image.h"
+#include "lift/kept_sheet.h"
+#include "lift/meeting_faces.h"
+#include "lift/pattern_file.h"
 #include "lift/patterns.h"
 #include "lift/placed_drawing.h"
-#include "lift/raised.h"
 #include "lift/relief.h"
-#include "lift/solid.h"
-#include "lift/svg_drawing.h"
 
 #include <algorithm>
 #include <array>
@@ -27,50 +25,6 @@ namespace koebe {
 namespace {
 
 constexpr double cells_across = 12.0;  // of the root of the area, if no size is given
-
-struct KeptSheet {
-    Vertices vertices, normals;
-    Triangles triangles;
-    std::vector<Complex> uv;
-    std::vector<Index> original, patch;
-    std::vector<Index> face;  // the surface's face of each
-};
-
-bool in_pattern(const Overlay& overlay, Index face)
-{
-    return overlay.region[face] >= 0 && !overlay.outlines[overlay.region[face]].hole;
-}
-
-/// The faces to keep, and their vertices in their order.
-KeptSheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Index original_count)
-{
-    const Index count = static_cast<Index>(overlay.vertices.rows());
-    std::vector<Index> number(count, -1);
-    KeptSheet sheet;
-    std::vector<Index> corners;
-    for (Index f = 0; f < static_cast<Index>(overlay.triangles.rows()); ++f) {
-        if (!keep[f]) continue;
-        for (int k = 0; k < 3; ++k) {
-            number[overlay.triangles(f, k)] = 0;
-            corners.push_back(overlay.triangles(f, k));
-            sheet.uv.push_back(overlay.uv[3 * f + k]);
-        }
-        sheet.patch.push_back(in_pattern(overlay, f) ? 1 : 0);
-        sheet.face.push_back(overlay.face[f]);
-    }
-    std::vector<Index> used;
-    for (Index v = 0; v < count; ++v) {
-        if (number[v] < 0) continue;
-        number[v] = static_cast<Index>(used.size());
-        used.push_back(v);
-        sheet.original.push_back(v < original_count ? v : -1);
-    }
-    sheet.vertices = overlay.vertices(used, Eigen::all);
-    sheet.normals = overlay.normals(used, Eigen::all);
-    for (Index& v : corners) v = number[v];
-    sheet.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
-    return sheet;
-}
 
 /// Checks loops and Euler characteristic of the sheet against what the outlines must have made of them.
 void require_foretold(const Surface& before, const KeptSheet& sheet, Index holes, LiftResult& result)
@@ -104,109 +58,25 @@ void warn_of_left_out(LiftResult& result)
     }
 }
 
-PatternOptions pattern_options(const FlatSheet& sheet, const LiftOptions& options)
+PatternOptions pattern_options(const FlatDomain& domain, const LiftOptions& options)
 {
+    const FlatSheet& sheet = domain.sheet();
     PatternOptions chosen;
     chosen.size = options.size.value_or(std::sqrt(sheet.area) / cells_across);
     chosen.bridge = options.bridge.value_or(0.2 * chosen.size);
     chosen.repeats = options.repeats;
     chosen.seed = static_cast<std::uint64_t>(options.seed);
+    chosen.hole = domain.hole;
     if (!(chosen.size > 0.0)) throw InputError("the surface has no area: no size for the pattern");
     return chosen;
 }
 
-/// The sheet with its outlines at a height, or as it is.
-RaisedSheet raised_sheet(const KeptSheet& sheet, const std::optional<double>& height)
-{
-    std::vector<Index> up = sheet.patch;
-    if (!height) std::ranges::fill(up, 0);
-    return raise_faces(sheet.triangles, sheet.uv, up, static_cast<Index>(sheet.vertices.rows()), height.value_or(0.0));
-}
-
-/// Faces that are no walls: they keep their direction when they move.
-Triangles without_walls(const RaisedSheet& raised)
-{
-    const auto walls = std::ranges::count(raised.patch, 2);
-    return raised.triangles.topRows(raised.triangles.rows() - static_cast<Eigen::Index>(walls));
-}
-
-/// As moved_along, with the surface's faces in the error.
-Vertices moved_sheet(const Vertices& vertices, const Vertices& normals, const VectorXd& by, const Triangles& triangles,
-                     const std::vector<Index>& face)
-{
-    try {
-        return moved_along(vertices, normals, by, triangles);
-    } catch (const InputError& error) {
-        std::vector<Index> faces;
-        for (const Index f : error.elements()) faces.push_back(face[f]);
-        std::ranges::sort(faces);
-        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-        throw InputError(error.what(), ElementKind::faces, std::move(faces));
-    }
-}
-
-void finish_sheet(const KeptSheet& sheet, RaisedSheet raised, const LiftOptions& options, LiftResult& result)
-{
-    result.vertices = sheet.vertices(raised.source, Eigen::all);
-    result.original.assign(raised.source.size(), -1);
-    for (std::size_t v = 0; v < raised.source.size(); ++v)
-        if (raised.height[static_cast<Eigen::Index>(v)] == 0.0) result.original[v] = sheet.original[raised.source[v]];
-    if (options.height)
-        result.vertices = moved_sheet(result.vertices, sheet.normals(raised.source, Eigen::all), raised.height,
-                                      without_walls(raised), sheet.face);
-    result.triangles = std::move(raised.triangles);
-    result.uv.resize(static_cast<Eigen::Index>(raised.uv.size()), 2);
-    for (std::size_t c = 0; c < raised.uv.size(); ++c)
-        result.uv.row(static_cast<Eigen::Index>(c)) << raised.uv[c].real(), raised.uv[c].imag();
-    result.patch = std::move(raised.patch);
-}
-
-void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftOptions& options, LiftResult& result)
-{
-    const double half = 0.5 * *options.thickness;
-    if (options.height.value_or(0.0) <= -2.0 * half)
-        throw InputError("the pattern is sunk through the solid: the height must be above minus the thickness");
-    const Vertices outside =
-        moved_sheet(sheet.vertices(raised.source, Eigen::all), sheet.normals(raised.source, Eigen::all),
-                    (raised.height.array() + half).matrix(), without_walls(raised), sheet.face);
-    const Vertices inside = moved_sheet(sheet.vertices, sheet.normals, VectorXd::Constant(sheet.vertices.rows(), -half),
-                                        sheet.triangles, sheet.face);
-    Solid solid = closed_solid(outside, raised.triangles, inside, sheet.triangles);
-    result.vertices = std::move(solid.vertices);
-    result.triangles = std::move(solid.triangles);
-    result.patch = std::move(solid.patch);
-    result.original.assign(result.vertices.rows(), -1);
-    const std::vector<Index> twin = pair_halfedges(result.triangles, static_cast<Index>(result.vertices.rows()));
-    for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
-        if (twin[h] == no_twin || origin(result.triangles, h) != target(result.triangles, twin[h]))
-            throw SolverError("the solid is not closed");
-}
-
-/// What a pattern's file holds; nothing for a built-in pattern.
-struct PatternFile {
-    std::optional<SvgDrawing> drawing;
-    std::optional<GreyImage> image;
-};
-
-PatternFile read_pattern(const std::string& pattern, const LiftOptions& options)
-{
-    const bool is_file = is_pattern_file(pattern), is_image = is_file && io::lower_extension(pattern) == ".png";
-    if (options.turn != 0.0 && (!is_file || is_image)) throw InputError("a turn is for drawings");
-    if (!is_file) return {};
-    if (options.bridge) throw InputError("a bridge is for the built-in patterns: a file has its own");
-    if (!is_image) return {.drawing = parse_svg(io::read_bytes(pattern)), .image = {}};
-    if (!options.height) throw InputError("an image is a relief: give the height of white");
-    if (options.shape == LiftShape::parts) throw InputError("an image is for disks, rings and tori: parts have cuts");
-    if (options.repeats > 1 && options.shape == LiftShape::disk)
-        throw InputError("repeats of an image are for rings and tori: a disk does not repeat");
-    return {.drawing = {}, .image = parse_png(io::read_bytes(pattern))};
-}
-
 /// The sheet in faces as fine as the image, and its heights.
-RaisedSheet image_relief(const FlatSheet& domain, const GreyImage& image, const LiftOptions& options, KeptSheet& sheet,
+RaisedSheet image_relief(const FlatDomain& whole, const GreyImage& image, const LiftOptions& options, KeptSheet& sheet,
                          LiftResult& result)
 {
-    const ImagePlace place{std::max(1, options.repeats)};
+    const FlatSheet& domain = whole.sheet();
+    const ImagePlace place{std::max(1, options.repeats), whole.sphere ? whole.sphere->home_scale : 0.0};
     const double edge = pixel_edge(domain, image, place);
     result.size = options.size.value_or(edge * domain.mean_scale);
     FineSheet fine = refined_sheet(domain, edge, options.size);
@@ -228,13 +98,14 @@ RaisedSheet image_relief(const FlatSheet& domain, const GreyImage& image, const 
     return raised;
 }
 
-std::vector<DrawnOutline> built_in_outlines(const FlatSheet& sheet, const std::string& name, const LiftOptions& options,
-                                            LiftResult& result)
+std::vector<DrawnOutline> built_in_outlines(const FlatDomain& domain, const std::string& name,
+                                            const LiftOptions& options, LiftResult& result)
 {
-    const PatternOptions chosen = pattern_options(sheet, options);
+    const PatternOptions chosen = pattern_options(domain, options);
     result.size = chosen.size;
     result.bridge = chosen.bridge;
-    DrawnPattern pattern = built_in_pattern(sheet, name, chosen);
+    DrawnPattern pattern = domain.sphere ? built_in_pattern_on_sphere(*domain.sphere, name, chosen)
+                                         : built_in_pattern(domain.flat, name, chosen);
     result.bend = pattern.bend;
     return std::move(pattern.outlines);
 }
@@ -243,7 +114,8 @@ std::vector<DrawnOutline> built_in_outlines(const FlatSheet& sheet, const std::s
 RaisedSheet outlined_sheet(const FlatDomain& domain, std::vector<DrawnOutline> outlines, int open,
                            const LiftOptions& options, KeptSheet& sheet, LiftResult& result)
 {
-    const Overlay overlay = draw_outlines(domain.sheet, std::move(outlines));
+    const Overlay overlay = draw_outlines(domain.sheet(), std::move(outlines),
+                                          domain.sphere ? domain.sphere->charts : std::vector<FlatSheet>());
     result.left_out = overlay.left_out;
     result.left_out.open = open;
     result.outlines = static_cast<Index>(std::ranges::count(overlay.outlines, false, &DrawnOutline::hole));
@@ -254,20 +126,26 @@ RaisedSheet outlined_sheet(const FlatDomain& domain, std::vector<DrawnOutline> o
     std::vector<char> keep(overlay.region.size(), 1);
     if (options.perforate)
         for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = overlay.region[f] < 0;
-    sheet = kept_faces(overlay, keep, static_cast<Index>(domain.sheet.vertices.rows()));
+    sheet = kept_faces(overlay, keep, static_cast<Index>(domain.sheet().vertices.rows()));
     return raised_sheet(sheet, options.height);
 }
 
+PatternPlace place_of(const FlatDomain& domain, const LiftOptions& options)
+{
+    return {.in_disk = options.shape == LiftShape::disk || domain.sphere,
+            .on_sphere = domain.sphere.has_value(),
+            .size = options.size,
+            .repeats = options.repeats,
+            .turn = options.turn};
+}
+
 /// The outlines of a drawing, and warnings about it.
-std::vector<DrawnOutline> outlines_of(const SvgDrawing& drawing, const FlatSheet& sheet, const LiftOptions& options,
+std::vector<DrawnOutline> outlines_of(const SvgDrawing& drawing, const FlatDomain& domain, const LiftOptions& options,
                                       LiftResult& result)
 {
-    PlacedDrawing placed = placed_drawing(sheet, drawing,
-                                          {.in_disk = options.shape == LiftShape::disk,
-                                           .size = options.size,
-                                           .repeats = options.repeats,
-                                           .turn = options.turn,
-                                           .cut_out = options.perforate});
+    PlacedDrawing placed =
+        placed_drawing(domain.placing_sheet(), drawing, place_of(domain, options), options.perforate);
+    for (DrawnOutline& outline : placed.outlines) outline.chart = domain.middle_chart();
     result.size = placed.size;
     result.islands = placed.islands;
     if (placed.islands > 0)
@@ -287,11 +165,104 @@ std::vector<DrawnOutline> outlines_of(const SvgDrawing& drawing, const FlatSheet
     return std::move(placed.outlines);
 }
 
+/// The faces of the surface of those that meet, for a sheet or a solid over it.
+std::vector<Index> faces_below(const std::vector<Index>& meeting, const KeptSheet& sheet, std::size_t outer)
+{
+    std::vector<Index> faces;
+    for (const Index f : meeting) {
+        const std::size_t number = static_cast<std::size_t>(f), own = number < outer ? number : number - outer;
+        if (own < sheet.face.size()) faces.push_back(sheet.face[own]);  // others are walls
+    }
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
+}
+
+void warn_of_crossings(const MeetingFaces& meeting, std::vector<Index> faces, LiftResult& result)
+{
+    result.crossings = meeting.pairs;
+    if (meeting.pairs > 0)
+        result.warnings.push_back({WarningKind::crossings,
+                                   "distant places of the result meet: " +
+                                       counted(static_cast<std::size_t>(meeting.pairs), "pair") + " of faces",
+                                   std::move(faces), "Lower the thickness or the height there"});
+}
+
+void lift_outlines(const FlatDomain& domain, const PatternFile& file, const std::string& name,
+                   const LiftOptions& options, LiftResult& result, ExecutionContext& context)
+{
+    KeptSheet sheet;
+    RaisedSheet raised;
+    if (file.image) {
+        raised = image_relief(domain, *file.image, options, sheet, result);
+    } else {
+        std::vector<DrawnOutline> outlines = file.drawing ? outlines_of(*file.drawing, domain, options, result)
+                                                          : built_in_outlines(domain, name, options, result);
+        context.checkpoint();
+        raised =
+            outlined_sheet(domain, std::move(outlines), file.drawing ? file.drawing->open : 0, options, sheet, result);
+    }
+    context.checkpoint();
+    require_foretold(domain.surface, sheet, options.perforate ? result.outlines : 0, result);
+    const std::size_t outer = raised.patch.size();
+    if (options.thickness)
+        finish_solid(sheet, raised, options, result);
+    else
+        finish_sheet(sheet, std::move(raised), options, result);
+    warn_of_left_out(result);
+    if (!options.thickness && !options.height) return;
+    context.checkpoint();
+    const MeetingFaces meeting = meeting_faces(result.vertices, result.triangles);
+    warn_of_crossings(meeting, faces_below(meeting.faces, sheet, outer), result);
+}
+
+/// The pattern's mesh in place of the surface.
+void lift_mesh(const FlatDomain& domain, const PatternMesh& mesh, const LiftOptions& options, LiftResult& result,
+               ExecutionContext& context)
+{
+    BentMesh bent = bent_mesh(domain.placing_sheet(), mesh.vertices, mesh.triangles, place_of(domain, options),
+                              options.height.value_or(1.0));
+    if (bent.triangles.rows() == 0)
+        throw InputError("no part of the mesh fits the surface: its parts lie outside of the map, or over a hole, a "
+                         "rim or a cut. Give another size",
+                         ElementKind::faces, std::move(bent.left_at));
+    context.checkpoint();
+    result.size = bent.size;
+    result.loops_before = static_cast<int>(domain.surface.loops.size());
+    result.euler_before = domain.surface.euler_characteristic;
+    if (bent.left_out > 0) {
+        result.left_out.at_border = bent.left_out;
+        result.left_out.faces = bent.left_at;
+        result.warnings.push_back({WarningKind::left_out,
+                                   counted(static_cast<std::size_t>(bent.left_out), "part") +
+                                       " of the mesh left out: outside of the map, or over a hole, a rim or a cut",
+                                   std::move(bent.left_at)});
+    }
+    if (bent.upside_down > 0)
+        result.warnings.push_back({WarningKind::flipped, counted(static_cast<std::size_t>(bent.upside_down), "face") +
+                                                             " of the pattern without a positive area in the UVs: "
+                                                             "its walls and undersides"});
+    result.vertices = std::move(bent.vertices);
+    result.triangles = std::move(bent.triangles);
+    result.patch.assign(bent.uv.size() / 3, 0);
+    result.original.assign(result.vertices.rows(), -1);
+    result.uv.resize(static_cast<Eigen::Index>(bent.uv.size()), 2);
+    for (std::size_t c = 0; c < bent.uv.size(); ++c)
+        result.uv.row(static_cast<Eigen::Index>(c)) << bent.uv[c].real(), bent.uv[c].imag();
+    const auto meeting_of = [](const Vertices& vertices, const Triangles& triangles) {
+        const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
+        return meeting_faces(vertices, joined_corners(vertices, triangles, 1e-9 * diagonal));
+    };
+    const MeetingFaces before = meeting_of(mesh.vertices, mesh.triangles);
+    const MeetingFaces meeting = meeting_of(result.vertices, result.triangles);
+    if (meeting.pairs > 0 && before.pairs == 0) warn_of_crossings(meeting, {}, result);
+    result.crossings = meeting.pairs;
+}
+
 LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const std::string& name,
                      const LiftOptions& options, ExecutionContext& context)
 {
     const Stopwatch clock;
-    if (options.perforate == options.height.has_value()) throw InputError("either perforate, or give a height");
     const PatternFile file = read_pattern(name, options);
     FlatDomain domain = flat_domain(vertices, triangles, options, context);
     context.checkpoint();
@@ -302,25 +273,10 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     result.distortion = domain.map.distortion;
     result.seconds = domain.map.seconds;
     result.warnings = domain.map.warnings;
-
-    KeptSheet sheet;
-    RaisedSheet raised;
-    if (file.image) {
-        raised = image_relief(domain.sheet, *file.image, options, sheet, result);
-    } else {
-        std::vector<DrawnOutline> outlines = file.drawing ? outlines_of(*file.drawing, domain.sheet, options, result)
-                                                          : built_in_outlines(domain.sheet, name, options, result);
-        context.checkpoint();
-        raised =
-            outlined_sheet(domain, std::move(outlines), file.drawing ? file.drawing->open : 0, options, sheet, result);
-    }
-    context.checkpoint();
-    require_foretold(domain.surface, sheet, options.perforate ? result.outlines : 0, result);
-    if (options.thickness)
-        finish_solid(sheet, raised, options, result);
+    if (file.mesh)
+        lift_mesh(domain, *file.mesh, options, result, context);
     else
-        finish_sheet(sheet, std::move(raised), options, result);
-    warn_of_left_out(result);
+        lift_outlines(domain, file, name, options, result, context);
     result.vertex_count = static_cast<Index>(result.vertices.rows());
     result.face_count = static_cast<Index>(result.triangles.rows());
     result.peak_memory_mb = peak_memory_mb();
@@ -330,7 +286,10 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
 
 }  // namespace
 
-const char* to_string(LiftShape shape) noexcept { return word_of(shape, std::array{"disk", "ring", "torus", "parts"}); }
+const char* to_string(LiftShape shape) noexcept
+{
+    return word_of(shape, std::array{"disk", "ring", "torus", "sphere", "parts"});
+}
 
 LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,
                 const LiftOptions& options, ExecutionContext& context)

@@ -6,7 +6,7 @@
 
 namespace koebe {
 
-void locate_outlines(const FlatSheet& sheet, std::vector<DrawnOutline>& outlines)
+std::vector<SheetPlace> places_in_sheet(const FlatSheet& sheet, const std::vector<Complex>& places, double near)
 {
     std::vector<Complex> shifts{0.0};
     for (const Complex period : sheet.periods) {
@@ -15,24 +15,40 @@ void locate_outlines(const FlatSheet& sheet, std::vector<DrawnOutline>& outlines
             for (std::size_t i = 0; i < n; ++i) shifts.push_back(shifts[i] + static_cast<double>(times) * period);
     }
     const Index count = static_cast<Index>(sheet.triangles.rows());
-    PlanarPoints corners(3 * count, 2), points(static_cast<Eigen::Index>(outlines.size()), 2);
+    PlanarPoints corners(3 * count, 2);
     Triangles faces(count, 3);
     for (Index c = 0; c < 3 * count; ++c) {
         corners.row(c) << sheet.uv[c].real(), sheet.uv[c].imag();
         faces.data()[c] = c;
     }
-    std::vector<double> nearest(outlines.size(), 1e-12);  // no outline starts that near to two copies' borders
+    std::vector<SheetPlace> found(places.size());
     for (const Complex shift : shifts) {
-        for (std::size_t i = 0; i < outlines.size(); ++i) {
-            const Complex z = outlines[i].points[0] + shift;
+        std::vector<std::size_t> open;
+        for (std::size_t i = 0; i < places.size(); ++i)
+            if (found[i].face < 0) open.push_back(i);
+        if (open.empty()) break;
+        PlanarPoints points(static_cast<Eigen::Index>(open.size()), 2);
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            const Complex z = places[open[i]] + shift;
             points.row(static_cast<Eigen::Index>(i)) << z.real(), z.imag();
         }
-        const PlacesInTriangles places = nearest_triangles(corners, faces, points);
-        for (std::size_t i = 0; i < outlines.size(); ++i) {
-            if (outlines[i].face >= 0 || !(places.distance[static_cast<Eigen::Index>(i)] < nearest[i])) continue;
-            outlines[i].face = places.face[static_cast<Eigen::Index>(i)];
-            for (Complex& z : outlines[i].points) z += shift;
+        const PlacesInTriangles nearest = nearest_triangles(corners, faces, points);
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            const Eigen::Index row = static_cast<Eigen::Index>(i);
+            if (nearest.distance[row] < near) found[open[i]] = {nearest.face[row], shift, nearest.weights.row(row)};
         }
+    }
+    return found;
+}
+
+void locate_outlines(const FlatSheet& sheet, std::vector<DrawnOutline>& outlines)
+{
+    std::vector<Complex> first;
+    for (const DrawnOutline& outline : outlines) first.push_back(outline.points[0]);
+    const std::vector<SheetPlace> places = places_in_sheet(sheet, first, 1e-12);  // none begins so near to two borders
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+        outlines[i].face = places[i].face;
+        for (Complex& z : outlines[i].points) z += places[i].shift;
     }
 }
 

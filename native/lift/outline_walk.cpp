@@ -305,7 +305,11 @@ Complex node_place(const FlatSheet& sheet, const OutlineNode& node, Index face)
         while (sheet.triangles(face, k) != node.vertex) ++k;
         return sheet.corner(face, k);
     }
-    if (node.halfedge >= 0 && face_of(node.halfedge) != face) return node.uv + sheet.step[node.halfedge];
+    if (node.halfedge >= 0 && face_of(node.halfedge) != face) {
+        if (!sheet.border[node.halfedge]) return node.uv + sheet.step[node.halfedge];
+        const Complex a = sheet.uv[sheet.twin[node.halfedge]];  // the sheet is cut here, and a chart is not
+        return a + (1.0 - node.share) * (sheet.uv[next_halfedge(sheet.twin[node.halfedge])] - a);
+    }
     return node.uv;
 }
 

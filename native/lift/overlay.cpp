@@ -26,7 +26,10 @@ std::uint64_t key_of(Index a, Index b)
 
 class Drawing {
 public:
-    Drawing(const FlatSheet& sheet, const std::vector<DrawnOutline>& outlines) : sheet_(sheet), outlines_(outlines) {}
+    Drawing(const FlatSheet& sheet, const std::vector<FlatSheet>& charts, const std::vector<DrawnOutline>& outlines)
+        : sheet_(sheet), charts_(charts), outlines_(outlines)
+    {
+    }
 
     /// @return outlines that cannot be drawn; if there is one, the result is of no use
     Faults run(Overlay& result)
@@ -54,7 +57,10 @@ private:
     {
         std::unordered_map<Index, Index> owner;  // of vertices
         for (Index o = 0; o < static_cast<Index>(outlines_.size()); ++o) {
-            OutlinePath path = walk_outline(sheet_, outlines_[o], nodes_);
+            const int chart = outlines_[o].chart;
+            const std::size_t first = nodes_.size();
+            OutlinePath path = walk_outline(chart < 0 ? sheet_ : charts_[chart], outlines_[o], nodes_);
+            if (chart >= 0) bring_home(charts_[chart], first);
             if (path.end != WalkEnd::closed) {
                 blame(o, path.end == WalkEnd::border ? Fault::border : Fault::too_fine);
                 paths_.emplace_back();
@@ -64,6 +70,20 @@ private:
                 if (const Index v = nodes_[step.node].vertex; v >= 0 && owner.emplace(v, o).first->second != o)
                     blame(o, Fault::crossing);
             paths_.push_back(std::move(path.steps));
+        }
+    }
+
+    /// Nodes in a chart of a sphere get their places in the sheet.
+    void bring_home(const FlatSheet& chart, std::size_t first)
+    {
+        for (std::size_t n = first; n < nodes_.size(); ++n) {
+            OutlineNode& node = nodes_[n];
+            if (node.halfedge >= 0) {
+                const Complex a = sheet_.uv[node.halfedge];
+                node.uv = a + node.share * (sheet_.uv[next_halfedge(node.halfedge)] - a);
+            } else if (node.vertex < 0) {
+                node.uv = sheet_.uv_at(node.face, chart.weights_of(node.face, node.uv));
+            }
         }
     }
 
@@ -166,7 +186,7 @@ private:
         for (int k = 0; k < 3; ++k) {
             add(polygon, sheet_.corner(f, k), sheet_.triangles(f, k));
             const Index h = 3 * f + k;
-            const bool own = sheet_.border[h] || h < sheet_.twin[h];
+            const bool own = sheet_.twin[h] == no_twin || h < sheet_.twin[h];
             const auto list = on_edge_.find(own ? h : sheet_.twin[h]);
             if (list == on_edge_.end()) continue;
             std::vector<Index> in_order = list->second;
@@ -287,6 +307,7 @@ private:
     }
 
     const FlatSheet& sheet_;
+    const std::vector<FlatSheet>& charts_;
     const std::vector<DrawnOutline>& outlines_;
     std::vector<OutlineNode> nodes_;
     std::vector<std::vector<OutlineStep>> paths_;
@@ -312,12 +333,12 @@ void leave_out(const Faults& faults, std::vector<DrawnOutline>& outlines, LeftOu
 
 }  // namespace
 
-Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines)
+Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines, const std::vector<FlatSheet>& charts)
 {
     LeftOut left_out;
     while (true) {
         Overlay result;
-        const Faults faults = Drawing(sheet, outlines).run(result);
+        const Faults faults = Drawing(sheet, charts, outlines).run(result);
         if (faults.empty()) {
             result.outlines = std::move(outlines);
             std::ranges::sort(left_out.faces);

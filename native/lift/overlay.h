@@ -36,6 +36,8 @@ struct Overlay {
 /// group, and counted. In the result no two outlines meet. Each bounds a disk, less the
 /// outlines inside: those inside an outline are holes, those inside a hole are none. Every new face is upright in
 /// 32-bit UVs.
-Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines);
+/// @param charts of the same faces, in which outlines are followed that name one
+Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines,
+                      const std::vector<FlatSheet>& charts = {});
 
 }  // namespace koebe

@@ -5,32 +5,91 @@
 #include "lift/even_sites.h"
 #include "lift/lattice.h"
 #include "lift/outline_places.h"
+#include "lift/pattern_place.h"
 #include "lift/site_outlines.h"
+#include "planar/planar_predicates.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-DrawnPattern lattice_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
-{
-    Complex low = sheet.uv[0], high = sheet.uv[0];
-    for (const Complex z : sheet.uv) {
-        low = {std::min(low.real(), z.real()), std::min(low.imag(), z.imag())};
-        high = {std::max(high.real(), z.real()), std::max(high.imag(), z.imag())};
+/// The plane that a lattice is laid in: the UVs, or the logarithm about a hole of a disk.
+struct LatticePlane {
+    std::vector<Complex> periods;
+    Complex low, high;
+    double scale = 1.0;                  ///< length on the surface over length in the plane, in the mean
+    std::optional<Complex> middle = {};  ///< of the hole, in the hyperbolic plane: it goes to 0 before the logarithm
+
+    Complex in_uv(Complex w) const
+    {
+        if (!middle) return w;
+        const Complex z = std::exp(Complex(0.0, 1.0) * w);
+        return Complex(0.5, 0.5) + 0.5 * (z + *middle) / (1.0 + std::conj(*middle) * z);
     }
-    const LaidLattice laid = lay_lattice(lattice_of(name, options.bridge / options.size), sheet.periods,
-                                         options.size / sheet.mean_scale, options.repeats, low, high);
+};
+
+LatticePlane plane_of(const FlatSheet& sheet)
+{
+    const PlaneBox box = box_around(sheet.uv);
+    return {sheet.periods, box.low, box.high, sheet.mean_scale};
+}
+
+/// Angles run along the real axis, and from the rim at 0 the imaginary part grows towards the hole.
+LatticePlane plane_about(const FlatSheet& sheet, const Circle& hole)
+{
+    const double distance = std::abs(hole.center);
+    const double near = distance - hole.radius, far = distance + hole.radius;
+    if (!(near > -1.0 && far < 1.0 && hole.radius > 0.0)) throw InputError("the hole is not inside the disk");
+    const double middle = std::tanh(0.5 * (std::atanh(near) + std::atanh(far)));
+    const double radius = (far - middle) / (1.0 - middle * far);
+    LatticePlane plane;
+    plane.middle = distance > 0.0 ? middle * hole.center / distance : Complex(0.0, 0.0);
+    plane.periods = {2.0 * std::numbers::pi};
+    plane.high = {2.0 * std::numbers::pi, -std::log(radius)};
+    plane.scale = std::sqrt(sheet.area / (plane.high.real() * plane.high.imag()));
+    return plane;
+}
+
+/// An outline with its first copy in the UVs; in a curved plane its sides are divided.
+std::vector<Complex> points_in_uv(const LatticePlane& plane, const std::vector<Complex>& shape, Complex moved)
+{
+    double longest = 0.0;
+    for (const Complex z : shape) longest = std::max(longest, distance(z, shape[0]));
+    std::vector<Complex> points;
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        const Complex a = shape[i], way = shape[(i + 1) % shape.size()] - a;
+        const int pieces = plane.middle ? std::max(1, static_cast<int>(std::ceil(10.0 * std::abs(way) / longest))) : 1;
+        for (int k = 0; k < pieces; ++k)
+            points.push_back(plane.in_uv(moved + a + way * (static_cast<double>(k) / pieces)));
+    }
+    return points;
+}
+
+/// A fair coin for each cell [SplitMix64; Steele, Lea, Flood 2014].
+bool coin(std::uint64_t seed, std::uint64_t cell)
+{
+    std::uint64_t z = (seed * 0x2545F4914F6CDD1DULL + cell + 1) * 0x9E3779B97F4A7C15ULL;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    return ((z >> 40) & 1) != 0;
+}
+
+DrawnPattern lattice_pattern(const FlatSheet& sheet, const LatticePlane& plane, const std::string& name,
+                             const PatternOptions& options)
+{
+    const LaidLattice laid = lay_lattice(lattice_of(name, options.bridge / options.size), plane.periods,
+                                         options.size / plane.scale, options.repeats, plane.low, plane.high);
     DrawnPattern pattern;
     pattern.bend = laid.bend;
-    for (const Complex place : laid.places)
-        for (const std::vector<Complex>& shape : laid.shapes) {
-            DrawnOutline outline;
-            const Complex moved = first_copy(sheet.periods, place + shape[0]) - shape[0];
-            for (const Complex z : shape) outline.points.push_back(moved + z);
-            outline.group = static_cast<Index>(pattern.outlines.size());
-            pattern.outlines.push_back(std::move(outline));
+    for (std::size_t i = 0; i < laid.places.size(); ++i)
+        for (const auto& shape : laid.other_shapes.empty() || coin(options.seed, i) ? laid.shapes : laid.other_shapes) {
+            const Complex moved = first_copy(plane.periods, laid.places[i] + shape[0]) - shape[0];
+            pattern.outlines.push_back({points_in_uv(plane, shape, moved)});
         }
     locate_outlines(sheet, pattern.outlines);
     std::erase_if(pattern.outlines, [](const DrawnOutline& outline) { return outline.face < 0; });
@@ -38,34 +97,59 @@ DrawnPattern lattice_pattern(const FlatSheet& sheet, const std::string& name, co
     return pattern;
 }
 
+bool at_sites(const std::string& name) { return name == "circles" || name == "voronoi"; }
+
+SiteShape shape_of(const std::string& name) { return name == "circles" ? SiteShape::circles : SiteShape::voronoi; }
+
+void require_pattern(const std::string& name, const PatternOptions& options)
+{
+    if (std::ranges::find(pattern_names(), name) == pattern_names().end()) {
+        std::string all;
+        for (const std::string& one : pattern_names()) all += (all.empty() ? "" : ", ") + one;
+        throw InputError("there is no pattern '" + name + "': the patterns are " + all +
+                         ", or an SVG, PNG or OBJ file");
+    }
+    if (!(options.bridge < 0.5 * options.size)) throw InputError("the bridge must be less than half of the size");
+}
+
 }  // namespace
 
 const std::vector<std::string>& pattern_names()
 {
-    static const std::vector<std::string> names{"circles", "hexagons", "triangles", "diamonds", "stripes", "voronoi"};
+    static const std::vector<std::string> names{"circles", "hexagons", "triangles", "diamonds",
+                                                "stripes", "truchet",  "voronoi"};
     return names;
 }
 
 bool is_pattern_file(const std::string& pattern)
 {
     const std::string extension = io::lower_extension(pattern);
-    return extension == ".svg" || extension == ".png";
+    return extension == ".svg" || extension == ".png" || extension == ".obj";
 }
 
 DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
 {
-    if (std::ranges::find(pattern_names(), name) == pattern_names().end()) {
-        std::string all;
-        for (const std::string& one : pattern_names()) all += (all.empty() ? "" : ", ") + one;
-        throw InputError("there is no pattern '" + name + "': the patterns are " + all + ", or an SVG or PNG file");
-    }
-    if (!(options.bridge < 0.5 * options.size)) throw InputError("the bridge must be less than half of the size");
-    const bool at_sites = name == "circles" || name == "voronoi";
-    if (options.repeats > 0 && (at_sites || sheet.periods.size() != 1))
-        throw InputError("repeats are for hexagons, triangles, diamonds and stripes on a ring");
-    if (!at_sites) return lattice_pattern(sheet, name, options);
-    return {site_outlines(sheet, even_sites(sheet, options.size, options.seed),
-                          name == "circles" ? SiteShape::circles : SiteShape::voronoi, options.size, options.bridge)};
+    require_pattern(name, options);
+    if (options.hole && name == "voronoi") throw InputError("Voronoi cells have no rows to lie around a hole");
+    if (options.repeats > 0 && !options.hole && (at_sites(name) || sheet.periods.size() != 1))
+        throw InputError("repeats are for hexagons, triangles, diamonds, stripes and truchet on a ring");
+    if (options.hole) return lattice_pattern(sheet, plane_about(sheet, *options.hole), name, options);
+    if (!at_sites(name)) return lattice_pattern(sheet, plane_of(sheet), name, options);
+    return {site_outlines(sheet, even_sites(sheet, options.size, options.seed), shape_of(name), options.size,
+                          options.bridge)};
+}
+
+DrawnPattern built_in_pattern_on_sphere(const SphereSheets& sheets, const std::string& name,
+                                        const PatternOptions& options)
+{
+    require_pattern(name, options);
+    if (!at_sites(name))
+        throw InputError("a lattice of " + name +
+                         " does not close on a sphere: circles, voronoi, drawings, images and meshes do");
+    if (options.repeats > 0)
+        throw InputError("repeats are for hexagons, triangles, diamonds, stripes and truchet on a ring");
+    return {site_outlines_on_sphere(sheets, even_sites(sheets.home, options.size, options.seed), shape_of(name),
+                                    options.size, options.bridge)};
 }
 
 }  // namespace koebe

@@ -1,11 +1,14 @@
 // The built-in patterns, as outlines on a sheet.
 #pragma once
 
+#include "circles/circle.h"
 #include "core/api.h"
 #include "lift/flat_sheet.h"
 #include "lift/outline.h"
+#include "lift/sphere_sheets.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +17,14 @@ namespace koebe {
 struct PatternOptions {
     double size = 0.0;    ///< of a cell with its share of the bridge, in the unit of the vertices
     double bridge = 0.0;  ///< between two outlines
-    int repeats = 0;      ///< of a lattice round a ring; 0: it follows from the size
+    int repeats = 0;      ///< of a lattice round a ring or a hole; 0: it follows from the size
     std::uint64_t seed = 1;
+    std::optional<Circle> hole = {};  ///< of the unit disk: a lattice's rows lie around it
 };
 
-/// The patterns' names. Circles and Voronoi cells are even on the surface. Hexagons, triangles, diamonds and stripes
-/// lie in lattices that are even in the domain, and go on over the cut of a ring or a torus.
+/// The patterns' names. Circles and Voronoi cells are even on the surface. Hexagons, triangles, diamonds, stripes and
+/// truchet lie in lattices that are even in the domain, and go on over the cut of a ring or a torus. Around a hole of a
+/// disk, lattices and circles lie in rows that are concentric in the domain.
 KOEBE_API const std::vector<std::string>& pattern_names();
 
 /// Whether a pattern is the name of a file: by its extension.
@@ -32,5 +37,9 @@ struct DrawnPattern {
 
 /// @throws InputError no such pattern; a size, bridge or repeats that do not fit the surface
 DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options);
+
+/// On a sphere: circles and Voronoi cells only. @throws InputError as above, and for a lattice
+DrawnPattern built_in_pattern_on_sphere(const SphereSheets& sheets, const std::string& name,
+                                        const PatternOptions& options);
 
 }  // namespace koebe

@@ -7,32 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr double room_taken = 0.9;  // of the room, without a size
 constexpr std::size_t most_corners = 200000;
 constexpr double of_drawing = 1e-3, of_mean_edge = 0.05, least_of_drawing = 2e-5;  // tolerances of curves
 constexpr int sides = 64;  // at least, so that an outline is led through vertices that lie near
-
-struct UvBox {
-    Complex low, high;
-    Complex size() const { return high - low; }
-};
-
-UvBox box_around(const std::vector<Complex>& points)
-{
-    UvBox box{points.front(), points.front()};
-    for (const Complex z : points) {
-        box.low = {std::min(box.low.real(), z.real()), std::min(box.low.imag(), z.imag())};
-        box.high = {std::max(box.high.real(), z.real()), std::max(box.high.imag(), z.imag())};
-    }
-    return box;
-}
 
 double mean_uv_edge(const FlatSheet& sheet)
 {
@@ -45,10 +28,7 @@ double mean_uv_edge(const FlatSheet& sheet)
 /// The paths turned, with the box's middle at 0 and its width 1.
 SvgDrawing in_unit_width(SvgDrawing drawing, double degrees)
 {
-    const double angle = degrees / 180.0 * std::numbers::pi;
-    Complex turn = std::polar(1.0, angle);
-    if (degrees == std::round(degrees / 90.0) * 90.0)  // to the last bit
-        turn = {std::round(turn.real()), std::round(turn.imag())};
+    const Complex turn = unit_turn(degrees);
     const double largest = std::max((drawing.high - drawing.low).real(), (drawing.high - drawing.low).imag());
     const Complex middle = 0.5 * drawing.low + 0.5 * drawing.high;
     std::vector<Complex> all;
@@ -60,7 +40,7 @@ SvgDrawing in_unit_width(SvgDrawing drawing, double degrees)
             for (const auto& polygon : flattened(one, of_drawing))
                 all.insert(all.end(), polygon.begin(), polygon.end());
         }
-    const UvBox box = box_around(all);
+    const PlaneBox box = box_around(all);
     if (!(box.size().real() > 0.0 && box.size().imag() > 0.0))
         throw InputError("the drawing has no width or no height, or is too large");
     const double width = box.size().real();
@@ -71,18 +51,6 @@ SvgDrawing in_unit_width(SvgDrawing drawing, double degrees)
     drawing.low = (box.low - centre) / width;
     drawing.high = (box.high - centre) / width;
     return drawing;
-}
-
-/// The width in UVs.
-double width_of(const FlatSheet& sheet, double aspect, Complex room, const DrawingPlace& place)
-{
-    if (place.in_disk && !place.size) return room_taken * room.real() / std::hypot(1.0, aspect);
-    const double width =
-        place.size ? *place.size / sheet.mean_scale : room_taken * std::min(room.real(), room.imag() / aspect);
-    if (place.repeats > 1 && width > room.real())
-        throw InputError("the drawings are wider than their share of the period: they have room up to a size of " +
-                         std::to_string(room.real() * sheet.mean_scale));
-    return width;
 }
 
 /// The boundaries of the united paths, their long sides divided.
@@ -125,7 +93,7 @@ bool runs_round(const std::vector<Complex>& polygon, Complex z)
 /// Takes out areas that lie in a hole of another one.
 void drop_areas_in_holes(std::vector<FilledBoundary>& boundaries)
 {
-    std::vector<std::pair<UvBox, std::vector<Complex>>> holes;
+    std::vector<std::pair<PlaneBox, std::vector<Complex>>> holes;
     for (const FilledBoundary& boundary : boundaries)
         if (boundary.hole) holes.emplace_back(box_around(boundary.points), boundary.points);
     std::vector<char> inner(boundaries.size(), 0);
@@ -156,33 +124,24 @@ void drop_holes(PlacedDrawing& placed)
 
 }  // namespace
 
-PlacedDrawing placed_drawing(const FlatSheet& sheet, const SvgDrawing& given, const DrawingPlace& place)
+PlacedDrawing placed_drawing(const FlatSheet& sheet, const SvgDrawing& given, const PatternPlace& place, bool cut_out)
 {
-    const int repeats = std::max(1, place.repeats);
-    if (repeats > 1 && sheet.periods.empty())
-        throw InputError("repeats of a drawing are for rings and tori: another domain does not repeat");
     const SvgDrawing drawing = in_unit_width(given, place.turn);
-    const UvBox domain = box_around(sheet.uv);
-    Complex room = domain.size();
-    if (!sheet.periods.empty()) room = {std::abs(sheet.periods[0]) / repeats, room.imag()};
-    const double width = width_of(sheet, drawing.high.imag() - drawing.low.imag(), room, place);
-    const double tolerance = std::clamp(of_mean_edge * mean_uv_edge(sheet) / width, least_of_drawing, of_drawing);
+    const PlacedFrame frame = placed_frame(sheet, drawing.high.imag() - drawing.low.imag(), place, "drawing");
+    const double tolerance = std::clamp(of_mean_edge * mean_uv_edge(sheet) / frame.width, least_of_drawing, of_drawing);
     std::vector<FilledBoundary> boundaries = drawn_boundaries(drawing, tolerance);
-    if (place.cut_out) drop_areas_in_holes(boundaries);
-    if (boundaries.size() * static_cast<std::size_t>(repeats) > most_corners)
+    if (cut_out) drop_areas_in_holes(boundaries);
+    if (boundaries.size() * frame.centres.size() > most_corners)
         throw InputError("the repeated drawing has over " + std::to_string(most_corners) + " outlines");
 
     PlacedDrawing placed;
-    placed.size = width * sheet.mean_scale;
-    const Complex middle = 0.5 * (domain.low + domain.high);
+    placed.size = frame.width * frame.scale;
     Index group = 0;
-    for (int copy = 0; copy < repeats; ++copy) {
-        const Complex centre =
-            middle + (sheet.periods.empty() ? 0.0 : sheet.periods[0] * (static_cast<double>(copy) / repeats));
+    for (const Complex centre : frame.centres) {
         Index areas = 0;
         for (const FilledBoundary& boundary : boundaries) {
             DrawnOutline outline;
-            for (const Complex z : boundary.points) outline.points.push_back(centre + width * z);
+            for (const Complex z : boundary.points) outline.points.push_back(centre + frame.width * z);
             const Complex shift = first_copy(sheet.periods, outline.points[0]) - outline.points[0];
             for (Complex& z : outline.points) z += shift;
             outline.group = group + boundary.area;
@@ -193,7 +152,7 @@ PlacedDrawing placed_drawing(const FlatSheet& sheet, const SvgDrawing& given, co
         group += areas;
     }
     locate_outlines(sheet, placed.outlines);
-    if (place.cut_out) drop_holes(placed);
+    if (cut_out) drop_holes(placed);
     return placed;
 }
 

@@ -1,6 +1,7 @@
 #include "lift/relief.h"
 
 #include "core/errors.h"
+#include "lift/sphere_sheets.h"
 #include "mesh/connectivity.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace koebe {
@@ -193,7 +195,8 @@ private:
 /// Where the image's columns and rows lie: shares of its width and height for a place in the UVs.
 class ImageFrame {
 public:
-    ImageFrame(const FlatSheet& sheet, const ImagePlace& place) : periods_(sheet.periods), repeats_(place.repeats)
+    ImageFrame(const FlatSheet& sheet, const ImagePlace& place)
+        : periods_(sheet.periods), repeats_(place.repeats), home_scale_(place.home_scale)
     {
         if (periods_.size() != 1) return;
         low_ = high_ = sheet.uv.front().imag();
@@ -205,6 +208,11 @@ public:
 
     Complex operator()(Complex z) const
     {
+        if (home_scale_ > 0.0) {
+            const SpherePoint p = point_at_home(home_scale_, z);
+            const double longitude = std::atan2(p[1], p[0]), latitude = std::atan2(p[2], std::hypot(p[0], p[1]));
+            return {repeats_ * (0.5 + 0.5 * longitude / std::numbers::pi), 0.5 + latitude / std::numbers::pi};
+        }
         if (periods_.empty()) return z;
         if (periods_.size() == 1) return {repeats_ * z.real() / periods_[0].real(), (z.imag() - low_) / (high_ - low_)};
         const double whole = cross(periods_[0], periods_[1]);
@@ -214,6 +222,8 @@ public:
     /// Lengths in the UVs of the image's width and height.
     Complex size() const
     {
+        if (home_scale_ > 0.0)  // a radian is half of it at a pole, and all of it at the equator
+            return 0.7 * std::numbers::pi * home_scale_ * Complex(2.0 / repeats_, 1.0);
         if (periods_.empty()) return {1.0, 1.0};
         if (periods_.size() == 1) return {periods_[0].real() / repeats_, high_ - low_};
         return {std::abs(periods_[0]) / repeats_, std::abs(periods_[1])};
@@ -221,7 +231,7 @@ public:
 
 private:
     std::vector<Complex> periods_;
-    double repeats_, low_ = 0.0, high_ = 1.0;
+    double repeats_, home_scale_, low_ = 0.0, high_ = 1.0;
 };
 
 /// The pixel, or the nearest one: beyond the ends it goes on, or stays.
@@ -244,6 +254,13 @@ double bilinear(const GreyImage& image, Complex place, bool round, bool up)
     return std::lerp(above, below, y - top);
 }
 
+double mean_of_row(const GreyImage& image, int row)
+{
+    double sum = 0.0;
+    for (int column = 0; column < image.width; ++column) sum += image.at(column, row);
+    return sum / image.width;
+}
+
 }  // namespace
 
 FineSheet refined_sheet(const FlatSheet& sheet, double longest_uv, std::optional<double> longest)
@@ -262,9 +279,18 @@ VectorXd image_values(const FlatSheet& sheet, const FineSheet& fine, const GreyI
 {
     const ImageFrame frame(sheet, place);
     VectorXd values = VectorXd::Zero(fine.vertices.rows());
-    for (std::size_t c = 0; c < fine.uv.size(); ++c)
+    const auto at_pole = [&](Complex spot) {
+        return place.home_scale > 0.0 && std::abs(spot.imag() - 0.5) > 0.5 - 1e-9;
+    };
+    for (std::size_t c = 0; c < fine.uv.size(); ++c) {
+        const Complex spot = frame(fine.uv[c]);
+        if (at_pole(spot)) {
+            values[fine.triangles.data()[c]] = mean_of_row(image, spot.imag() > 0.5 ? 0 : image.height - 1);
+            continue;
+        }
         values[fine.triangles.data()[c]] =
-            bilinear(image, frame(fine.uv[c]), !sheet.periods.empty(), sheet.periods.size() == 2);
+            bilinear(image, spot, !sheet.periods.empty() || place.home_scale > 0.0, sheet.periods.size() == 2);
+    }
     return values;
 }
 

@@ -23,7 +23,8 @@ FineSheet refined_sheet(const FlatSheet& sheet, double longest_uv, std::optional
 
 /// How an image covers a domain: once the unit square, or all of a ring or torus.
 struct ImagePlace {
-    int repeats = 1;  ///< copies round a ring, or along the first period of a torus
+    int repeats = 1;          ///< copies round a ring or sphere, or along the first period of a torus
+    double home_scale = 0.0;  ///< of a sphere (sphere_sheets.h); 0: it is none
 };
 
 /// The edge of a pixel in the UVs, the longer one; larger where that would need more than about a million faces.
@@ -31,6 +32,7 @@ double pixel_edge(const FlatSheet& sheet, const GreyImage& image, const ImagePla
 
 /// The image's value for each vertex, from 0 to 1, bilinear between the middles of pixels. On a disk the image's top
 /// is at v = 1; on a ring its columns go on over the cut, and its rows reach from rim to rim; on a torus both go on.
+/// On a sphere its columns are meridians, as on a globe, and its rows reach from pole to pole.
 VectorXd image_values(const FlatSheet& sheet, const FineSheet& fine, const GreyImage& image, const ImagePlace& place);
 
 }  // namespace koebe

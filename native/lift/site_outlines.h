@@ -3,6 +3,7 @@
 
 #include "lift/flat_sheet.h"
 #include "lift/outline.h"
+#include "lift/sphere_sheets.h"
 #include "transfer/surface_point.h"
 
 #include <vector>
@@ -18,5 +19,10 @@ enum class SiteShape { circles, voronoi };
 /// @return an outline for each site that has room
 std::vector<DrawnOutline> site_outlines(const FlatSheet& sheet, const std::vector<SurfacePoint>& sites, SiteShape shape,
                                         double size, double bridge);
+
+/// The same on a sphere. Each outline is drawn in the chart whose middle is nearer, as the stereographic chart with the
+/// site in the middle shows it.
+std::vector<DrawnOutline> site_outlines_on_sphere(const SphereSheets& sheets, const std::vector<SurfacePoint>& sites,
+                                                  SiteShape shape, double size, double bridge);
 
 }  // namespace koebe

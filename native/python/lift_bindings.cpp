@@ -20,7 +20,8 @@ namespace koebe::python {
 
 void bind_lift(py::module_& m)
 {
-    bind_words(m, "LiftShape", {LiftShape::disk, LiftShape::ring, LiftShape::torus, LiftShape::parts});
+    bind_words(m, "LiftShape",
+               {LiftShape::disk, LiftShape::ring, LiftShape::torus, LiftShape::sphere, LiftShape::parts});
     bind_options<LiftOptions>(m, "LiftOptions");
     py::class_<LiftResult>(m, "LiftResult")
         .def_property_readonly("vertices", [](const LiftResult& r) { return r.vertices; })

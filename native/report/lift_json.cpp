@@ -14,6 +14,7 @@ nlohmann::ordered_json to_json(const LiftResult& result)
                                 {"bend", result.bend},
                                 {"outlines", result.outlines},
                                 {"islands", result.islands},
+                                {"crossings", result.crossings},
                                 {"left_out",
                                  {{"at_border", left.at_border},
                                   {"too_fine", left.too_fine},

@@ -8,8 +8,8 @@
 
 namespace koebe {
 
-/// The report of every map (report_json), with {"shape", "pattern", "size", "bridge", "bend", "outlines", "left_out",
-/// "loops", "euler", "closed", "converged"}; "vertices" and "faces" are those of the result.
+/// The report of every map (report_json), with {"shape", "pattern", "size", "bridge", "bend", "outlines", "islands",
+/// "crossings", "left_out", "loops", "euler", "closed", "converged"}; "vertices" and "faces" are those of the result.
 KOEBE_API nlohmann::ordered_json to_json(const LiftResult& result);
 
 }  // namespace koebe

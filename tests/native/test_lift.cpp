@@ -1,5 +1,6 @@
 #include "lift/lattice.h"
 #include "lift/lift.h"
+#include "lift/meeting_faces.h"
 #include "lift/overlay.h"
 #include "lift/patterns.h"
 #include "lift/site_outlines.h"
@@ -220,6 +221,36 @@ TEST(Overlay, LeavesOutWhatMeetsAHoleOrAnotherOutline)
     EXPECT_EQ(two.outlines.size(), 1U);
     const Overlay nested = draw_outlines(sheet, {at({0.0, -0.8}, 0.06, 0), at({0.0, -0.8}, 0.03, 1)});
     EXPECT_EQ(nested.outlines.size(), 1U) << "an outline inside another one has no hole of its own";
+}
+
+TEST(SphereSheets, ChartsAreTurnedAndTurnedBack)
+{
+    for (const Complex middle : {Complex(0.5, 0.5), Complex(0.2, 0.9), Complex(1.4, -0.3)})
+        for (const Complex place : {Complex(0.5, 0.5), Complex(0.1, 0.3), Complex(2.0, 0.7)}) {
+            EXPECT_LT(std::abs(seen_back(middle, seen_from(middle, place)) - place), 1e-13);
+            const Complex step(1e-6, 2e-6);
+            EXPECT_NEAR(std::abs(seen_from(middle, middle + step)) * magnified(middle), std::abs(step), 1e-11);
+            const SpherePoint a = on_sphere(2.0 * middle - Complex(1.0, 1.0));
+            const SpherePoint b = on_sphere(2.0 * place - Complex(1.0, 1.0));
+            EXPECT_NEAR(2.0 * std::atan(std::abs(seen_from(middle, place))), std::acos(std::min(1.0, a.dot(b))), 1e-7);
+        }
+    EXPECT_LT((point_at_home(0.2, {0.25, 0.5}) - SpherePoint(0.0, 0.0, 1.0)).norm(), 1e-15);
+    EXPECT_LT((point_at_home(0.2, {0.75, 0.5}) - SpherePoint(0.0, 0.0, -1.0)).norm(), 1e-15);
+    EXPECT_LT((point_at_home(0.2, {0.45, 0.5}) - point_at_home(0.2, {0.95, 0.5})).norm(), 1e-15);  // at longitude 0
+}
+
+TEST(MeetingFaces, CountPairsThatAreNoNeighbours)
+{
+    Vertices points(7, 3);
+    points << 0, 0, 0, 2, 0, 0, 0, 2, 0, 0.3, 0.3, -1, 0.3, 0.3, 1, 5, 5, 0, 0.5, 0.5, 1e-9;
+    Triangles through(2, 3), apart(2, 3), above(2, 3);
+    through << 0, 1, 2, 3, 4, 5;
+    apart << 0, 1, 2, 4, 5, 6;
+    above << 0, 1, 2, 3, 4, 0;
+    EXPECT_EQ(meeting_faces(points, through).pairs, 1);
+    EXPECT_EQ(meeting_faces(points, through).faces, (std::vector<Index>{0, 1}));
+    EXPECT_EQ(meeting_faces(points, apart).pairs, 0) << "a billionth above is above";
+    EXPECT_EQ(meeting_faces(points, above).pairs, 0) << "they share a vertex";
 }
 
 TEST(Solid, OfAPlaneHasItsVolume)

@@ -2,6 +2,8 @@
 
 import json
 import struct
+import zipfile
+from xml.etree import ElementTree
 
 import koebe
 import numpy as np
@@ -43,7 +45,7 @@ def stored_areas(uv):
     return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
-@pytest.mark.parametrize("pattern", ["circles", "hexagons", "triangles", "diamonds", "stripes", "voronoi"])
+@pytest.mark.parametrize("pattern", ["circles", "hexagons", "triangles", "diamonds", "stripes", "truchet", "voronoi"])
 @pytest.mark.parametrize("shape", ["ring", "disk", "parts"])
 def test_each_outline_is_one_hole(pattern, shape):
     vertices, triangles = tube()
@@ -120,6 +122,23 @@ def test_the_same_seed_gives_the_same_pattern():
     assert first.vertices.shape != other.vertices.shape or (first.vertices != other.vertices).any()
 
 
+@pytest.mark.parametrize("pattern", ["circles", "hexagons", "truchet"])
+def test_rows_follow_a_hole(pattern):
+    vertices, quads = perforated(48, holes=((0.42, 0.45, 0.12),))
+    faces = triangles_of(quads)
+    (vertex,) = {int(loop[0]) for loop in loops_of(faces)} - {0}
+    result = koebe.lift(vertices, faces, pattern, around=vertex, repeats=12, perforate=True)
+    in_a_row = 24 if pattern == "truchet" else 12
+    assert result.outlines >= in_a_row and result.outlines % in_a_row == 0  # whole rows, or none of a row
+    assert len(loops_of(result.triangles)) == 2 + result.outlines
+    with pytest.raises(koebe.InputError, match="on no hole"):
+        koebe.lift(vertices, faces, pattern, around=0, perforate=True)
+    with pytest.raises(koebe.InputError, match="no rows"):
+        koebe.lift(vertices, faces, "voronoi", around=vertex, perforate=True)
+    with pytest.raises(koebe.InputError, match="around is for"):
+        koebe.lift(*tube(), pattern, shape="ring", around=0, perforate=True)
+
+
 def test_holes_stay_as_they_are():
     vertices, quads = perforated(32)
     faces = triangles_of(quads)
@@ -172,6 +191,16 @@ def test_the_command_writes_obj_ply_and_stl(tmp_path):
     assert (edges_of(index)[0] == 2).all() and (edges_of(index)[1] == 1).all()
     sides = facets["p"][:, 1] - facets["p"][:, 0], facets["p"][:, 2] - facets["p"][:, 0]
     assert (np.einsum("fd,fd->f", np.cross(*sides), facets["n"]) >= 0).all()
+    run = command("lift", "in.obj", "hexagons", "out.3mf", *options, "--thickness", "0.1", cwd=tmp_path)
+    assert run.returncode == 0 and "closed" in run.stdout, run.stderr
+    with zipfile.ZipFile(tmp_path / "out.3mf") as archive:
+        assert archive.testzip() is None and "[Content_Types].xml" in archive.namelist()
+        model = ElementTree.fromstring(archive.read("3D/3dmodel.model"))
+    core = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+    solid = koebe.lift(vertices, triangles, "hexagons", shape="ring", size=0.4, perforate=True, thickness=0.1)
+    places = [[float(vertex.get(axis)) for axis in "xyz"] for vertex in model.iter(f"{core}vertex")]
+    corners = [[int(face.get(name)) for name in ("v1", "v2", "v3")] for face in model.iter(f"{core}triangle")]
+    assert np.array_equal(places, solid.vertices) and np.array_equal(corners, solid.triangles)
     assert command("lift", "in.obj", "hexagons", "out.ply", *options, cwd=tmp_path).returncode == 0
     assert koebe.lift(tmp_path / "out.ply", pattern="circles", size=0.1, height=0.01).outlines > 0
 

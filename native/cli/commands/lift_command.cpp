@@ -6,6 +6,7 @@
 #include "core/counted.h"
 #include "io/extension.h"
 #include "io/stl_writer.h"
+#include "io/three_mf_writer.h"
 #include "lift/lift.h"
 #include "lift/patterns.h"
 #include "report/lift_json.h"
@@ -20,16 +21,16 @@ namespace {
 
 struct LiftRequest : MapRequest {
     std::string pattern;
-    bool stl = false;
+    std::string solid_format;  // .stl or .3mf; empty: a format of maps
     LiftOptions chosen;
 };
 
 std::vector<Warning> write_lifted(AtomicFile& file, const LiftRequest& request, const LiftResult& result)
 {
-    if (request.stl) {
-        write_stl(file, result.vertices, result.triangles);
-        return {};
-    }
+    if (request.solid_format == ".stl") write_stl(file, result.vertices, result.triangles);
+    if (request.solid_format == ".3mf")
+        write_three_mf(file, result.vertices, result.triangles, result.loops_after == 0 || result.uv.rows() == 0);
+    if (!request.solid_format.empty()) return {};
     PolygonMesh mesh{result.vertices, {result.triangles.data(), result.triangles.data() + result.triangles.size()}};
     for (Index f = 1; f <= static_cast<Index>(result.triangles.rows()); ++f) mesh.face_begin.push_back(3 * f);
     const MeshFile no_file;
@@ -54,6 +55,8 @@ int run_lift(const LiftRequest& request)
     };
     kind.report = [](const LiftResult& result) { return to_json(result); };
     kind.first_words = [&](const LiftResult& result) {
+        if (io::lower_extension(request.pattern) == ".obj" && is_pattern_file(request.pattern))
+            return "bent, " + counted(static_cast<std::size_t>(result.face_count), "face");
         return (result.outlines == 0 ? "relief, "  // of an image
                                      : counted(static_cast<std::size_t>(result.outlines), "outline") +
                                            (request.chosen.perforate ? " cut out, " : " raised, ")) +
@@ -67,7 +70,7 @@ std::string pattern_help()
 {
     std::string names;
     for (const std::string& name : pattern_names()) names += (names.empty() ? "" : ", ") + name;
-    return names + ", or an SVG or PNG file";
+    return names + ", or an SVG, PNG or OBJ file";
 }
 
 std::string not_a_pattern(const std::string& pattern)
@@ -86,12 +89,14 @@ Subcommand add_lift(CLI::App& app)
     options->add_option("PATTERN", request->pattern, pattern_help())
         ->required()
         ->check(CLI::Validator(not_a_pattern, ""));
-    add_output(*options, request->output, "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL");
+    add_output(*options, request->output,
+               "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL or 3MF");
     add_options(*options, "lift", request->chosen);
     add_report_options(*options, *request, "");
     options->callback([request] {
-        request->stl = io::lower_extension(request->output) == ".stl";
-        if (!request->stl) request->format = required_format(request->output);
+        const std::string extension = io::lower_extension(request->output);
+        if (extension == ".stl" || extension == ".3mf") request->solid_format = extension;
+        if (request->solid_format.empty()) request->format = required_format(request->output);
         std::vector<std::string> inputs{request->input};
         if (is_pattern_file(request->pattern)) inputs.push_back(request->pattern);
         require_different_files(map_files(*request), inputs, !request->quiet);

@@ -27,6 +27,7 @@ class LiftResult:
     shape, pattern, size, bridge    as asked for or chosen; lengths in the unit of the vertices
     bend         above 1: a lattice is stretched by this much, so that it fits a torus
     outlines     on the surface
+    crossings    pairs of faces that meet though they are no neighbours, of a relief, a solid or a mesh
     islands      holes in outlines that are cut out: what was inside has fallen out too
     left_out     dict of counts, why outlines were left out: at_border, too_fine, crossing, open
     loops, euler    dicts before and after: boundary loops and Euler characteristic of the sheet
@@ -37,6 +38,7 @@ class LiftResult:
 
     pattern: str
     outlines: int
+    crossings: int
     islands: int
     left_out: dict[str, int]
     loops: dict[str, int]
@@ -78,7 +80,8 @@ def lift(
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     pattern      circles or voronoi, which are even on the surface; hexagons, triangles, diamonds or stripes, whose
                  lattices are even in the domain; or the name of an SVG file, whose closed paths are the outlines,
-                 or of a PNG file: a relief with `height` where it is white
+                 or of a PNG file: a relief with `height` where it is white; or of an OBJ file: a mesh whose x and y are
+                 flat and whose z is height, bent over the surface as it is
     {options}
     progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. Where it

@@ -126,6 +126,7 @@ class LiftOptions(RunOptions, total=False):
     repeats: int
     seed: int
     turn: float
+    around: int | None
     perforate: bool
     height: float | None
     thickness: float | None

@@ -1,0 +1,96 @@
+#include "lift/meeting_faces.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+namespace koebe {
+namespace {
+
+using SpaceKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using FaceBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
+
+SpaceKernel::Triangle_3 triangle_at(const Vertices& vertices, const Triangles& triangles, Index f)
+{
+    const auto corner = [&](int k) {
+        const Index v = triangles(f, k);
+        return SpaceKernel::Point_3(vertices(v, 0), vertices(v, 1), vertices(v, 2));
+    };
+    return {corner(0), corner(1), corner(2)};
+}
+
+bool neighbours(const Triangles& triangles, Index f, Index g)
+{
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (triangles(f, i) == triangles(g, j)) return true;
+    return false;
+}
+
+}  // namespace
+
+MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles)
+{
+    std::vector<FaceBox> boxes;
+    boxes.reserve(static_cast<std::size_t>(triangles.rows()));
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+        if (triangle_at(vertices, triangles, f).is_degenerate()) continue;
+        double low[3], high[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto [least, most] = std::minmax(
+                {vertices(triangles(f, 0), axis), vertices(triangles(f, 1), axis), vertices(triangles(f, 2), axis)});
+            low[axis] = least;
+            high[axis] = most;
+        }
+        boxes.emplace_back(low, high, f);
+    }
+    MeetingFaces meeting;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& first, const FaceBox& second) {
+        const Index f = first.info(), g = second.info();
+        if (neighbours(triangles, f, g) ||
+            !CGAL::do_intersect(triangle_at(vertices, triangles, f), triangle_at(vertices, triangles, g)))
+            return;
+        ++meeting.pairs;
+        meeting.faces.push_back(f);
+        meeting.faces.push_back(g);
+    });
+    std::ranges::sort(meeting.faces);
+    meeting.faces.erase(std::unique(meeting.faces.begin(), meeting.faces.end()), meeting.faces.end());
+    return meeting;
+}
+
+Triangles joined_corners(const Vertices& vertices, const Triangles& triangles, double near)
+{
+    using Cell = std::array<std::int64_t, 3>;
+    const double size = 8.0 * near;
+    const auto cell_of = [&](const Eigen::RowVector3d& p) {
+        Cell cell{};
+        for (int axis = 0; axis < 3; ++axis) cell[axis] = static_cast<std::int64_t>(std::floor(p[axis] / size));
+        return cell;
+    };
+    std::map<Cell, std::vector<Index>> cells;
+    std::vector<Index> first(vertices.rows());
+    for (Index v = 0; v < static_cast<Index>(vertices.rows()); ++v) {
+        const Eigen::RowVector3d p = vertices.row(v) - vertices.row(0), step = Eigen::RowVector3d::Constant(near);
+        const Cell low = cell_of(p - step), high = cell_of(p + step);
+        first[v] = v;
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+            for (std::int64_t y = low[1]; y <= high[1]; ++y)
+                for (std::int64_t z = low[2]; z <= high[2]; ++z)
+                    if (const auto found = cells.find({x, y, z}); found != cells.end())
+                        for (const Index other : found->second)
+                            if ((vertices.row(other) - vertices.row(v)).norm() <= near) first[v] = first[other];
+        cells[cell_of(p)].push_back(v);
+    }
+    Triangles joined = triangles;
+    for (Eigen::Index c = 0; c < joined.size(); ++c) joined.data()[c] = first[joined.data()[c]];
+    return joined;
+}
+
+}  // namespace koebe

@@ -1,0 +1,23 @@
+// Finds faces of a mesh in space that meet though they are no neighbours.
+#pragma once
+
+#include "core/types.h"
+
+#include <vector>
+
+namespace koebe {
+
+struct MeetingFaces {
+    Index pairs = 0;
+    std::vector<Index> faces;  ///< of the pairs, ascending
+};
+
+/// Pairs of faces without a common vertex that have a common point, by exact predicates (CGAL, box intersection
+/// [Zomorodian and Edelsbrunner 2002]). Faces without area are left out.
+MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles);
+
+/// The faces with one number for vertices that lie together, so that tiles side by side are neighbours.
+/// @param near largest distance of such vertices
+Triangles joined_corners(const Vertices& vertices, const Triangles& triangles, double near);
+
+}  // namespace koebe
