@@ -26,7 +26,7 @@ class Touched:
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
         selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_schottky")
-        if self._name not in (*selecting, "uv.koebe_parts", "uv.koebe_sequence"):
+        if self._name not in (*selecting, "uv.koebe_parts", "uv.koebe_sequence", "object.koebe_lift"):
             return False
         return key == "file: report" or (self._name in selecting and self._selects(owner, what))
 
@@ -119,6 +119,12 @@ class Touched:
         return " Flat" in owner or owner.startswith("names of ") or what.startswith("selected in ") or (
             owner.startswith("material ") and what == "users" or owner == "file" and what.endswith(" active")
         )
+
+    def _lift(self, owner, what):
+        """New data, selected; the original is hidden; the report of an object that cannot be lifted."""
+        added = " Lift" in owner or owner.startswith("names of ") or what.startswith(("selected in ", "hidden in "))
+        shared = owner.startswith("material ") and what == "users" or owner == "file" and what.endswith(" active")
+        return added or shared or what == "hide_render" or (owner, what) == ("file", "report")
 
     def _flat_svg(self, owner, what):
         return False
