@@ -25,6 +25,7 @@ def _parts() -> tuple[ModuleType, ...]:
         even_slider,
         fill_holes,
         flat_copy,
+        hole_rings,
         lift,
         moebius,
         node_groups,
@@ -52,7 +53,7 @@ def _parts() -> tuple[ModuleType, ...]:
         option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
         compare_shapes, carry_texture, option_presets, moebius, symmetrize, flat_copy, even_slider,
-        lift, node_groups,
+        lift, node_groups, hole_rings,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 

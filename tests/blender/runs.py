@@ -41,6 +41,15 @@ def reported_in_object_mode():
     scenes.select(other)
 
 
+def mapped_alone():
+    """A mapped object, selected."""
+    states.new_file()
+    obj = states.keyed()
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    states.consistent([obj])
+    scenes.select(obj)
+
+
 def offending():
     """A report that begins with an island that cannot be mapped, and another object selected."""
     states.new_file()
@@ -251,6 +260,7 @@ RUNS = {
     "lift": (panels_and_closed, "object.koebe_lift", {"size": 0.4}),
     "relief of what is worn": (mapped, "object.koebe_lift", {"size": 0.4, "way": "raise"}),
     "add node groups": (states.many, "node.koebe_add_groups", {}),
+    "loops around holes": (mapped_alone, "mesh.koebe_loops_around_holes", {}),
     "compare": (carried, "uv.koebe_compare_shapes", {}),
     "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),
     "select a loop in Object Mode": (reported_in_object_mode, "uv.koebe_select_loop", {"loop": 1}),

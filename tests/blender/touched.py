@@ -140,6 +140,7 @@ class Touched:
         return what == "mode" or what.startswith("selected in ")
 
     _select_loop = _select_cuts = _select_flipped = _select_torn = _select_offenders = _select
+    _loops_around_holes = _select
 
     def _reset(self, owner, what):
         return owner == "file" and what.endswith(" settings")
