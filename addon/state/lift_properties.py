@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
+from ..blender.compat import path_options
 from ..maps.lifting import DRAWN, LiftChoice, is_used
 from .option_properties import shown_number
 
@@ -39,7 +40,9 @@ def _length(name: str, description: str, **own: Any) -> Any:
 
 PROPERTIES = {
     "pattern": EnumProperty(name="Pattern", items=PATTERNS, default="circles", description="The pattern to be lifted"),
-    "file": StringProperty(name="File", subtype="FILE_PATH", description="SVG or PNG file with the pattern"),
+    "file": StringProperty(
+        name="File", subtype="FILE_PATH", options=path_options(), description="SVG or PNG file with the pattern"
+    ),
     "drawing": StringProperty(name="Object", description="Curve object or text object with the pattern"),
     "way": EnumProperty(name="Make", items=WAYS, default="perforate", description="What is made of the outlines"),
     "height": FloatProperty(

@@ -29,7 +29,9 @@ def put(obj, name, **values):
 def give(modifier, name, value):
     """Give an input of a modifier a value."""
     key = identifier(modifier.node_group, name)
-    if isinstance(value, tuple):
+    if hasattr(modifier, "properties"):  # from 5.2 on
+        getattr(modifier.properties.inputs, key).value = value
+    elif isinstance(value, tuple):
         modifier[key][:] = value
     else:
         modifier[key] = value
