@@ -240,7 +240,8 @@ class RandomRun:
                     "center": tuple(self._random.uniform(-0.6, 0.6, 2)), "rotation": one([0.0, 1.0])}  # fmt: skip
         if name == "object.koebe_lift":
             return {"pattern": one(["circles", "voronoi", "hexagons", "stripes"]), "way": one(["perforate", "raise"]),
-                    "size": one([0.0, 0.4, 3.0]), "thickness": one([0.0, 0.0, 0.05]), "hide": one([True, False]),
+                    "size": one([0.15, 0.3, 1.0]) * max([1e-3, *(max(obj.dimensions) for obj in self._meshes())]),
+                    "thickness": one([0.0, 0.0, 0.05]), "hide": one([True, False]),
                     "shape": one(["disk", "disk", "ring", "torus", "parts"]), "seams": one([True, False]),
                     "height": one([0.0, -0.05])}  # fmt: skip
         if name in ("object.koebe_flat_copy", "uv.koebe_symmetrize"):
@@ -254,6 +255,7 @@ class RandomRun:
             "uv.koebe_sequence", "uv.koebe_sequence",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
             "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy", "object.koebe_lift",
+            "mesh.koebe_loops_around_holes", "node.koebe_add_groups",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
             "uv.koebe_select_torn",
             "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize",

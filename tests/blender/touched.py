@@ -126,6 +126,9 @@ class Touched:
         shared = owner.startswith("material ") and what == "users" or owner == "file" and what.endswith(" active")
         return added or shared or what == "hide_render" or (owner, what) == ("file", "report")
 
+    def _add_groups(self, owner, what):
+        return owner == "names of node_groups"
+
     def _flat_svg(self, owner, what):
         return False
 
