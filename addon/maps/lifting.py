@@ -19,7 +19,8 @@ SPREAD = ("circles", "voronoi")  # patterns that are even on the surface
 LATTICES = ("hexagons", "triangles", "diamonds", "stripes")  # patterns that are even in the map
 DRAWN = ("file", "object")  # patterns that an artist has drawn
 CELLS = 12.0  # of the pattern, along the root of the area, if no size is given
-RISE = 0.15  # of a cell: the height, if none is given
+RISE = 0.08  # of a cell: the height, if none is given
+HIGHEST = 1e30  # that the solver takes
 REASONS = {
     "closed": "the surface is closed: set Shape to Parts or Torus, or delete a face",
     "genus": "the surface has a handle: set Shape to Parts, or to Torus if it is a torus",
@@ -66,11 +67,12 @@ class LiftChoice:
 
     def arguments(self, area: float, mirrored: bool) -> dict[str, Any]:
         """Keyword arguments of the solver for a surface of this area. On a mirrored one normals are turned over."""
+        area = area if math.isfinite(area) else 1.0  # the solver says what is wrong
         found = {"pattern": self.pattern, "perforate": self.perforate, "size": self.size or None, **self.others}
         if not self.perforate:
             built_in = self.pattern in (*SPREAD, *LATTICES)
             cell = self.size if self.size and built_in else math.sqrt(area) / CELLS
-            height = self.height or RISE * cell
+            height = self.height or min(RISE * cell, HIGHEST)
             found["height"] = -height if mirrored else height
         return found
 
@@ -166,11 +168,13 @@ def lift_surface(
     islands = cut_into_islands(surface)
     sizes = [len(island.triangles) for island in islands]
     results = []
+    with np.errstate(all="ignore"):  # a vertex may be no number
+        areas = [float(island.areas.sum()) for island in islands]
     for k, island in enumerate(islands):
         outcome.island = island
         results.append(koebe.lift(
             island.vertices, island.triangles, progress=share_of(progress, sum(sizes[:k]), sizes[k], sum(sizes)),
-            cancel=cancel, **choice.arguments(float(island.areas.sum()), outcome.mirrored),
+            cancel=cancel, **choice.arguments(areas[k], outcome.mirrored),
         ))  # fmt: skip
     outcome.island = None
     outcome.lifted = _joined(islands, results, outcome.mirrored)

@@ -195,6 +195,7 @@ def test_slots_and_shading_come_along():
     (scenes.add_cube, {}, "the surface is closed: set Shape to Parts or Torus"),
     (lambda: scenes.add_object("Bare", [(0, 0, 0), (1, 0, 0)], []), {}, "Bare: it has no faces"),
     (states.broken, {}, "coordinate"),
+    (states.broken, {"way": "raise", "size": 0.0}, "coordinate"),
     (states.plain, {"size": 50.0}, "no outline of the pattern fits the surface"),
     (states.plain, {"size": 0.3, "bridge": 0.2}, "the bridge must be less than half of the size"),
     (states.plain, {"pattern": "file"}, "choose an SVG or PNG file"),
