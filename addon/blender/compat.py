@@ -186,7 +186,7 @@ def flat_shader(name: str) -> Any:
         return gpu.shader.from_builtin(f"2D_{name}")
 
 
-def path_options() -> set[str]:
+def path_options() -> Any:
     """Options of a property for the path of a file: from 4.5 on Blender warns of // without them."""
     known = "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties
     return {"PATH_SUPPORTS_BLEND_RELATIVE"} if known else set()

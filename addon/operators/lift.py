@@ -61,10 +61,13 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
     def _check_file(self) -> None:
         """Raise TransferError unless the file may be a pattern."""
         path = bpy.path.abspath(self.file)
-        if os.path.splitext(path)[1].lower() not in (".svg", ".png"):
+        ending = os.path.splitext(path)[1].lower()
+        if ending not in (".svg", ".png"):
             raise TransferError("choose an SVG or PNG file as the pattern")
-        if not os.path.isfile(path):
-            raise TransferError(f"there is no file {path}: choose another file as the pattern")
+        if not (os.path.isfile(path) and os.access(path, os.R_OK)):
+            raise TransferError(f"there is no file {path} that can be read: choose another file as the pattern")
+        if ending == ".png" and self.way == "perforate":
+            raise TransferError("an image is a relief: set Make to Relief")
 
     def _finish(self, context: bpy.types.Context, job: LiftJob) -> set[str]:
         with transaction() as run:

@@ -132,6 +132,8 @@ def test_an_svg_file_a_png_file_and_a_text_are_patterns(tmp_path):
     image.filepath_raw, image.file_format = picture, "PNG"
     image.save()
     scenes.select(obj)
+    with pytest.raises(RuntimeError, match="an image is a relief: set Make to Relief"):
+        lift(pattern="file", file=picture)
     assert lift(pattern="file", file=picture, way="raise", height=0.1, size=0.0, hide=False) == {"FINISHED"}
     assert len(made().data.polygons) >= 64
     text = bpy.data.curves.new("Text", "FONT")
@@ -200,6 +202,7 @@ def test_slots_and_shading_come_along():
     (states.plain, {"size": 0.3, "bridge": 0.2}, "the bridge must be less than half of the size"),
     (states.plain, {"pattern": "file"}, "choose an SVG or PNG file"),
     (states.plain, {"pattern": "file", "file": "//none.svg"}, "there is no file"),
+    (states.plain, {"pattern": "file", "file": __file__}, "choose an SVG or PNG file"),
     (states.plain, {"pattern": "object", "drawing": "None"}, "choose a curve or a text object"),
     (lambda: scenes.add_panel(size=12, height=lambda x, y: 8 * x * x), {"thickness": 3.0}, "faces would turn over"),
 ], ids=str)  # fmt: skip
