@@ -27,3 +27,35 @@ def test_escape_leaves_everything_as_it_was(window, open_sample):
     open_sample("face_five_holes")
     escape(window, "object.koebe_lift", "iterate")
     assert window.ask(LIFTED) == []
+
+
+SCATTER = """
+import math
+bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, radius=0.5, location=(9, 0, 0))
+ball = bpy.context.object
+ball.data.polygons.foreach_set("use_smooth", [True] * len(ball.data.polygons))
+face = bpy.data.objects["face_five_holes"]
+modifier = face.modifiers.new("Scatter", "NODES")
+group = modifier.node_group = bpy.data.node_groups["Koebe Scatter"]
+items = group.interface.items_tree if hasattr(group, "interface") else group.inputs
+keys = {one.name: one.identifier for one in items if getattr(one, "in_out", "INPUT") == "INPUT"}
+for name, value in {"Instance": ball, "Count": 34, "Size": 0.8}.items():
+    if hasattr(modifier, "properties"):
+        getattr(modifier.properties.inputs, keys[name]).value = value
+    else:
+        modifier[keys[name]] = value
+for obj in bpy.context.scene.objects: obj.select_set(False)
+bpy.context.view_layer.objects.active = face
+face.update_tag()
+"""
+
+
+def test_scattered_balls_are_as_large_as_the_map_is(window, open_sample):
+    open_sample("face_five_holes")
+    window.run("bpy.ops.uv.koebe_unwrap(shape='DISK', checker=False)")
+    assert window.press("node.koebe_add_groups") is None
+    window.run(SCATTER)
+    window.settle()
+    window.picture("71_scatter")
+    count = "sum(one.is_instance for one in bpy.context.evaluated_depsgraph_get().object_instances)"
+    assert window.ask(count) > 300
