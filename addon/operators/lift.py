@@ -77,7 +77,9 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
             for _, source, _ in made if self.hide else ():
                 _hide(run, source)
             failures = job.failures()
-            if failures:
+            done = {outcome.name for outcome, _, _ in made}
+            old = run_report.report_of(context).islands
+            if failures or (old and all(not one.mapped and one.object_name in done for one in old)):
                 run_report.record(run, context, [outcome.row() for outcome in failures])
             redraw(context)
             return self._say(job, [outcome for outcome, _, _ in made])

@@ -226,6 +226,16 @@ def test_the_elements_of_an_error_can_be_selected():
     assert chosen.any() and not chosen.all()
 
 
+def test_a_success_takes_the_failure_of_before_out_of_the_report():
+    cube, islands = scenes.add_cube(), bpy.context.window_manager.koebe_uv.islands
+    scenes.select(cube)
+    with pytest.raises(RuntimeError, match="closed"):
+        lift()
+    assert [one.object_name for one in islands] == ["Cube"] and not islands[0].mapped
+    assert lift(shape="parts") == {"FINISHED"}
+    assert len(islands) == 0
+
+
 def test_one_failure_stops_no_other(capfd):
     good, bad = scenes.add_panel("Good"), scenes.add_cube("Bad")
     scenes.select(good, bad)

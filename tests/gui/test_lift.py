@@ -59,3 +59,12 @@ def test_scattered_balls_are_as_large_as_the_map_is(window, open_sample):
     window.picture("71_scatter")
     count = "sum(one.is_instance for one in bpy.context.evaluated_depsgraph_get().object_instances)"
     assert window.ask(count) > 300
+
+
+def test_loops_are_selected_around_eyes_and_mouth(window, open_sample):
+    open_sample("face_five_holes")
+    window.run("bpy.ops.uv.koebe_unwrap(shape='DISK', checker=False)")
+    assert window.press("mesh.koebe_loops_around_holes") is None
+    window.settle()
+    window.picture("72_loops")
+    assert window.ask("bpy.context.mode") == "EDIT_MESH"
