@@ -25,7 +25,10 @@ def _parts() -> tuple[ModuleType, ...]:
         even_slider,
         fill_holes,
         flat_copy,
+        hole_rings,
+        lift,
         moebius,
+        node_groups,
         option_presets,
         parts,
         select_from_report,
@@ -34,7 +37,7 @@ def _parts() -> tuple[ModuleType, ...]:
         uniformize,
         unwrap,
     )
-    from .state import moved_circles, option_properties, run_report, saved_report, shape_report
+    from .state import lift_properties, moved_circles, option_properties, run_report, saved_report, shape_report
     from .ui import (
         circle_overlay,
         circle_tool,
@@ -47,9 +50,10 @@ def _parts() -> tuple[ModuleType, ...]:
     )
 
     return (
-        option_properties, run_report, saved_report, moved_circles, shape_report,
+        option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
         compare_shapes, carry_texture, option_presets, moebius, symmetrize, flat_copy, even_slider,
+        lift, node_groups, hole_rings,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 

@@ -148,15 +148,27 @@ def enable_nodes(material: bpy.types.Material) -> None:
         material.use_nodes = True
 
 
-def add_geometry_sockets(tree: Any) -> None:
-    """Give new geometry nodes the input and output of a modifier."""
+def add_socket(tree: Any, side: str, kind: str, name: str, default: Any = None, description: str = "") -> None:
+    """Give geometry nodes an input or output. @param side "INPUT" or "OUTPUT", @param kind as in NodeSocketFloat"""
     if hasattr(tree, "interface"):  # from 4.0 on
-        for side in ("INPUT", "OUTPUT"):
-            tree.interface.new_socket("Geometry", in_out=side, socket_type="NodeSocketGeometry")
-        tree.is_modifier = True
+        made = tree.interface.new_socket(name, in_out=side, socket_type=f"NodeSocket{kind}")
     else:
-        for sockets in (tree.inputs, tree.outputs):
-            sockets.new("NodeSocketGeometry", "Geometry")
+        made = (tree.inputs if side == "INPUT" else tree.outputs).new(f"NodeSocket{kind}", name)
+    made.description = description
+    if default is not None:
+        made.default_value = default
+
+
+def be_modifier(tree: Any) -> None:
+    """Let geometry nodes be chosen in a modifier. Before 4.0 all can be chosen."""
+    if hasattr(tree, "is_modifier"):
+        tree.is_modifier = True
+
+
+def align_node() -> str:
+    """The node that turns a rotation until an axis has the direction of a vector."""
+    new = "FunctionNodeAlignRotationToVector"  # from 4.2 on
+    return new if hasattr(bpy.types, new) else "FunctionNodeAlignEulerToVector"
 
 
 def stored_uv_type() -> str:
@@ -172,6 +184,12 @@ def flat_shader(name: str) -> Any:
         return gpu.shader.from_builtin(name)
     except ValueError:  # up to 4.0 the names had the number of coordinates
         return gpu.shader.from_builtin(f"2D_{name}")
+
+
+def path_options() -> Any:
+    """Options of a property for the path of a file: from 4.5 on Blender warns of // without them."""
+    known = "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties
+    return {"PATH_SUPPORTS_BLEND_RELATIVE"} if known else set()
 
 
 def user_folder(package: str) -> str:

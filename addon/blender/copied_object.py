@@ -45,10 +45,11 @@ def add_copied_object(
     uv      (C, 2) of the source's corners: the new mesh has them in a layer of the same name
     ending  of its name, after the source's name
     """
-    for collection in (bpy.data.meshes, bpy.data.objects):
-        run.before_write(_keep_only, collection, set(collection.keys()))
+    note_new_objects(run)
     mesh = bpy.data.meshes.new(f"{source.data.name} {ending}")
-    _fill(mesh, layout)
+    points = np.zeros((len(layout.points), 3), dtype=np.float32)
+    points[:, : layout.points.shape[1]] = layout.points
+    fill_mesh(mesh, points, layout.corner_vertex, layout.face_size)
     made = mesh.uv_layers.new(name=layer, do_init=False)
     compat.set_corner_uv(made, uv[layout.corners])
     number = _material_numbers(source.data)[layout.faces]
@@ -70,23 +71,27 @@ def _material_numbers(mesh: bpy.types.Mesh) -> np.ndarray:
     return compat.read(mesh.polygons, "material_index", np.int32)
 
 
+def note_new_objects(run: Transaction) -> None:
+    """Note the objects and meshes that are there, before others are added."""
+    for collection in (bpy.data.meshes, bpy.data.objects):
+        run.before_write(_keep_only, collection, set(collection.keys()))
+
+
 def _keep_only(collection: Any, names: set[str]) -> None:
     for one in [one for one in collection if one.name not in names]:
         collection.remove(one)
 
 
-def _fill(mesh: bpy.types.Mesh, layout: Copied) -> None:
-    """Give an empty mesh the vertices and faces of a layout."""
-    points = np.zeros((len(layout.points), 3), dtype=np.float32)
-    points[:, : layout.points.shape[1]] = layout.points
-    start = np.cumsum(layout.face_size) - layout.face_size
+def fill_mesh(mesh: bpy.types.Mesh, points: np.ndarray, corner_vertex: np.ndarray, face_size: np.ndarray) -> None:
+    """Give an empty mesh vertices at points (n, 3) in 32 bits, and faces of a vertex (C,) for each corner."""
+    start = np.cumsum(face_size) - face_size
     mesh.vertices.add(len(points))
     mesh.vertices.foreach_set("co", points.ravel())
-    mesh.loops.add(len(layout.corners))
-    mesh.loops.foreach_set("vertex_index", layout.corner_vertex.astype(np.int32))
-    following = np.arange(1, len(layout.corners) + 1)
-    following[start + layout.face_size - 1] = start
-    ends = np.sort(np.stack([layout.corner_vertex, layout.corner_vertex[following]], axis=1), axis=1)
+    mesh.loops.add(len(corner_vertex))
+    mesh.loops.foreach_set("vertex_index", corner_vertex.astype(np.int32))
+    following = np.arange(1, len(corner_vertex) + 1)
+    following[start + face_size - 1] = start
+    ends = np.sort(np.stack([corner_vertex, corner_vertex[following]], axis=1), axis=1)
     edges, corner_edge = np.unique(ends, axis=0, return_inverse=True)  # Blender finds them in another order each time
     mesh.edges.add(len(edges))
     mesh.edges.foreach_set("vertices", edges.astype(np.int32).ravel())
@@ -94,5 +99,5 @@ def _fill(mesh: bpy.types.Mesh, layout: Copied) -> None:
     mesh.polygons.add(len(start))
     mesh.polygons.foreach_set("loop_start", start.astype(np.int32))
     if "loop_total" in mesh.polygons[0].bl_rna.properties and not mesh.polygons[0].is_property_readonly("loop_total"):
-        mesh.polygons.foreach_set("loop_total", layout.face_size.astype(np.int32))  # before 4.0
+        mesh.polygons.foreach_set("loop_total", face_size.astype(np.int32))  # before 4.0
     mesh.update()

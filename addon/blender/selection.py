@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Selects elements of meshes in Edit Mode, and notes each mesh's selection before."""
+"""Selects elements of meshes in Edit Mode, or objects, and notes the selection before."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -108,3 +108,20 @@ def edges_along(obj: MeshObject, vertices: list[int], closed: bool = True) -> li
     known = [[mesh.verts[v] for v in pair if v < len(mesh.verts)] for pair in pairs if pair[0] != pair[1]]
     edges = [mesh.edges.get(pair) if len(pair) == 2 else None for pair in known]
     return [None if edge is None else edge.index for edge in edges]
+
+
+def select_objects(run: Transaction, context: bpy.types.Context, made: list[bpy.types.Object]) -> None:
+    """Select these objects alone, and make the first one active."""
+    layer = context.view_layer
+    chosen = [obj.name for obj in layer.objects if obj.select_get(view_layer=layer)]
+    active = layer.objects.active and layer.objects.active.name
+    run.before_write(_restore_objects, layer, chosen, active)
+    for obj in layer.objects:
+        obj.select_set(obj in made, view_layer=layer)
+    layer.objects.active = made[0]
+
+
+def _restore_objects(layer: bpy.types.ViewLayer, chosen: list[str], active: str | None) -> None:
+    for obj in layer.objects:
+        obj.select_set(obj.name in chosen, view_layer=layer)
+    layer.objects.active = layer.objects.get(active) if active else None

@@ -7,6 +7,7 @@ import bpy
 
 from . import compat
 from .mesh_object import MeshObject
+from .node_builder import NodeBuilder, enabled
 from .transaction import Transaction
 
 NAME = "Koebe Sequence"  # of the modifier and its nodes
@@ -56,7 +57,7 @@ def shown_instead(obj: MeshObject, layer: str) -> str | None:
     own = _own(obj)
     stores = own.node_group.nodes if own is not None and (own.show_viewport or own.show_render) else ()
     for node in stores:
-        if node.bl_idname == STORE and _enabled(node.inputs, "Name").default_value == layer:
+        if node.bl_idname == STORE and enabled(node.inputs, "Name").default_value == layer:
             return f"its modifier {own.name!r} hides this map: it plays a sequence. Remove the modifier to see this map"
     return None
 
@@ -79,48 +80,9 @@ def _restore(obj: MeshObject, names: list[str], groups: set[str], old: tuple[Any
         bpy.data.node_groups.remove(made)
 
 
-class _Builder:
-    """Builds nodes in a row, each with its inputs."""
-
-    def __init__(self) -> None:
-        groups: Any = bpy.data.node_groups
-        self.tree: Any = groups.new(NAME, "GeometryNodeTree")
-
-    def node(self, kind: str, output: str | None, fed: dict[str | int, Any] | None = None, **values: Any) -> Any:
-        """A node's output of that name, or None. `fed` holds values or outputs by the name or number of an input."""
-        node = self.tree.nodes.new(kind)
-        node.location = 180 * len(self.tree.nodes), -120 * (len(self.tree.nodes) % 3)
-        for name, value in values.items():
-            setattr(node, name, value)
-        for key, value in (fed or {}).items():
-            socket = node.inputs[key] if isinstance(key, int) else _enabled(node.inputs, key)
-            if isinstance(value, bpy.types.NodeSocket):
-                self.tree.links.new(value, socket)
-            else:
-                socket.default_value = value
-        return None if output is None else _enabled(node.outputs, output)
-
-    def math(self, operation: str, one: Any, other: Any = 0.0) -> Any:
-        """A number computed from two."""
-        return self.node("ShaderNodeMath", "Value", {0: one, 1: other}, operation=operation)
-
-    def named(self, name: Any) -> Any:
-        """The values of a vector attribute."""
-        return self.node("GeometryNodeInputNamedAttribute", "Attribute", {"Name": name}, data_type="FLOAT_VECTOR")
-
-    def replaced(self, text: Any, mark: str, by: Any) -> Any:
-        """A text with a mark replaced by another text."""
-        return self.node("FunctionNodeReplaceString", "String", {"String": text, "Find": mark, "Replace": by})
-
-
-def _enabled(sockets: Any, name: str) -> Any:
-    """The socket of that name that is in use; others have other data types."""
-    return next(socket for socket in sockets if socket.name == name and socket.enabled)
-
-
 def _nodes(layer: str, prefix: str, frames: range) -> Any:
-    build = _Builder()
-    compat.add_geometry_sockets(build.tree)
+    build = NodeBuilder(NAME)
+    build.modifier_sockets()
     now = build.named(_attribute_name(build, prefix, frames))
     length = build.node("ShaderNodeVectorMath", "Value", {0: now}, operation="LENGTH")
     is_there = build.node("FunctionNodeCompare", "Result", {0: length, 1: 0.0}, operation="GREATER_THAN")
@@ -137,7 +99,7 @@ def _nodes(layer: str, prefix: str, frames: range) -> Any:
     return build.tree
 
 
-def _attribute_name(build: _Builder, prefix: str, frames: range) -> Any:
+def _attribute_name(build: NodeBuilder, prefix: str, frames: range) -> Any:
     """The attribute's name for the scene's frame, as in Python: `prefix` and f"{frame:04d}"."""
     first, step, last = float(frames[0]), float(frames.step), float(len(frames) - 1)
     scene = build.node("GeometryNodeInputSceneTime", "Frame")
@@ -152,11 +114,16 @@ def _attribute_name(build: _Builder, prefix: str, frames: range) -> Any:
     position = build.math("SUBTRACT", build.math("ADD", length, float(len(zeros))), width)
     padded = build.node(
         "FunctionNodeSliceString", "String",
-        {"String": build.replaced(f"{zeros}#", "#", digits), "Position": position, "Length": width},
+        {"String": _replaced(build, f"{zeros}#", "#", digits), "Position": position, "Length": width},
     )  # fmt: skip
     mark = next(chr(code) for code in range(ord("#"), ord("~")) if chr(code) not in prefix)  # at most 63 bytes
     pattern = build.node(
         "GeometryNodeSwitch", "Output", {"Switch": is_negative, "False": f"{prefix}{mark}", "True": f"{prefix}-{mark}"},
         input_type="STRING",
     )  # fmt: skip
-    return build.replaced(pattern, mark, padded)
+    return _replaced(build, pattern, mark, padded)
+
+
+def _replaced(build: NodeBuilder, text: Any, mark: str, by: Any) -> Any:
+    """A text with a mark replaced by another text."""
+    return build.node("FunctionNodeReplaceString", "String", {"String": text, "Find": mark, "Replace": by})

@@ -11,8 +11,9 @@ from bpy_extras.io_utils import ExportHelper
 from mathutils import Vector
 
 from ..blender.copied_object import add_copied_object
+from ..blender.selection import select_objects
 from ..blender.targets import attempt, target_objects
-from ..blender.transaction import Transaction, transaction
+from ..blender.transaction import transaction
 from ..jobs.flat_job import Flat, FlattenJob, read_flat
 from ..maps.flat_pattern import FlatPattern
 from ..maps.flat_svg import flat_svg
@@ -130,7 +131,7 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
                     done.append(flat)
                     x += (1.0 + GAP) * float(flat.layout.points[:, 0].max())
             if made:
-                _select_only(run, context, made)
+                select_objects(run, context, made)
             return self._say(done, problems, "")
 
 
@@ -147,23 +148,6 @@ def _place_beside(flats: list[Flat]) -> tuple[float, float, float]:
     left, right = min(corner.x for corner in boxes), max(corner.x for corner in boxes)
     origin = flats[0].obj.matrix_world.translation
     return right + BESIDE * max(right - left, float(flats[0].layout.points[:, 0].max())), origin.y, origin.z
-
-
-def _select_only(run: Transaction, context: bpy.types.Context, made: list[bpy.types.Object]) -> None:
-    """Select the new objects, as Blender does."""
-    layer = context.view_layer
-    chosen = [obj.name for obj in layer.objects if obj.select_get(view_layer=layer)]
-    active = layer.objects.active and layer.objects.active.name
-    run.before_write(_restore_selection, layer, chosen, active)
-    for obj in layer.objects:
-        obj.select_set(obj in made, view_layer=layer)
-    layer.objects.active = made[0]
-
-
-def _restore_selection(layer: bpy.types.ViewLayer, chosen: list[str], active: str | None) -> None:
-    for obj in layer.objects:
-        obj.select_set(obj.name in chosen, view_layer=layer)
-    layer.objects.active = layer.objects.get(active) if active else None
 
 
 class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):

@@ -81,7 +81,11 @@ def copy_options(source: Any, target: Any, of: str = "uniformize") -> None:
 
 def _value(properties: Any, name: str) -> Any:
     """An option as Blender shows it: 0.3, and not the nearest 32-bit number. So the command makes the same map."""
-    value = getattr(properties, name)
+    return shown_number(getattr(properties, name))
+
+
+def shown_number(value: Any) -> Any:
+    """The number as Blender shows it, if it is one with a fraction."""
     return float(str(np.float32(value))) if isinstance(value, float) else value
 
 

@@ -6,9 +6,11 @@ import bpy
 from ..maps.option_table import ROWS
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
+from ..operators.lift import OBJECT_OT_koebe_lift
 from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.unwrap import MAPS
+from ..state.lift_properties import copy_lift_options, lift_settings_of
 from ..state.option_properties import copy_options, settings_of
 from .panel_parts import BUTTONS, draw_unwrap
 
@@ -47,6 +49,7 @@ def draw_object_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     """The entry in the Object menu of the 3D View."""
     self.layout.separator()
     self.layout.operator(OBJECT_OT_koebe_flat_copy.bl_idname)
+    copy_lift_options(lift_settings_of(context), self.layout.operator(OBJECT_OT_koebe_lift.bl_idname))
 
 
 def draw_export_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:

@@ -10,6 +10,7 @@ from ..maps.domains import DOMAINS
 from ..maps.option_table import ROWS
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
+from ..operators.hole_rings import MESH_OT_koebe_loops_around_holes
 from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.run_operator import draw_option, is_used
 from ..operators.sequence import UV_OT_koebe_sequence
@@ -137,6 +138,7 @@ class ToolsPanel(ClosedPanel):
         if context.mode == "EDIT_MESH":
             fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
         column.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
+        column.operator(MESH_OT_koebe_loops_around_holes.bl_idname, text="Loops Around Holes", icon="PROP_CON")
         column.operator(OBJECT_OT_koebe_flat_copy.bl_idname, text="Flat Copy", icon="MESH_PLANE")
         column.operator(UV_OT_koebe_flat_svg.bl_idname, text="Flat SVG", icon="EXPORT")
 

@@ -13,6 +13,7 @@ from ..operators.unwrap import MAPS
 from ..state.option_properties import KoebeSettings, option_names, settings_of
 from ..state.run_report import report_of
 from .circle_tool import CIRCLES_TOOL
+from .lift_panel import LiftPanel
 from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, SequencePanel, ToolsPanel
 from .panel_parts import KoebePanel, draw_unwrap
 from .preset_menu import KOEBE_PT_presets
@@ -111,6 +112,7 @@ CHILDREN = {
     "domains": DomainsPanel,
     "layer": LayerPanel,
     "tools": ToolsPanel,
+    "lift": LiftPanel,
     "shapes": ShapesPanel,
     "sequence": SequencePanel,
     "accuracy": AccuracyPanel,

@@ -238,6 +238,12 @@ class RandomRun:
         if name == "uv.koebe_moebius":
             return {"layer": layer, "rim": int(self._random.integers(4)), "island": int(self._random.integers(2)),
                     "center": tuple(self._random.uniform(-0.6, 0.6, 2)), "rotation": one([0.0, 1.0])}  # fmt: skip
+        if name == "object.koebe_lift":
+            return {"pattern": one(["circles", "voronoi", "hexagons", "stripes"]), "way": one(["perforate", "raise"]),
+                    "size": one([0.15, 0.3, 1.0]) * max([1e-3, *(max(obj.dimensions) for obj in self._meshes())]),
+                    "thickness": one([0.0, 0.0, 0.05]), "hide": one([True, False]),
+                    "shape": one(["disk", "disk", "ring", "torus", "parts"]), "seams": one([True, False]),
+                    "height": one([0.0, -0.05])}  # fmt: skip
         if name in ("object.koebe_flat_copy", "uv.koebe_symmetrize"):
             return {"layer": layer}
         return {"loop": int(self._random.integers(4))} if name == "uv.koebe_select_loop" else {}
@@ -248,7 +254,8 @@ class RandomRun:
             "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_sphere", "uv.koebe_schottky",
             "uv.koebe_sequence", "uv.koebe_sequence",
             "uv.koebe_distortion", "uv.koebe_distortion", "mesh.koebe_fill_holes", "uv.koebe_carry_texture",
-            "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy",
+            "uv.koebe_moebius", "uv.koebe_moebius", "object.koebe_flat_copy", "object.koebe_lift",
+            "mesh.koebe_loops_around_holes", "node.koebe_add_groups",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
             "uv.koebe_select_torn",
             "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize",

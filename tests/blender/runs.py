@@ -41,6 +41,15 @@ def reported_in_object_mode():
     scenes.select(other)
 
 
+def mapped_alone():
+    """A mapped object, selected."""
+    states.new_file()
+    obj = states.keyed()
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    states.consistent([obj])
+    scenes.select(obj)
+
+
 def offending():
     """A report that begins with an island that cannot be mapped, and another object selected."""
     states.new_file()
@@ -184,6 +193,14 @@ def disk_and_closed():
     scenes.select(*objects)
 
 
+def panels_and_closed():
+    """Surfaces in several states that can be lifted, one of them linked twice, and a closed one."""
+    states.new_file()
+    objects = [states.dressed(), states.keyed(), *states.twins(), scenes.add_cube()]
+    states.consistent(objects)
+    scenes.select(*objects)
+
+
 QUICK = {"darts": 0.0, "even": 0.0}  # parts are computed at every fault, and what breaks is not the computing
 RUNS = {
     "unwrap": (disk_and_closed, "uv.koebe_unwrap", {}),
@@ -240,6 +257,10 @@ RUNS = {
     "symmetrize": (symmetric, "uv.koebe_symmetrize", {}),
     "symmetrize in Edit Mode": (symmetric_in_edit_mode, "uv.koebe_symmetrize", {}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
+    "lift": (panels_and_closed, "object.koebe_lift", {"size": 0.4}),
+    "relief of what is worn": (mapped, "object.koebe_lift", {"size": 0.4, "way": "raise"}),
+    "add node groups": (states.many, "node.koebe_add_groups", {}),
+    "loops around holes": (mapped_alone, "mesh.koebe_loops_around_holes", {}),
     "compare": (carried, "uv.koebe_compare_shapes", {}),
     "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),
     "select a loop in Object Mode": (reported_in_object_mode, "uv.koebe_select_loop", {"loop": 1}),

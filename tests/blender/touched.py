@@ -26,7 +26,7 @@ class Touched:
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
         selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_schottky")
-        if self._name not in (*selecting, "uv.koebe_parts", "uv.koebe_sequence"):
+        if self._name not in (*selecting, "uv.koebe_parts", "uv.koebe_sequence", "object.koebe_lift"):
             return False
         return key == "file: report" or (self._name in selecting and self._selects(owner, what))
 
@@ -120,6 +120,15 @@ class Touched:
             owner.startswith("material ") and what == "users" or owner == "file" and what.endswith(" active")
         )
 
+    def _lift(self, owner, what):
+        """New data, selected; the original is hidden; the report of an object that cannot be lifted."""
+        added = " Lift" in owner or owner.startswith("names of ") or what.startswith(("selected in ", "hidden in "))
+        shared = owner.startswith("material ") and what == "users" or owner == "file" and what.endswith(" active")
+        return added or shared or what == "hide_render" or (owner, what) == ("file", "report")
+
+    def _add_groups(self, owner, what):
+        return owner == "names of node_groups"
+
     def _flat_svg(self, owner, what):
         return False
 
@@ -134,6 +143,7 @@ class Touched:
         return what == "mode" or what.startswith("selected in ")
 
     _select_loop = _select_cuts = _select_flipped = _select_torn = _select_offenders = _select
+    _loops_around_holes = _select
 
     def _reset(self, owner, what):
         return owner == "file" and what.endswith(" settings")

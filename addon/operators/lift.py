@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that brings a pattern onto surfaces: holes or a relief, as a new object."""
+
+import os
+from typing import Any
+
+import bpy
+
+from ..blender.curve_drawing import curve_drawing
+from ..blender.errors import TransferError
+from ..blender.mesh_object import MeshObject
+from ..blender.selection import select_objects
+from ..blender.targets import target_objects
+from ..blender.transaction import Transaction, transaction
+from ..jobs.lift_job import LiftJob
+from ..maps.lifting import LiftOutcome
+from ..maps.wording import few, lines
+from ..solver.errors import NativeError
+from ..state import run_report
+from ..state.lift_properties import SHOWN, LiftProperties, draw_lift_options, lift_choice_of
+from ..state.option_properties import settings_of
+from .modal_run import ModalRun, redraw
+from .polls import has_targets
+from .tooltip import tooltip
+
+
+class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
+    """Bring a flat pattern onto the selected surfaces: as holes, as a relief, as a closed solid. Circles stay circles,
+    as the map keeps angles. The result is a new object, and the original is hidden"""
+
+    bl_idname = "object.koebe_lift"
+    bl_label = "Koebe Lift Pattern"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return has_targets(cls, context, "Select a mesh object, in Object Mode", ("OBJECT",))
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout: Any = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        draw_lift_options(layout, self, SHOWN)
+
+    def _job(self, context: bpy.types.Context) -> LiftJob | None:
+        context.evaluated_depsgraph_get()  # updates the objects' world matrices
+        try:
+            if self.pattern == "file":
+                self._check_file()
+            drawing = curve_drawing(self.drawing) if self.pattern == "object" else None
+            job = LiftJob(target_objects(context), lift_choice_of(self), drawing)
+        except (NativeError, TransferError) as error:
+            self.report({"ERROR"}, f"Koebe UV: {error}")
+            return None
+        if not job.outcomes:
+            self.report({"ERROR"}, lines("Koebe UV: nothing was lifted.", job.problems))
+            return None
+        return job
+
+    def _check_file(self) -> None:
+        """Raise TransferError unless the file may be a pattern."""
+        path = bpy.path.abspath(self.file)
+        ending = os.path.splitext(path)[1].lower()
+        if ending not in (".svg", ".png"):
+            raise TransferError("choose an SVG or PNG file as the pattern")
+        if not (os.path.isfile(path) and os.access(path, os.R_OK)):
+            raise TransferError(f"there is no file {path} that can be read: choose another file as the pattern")
+        if ending == ".png" and self.way == "perforate":
+            raise TransferError("an image is a relief: set Make to Relief")
+
+    def _finish(self, context: bpy.types.Context, job: LiftJob) -> set[str]:
+        with transaction() as run:
+            made = job.write(run, context, settings_of(context).layer)
+            if made:
+                select_objects(run, context, [obj for _, _, obj in made])
+            for _, source, _ in made if self.hide else ():
+                _hide(run, source)
+            failures = job.failures()
+            done = {outcome.name for outcome, _, _ in made}
+            old = run_report.report_of(context).islands
+            if failures or (old and all(not one.mapped and one.object_name in done for one in old)):
+                run_report.record(run, context, [outcome.row() for outcome in failures])
+            redraw(context)
+            return self._say(job, [outcome for outcome, _, _ in made])
+
+    def _say(self, job: LiftJob, done: list[LiftOutcome]) -> set[str]:
+        problems = [*(f"{one.name}: {one.reason()}" for one in job.failures()), *job.problems]
+        if not done:
+            self.report({"ERROR"}, lines("Koebe UV: nothing was lifted.", problems))
+            return {"CANCELLED"}
+        for outcome in done:
+            told = outcome.warnings()
+            self.report({"WARNING"} if told else {"INFO"}, outcome.line(self.way == "perforate"))
+            for text in told:
+                self.report({"WARNING"}, f"{outcome.name}: {text}")
+        if problems:
+            self.report({"WARNING"}, "Koebe UV: left out. " + few(problems))
+        return {"FINISHED"}
+
+
+def _hide(run: Transaction, obj: MeshObject) -> None:
+    """Hide an object in the view and in renders."""
+    run.before_write(obj.hide_set, obj.hide_get())
+    obj.hide_set(True)
+    if obj.library is None:
+        run.before_write(setattr, obj, "hide_render", obj.hide_render)
+        obj.hide_render = True
+
+
+register, unregister = bpy.utils.register_classes_factory((OBJECT_OT_koebe_lift,))
