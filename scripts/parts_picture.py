@@ -7,6 +7,9 @@
     --blend FILE       the file with the UVs
     --evenness X       the panel's slider, 0 to 1 (0.5)
     --darts D          the panel's darts, 0 to 1 (0.2)
+    --important X,Y,Z,R    weight 1 at this place, shares of the model's box, and less up to R of its longest side away
+    --density D        texel density in pixels per unit on a texture of 2,048 pixels
+    --stack            parts that are copies or mirror images lie on each other
     --one-off          first move one vertex by a thousandth of the model's size: then it is not its own mirror image
     --size 1600x800    width and height in pixels; OUT may be a .jpg
     --samples N        Cycles samples per pixel (32)
@@ -43,16 +46,37 @@ def parse():
     parser.add_argument("--blend", type=Path)
     parser.add_argument("--evenness", type=float, default=0.5)
     parser.add_argument("--darts", type=float, default=0.2)
+    parser.add_argument("--important", type=lambda text: tuple(map(float, text.split(","))))
+    parser.add_argument("--density", type=float)
+    parser.add_argument("--stack", action="store_true")
     parser.add_argument("--one-off", action="store_true")
     parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(1600, 800))
     parser.add_argument("--samples", type=int, default=32)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 
-def unwrapped(obj, evenness, darts):
+def weigh(obj, place):
+    """A vertex group whose weights fall off around a place. @return its name"""
+    points = np.empty(3 * len(obj.data.vertices), np.float32)
+    obj.data.vertices.foreach_get("co", points)
+    points = points.reshape(-1, 3)
+    size = np.ptp(points, axis=0)
+    away = np.linalg.norm(points - points.min(axis=0) - size * place[:3], axis=1) / size.max()
+    group = obj.vertex_groups.new(name="important")
+    for v, weight in enumerate(np.clip(1.5 - 1.5 * away / place[3], 0.0, 1.0).tolist()):
+        group.add([v], weight, "REPLACE")
+    return group.name
+
+
+def unwrapped(obj, options):
     """Map the object; returns the result and each face's part."""
     module = guide_picture.addon_module
-    choice = module("maps.options").PartsChoice(evenness=evenness, darts=darts)
+    chosen = {"evenness": options.evenness, "darts": options.darts, "stack": options.stack}
+    if options.important:
+        chosen["importance"] = weigh(obj, options.important)
+    if options.density:
+        chosen |= {"texels": "number", "density": options.density}
+    choice = module("maps.options").PartsChoice(**chosen)
     job = module("jobs.parts_job").PartsJob([obj], module("maps.options").Options(checker=False), choice)
     job.compute()
     job.write()
@@ -104,7 +128,7 @@ def main():
     obj = next(obj for obj in bpy.context.scene.objects if obj.type == "MESH")
     if options.one_off:
         obj.data.vertices[0].co.z += 1e-3 * max(obj.dimensions)
-    result, part = unwrapped(obj, options.evenness, options.darts)
+    result, part = unwrapped(obj, options)
     if options.report:
         options.report.write_text(json.dumps(figures(result), indent=1) + "\n", encoding="utf-8")
     if options.blend:

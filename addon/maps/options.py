@@ -111,6 +111,11 @@ class Options(Chosen):
 class PartsChoice(Chosen):
     """How a surface is cut into parts."""
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.tiles == 0 and self.texels == "fill":
+            raise OptionError("tiles", "0 needs a texel density: set Texels to By Number or Like a Layer")
+
     def _check_importance(self) -> None:
         """Parts as wholes obey it always."""
 

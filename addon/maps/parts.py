@@ -14,7 +14,6 @@ from .outcomes import LATER, Outcome, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
 from .stored import LostAreaError
 from .surface import next_corners
-from .triangles import covered
 from .wording import counted, density_text, in_mesh
 
 # The price of a part at the dial's ends: as few parts as possible, and texels as even as possible.
@@ -83,6 +82,10 @@ class PartsOutcome(Outcome):
             counted(result.flipped, "flip"),
             f"{result.seconds:.2f} s",
         ]
+        if result.stacked:
+            words.insert(1, counted(len(result.stacked), "part") + " stacked")
+        if result.tiles > 1:
+            words.insert(1, counted(result.tiles, "tile"))
         if result.handles_cut:
             words.insert(1, counted(result.handles_cut, "handle") + " cut")
         if not result.converged:
@@ -111,15 +114,10 @@ class PartsOutcome(Outcome):
         return {
             "parts": len(result.parts), "angle_error": result.angle_error_stored_deg["mean"],
             "flipped": result.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds,
-            "density": result.density_ratio_5_95, "coverage": _coverage(result.uv),
+            "density": result.density_ratio_5_95, "coverage": result.coverage,
             "cut_length": result.cut_length, "even": result.even,
             **({"cut_edges": np.flatnonzero(one.cuts).tolist()} if one.cuts.any() else {}),
         }  # fmt: skip
-
-
-def _coverage(uv: np.ndarray) -> float:
-    """Share of the UV square that triangles (t, 3, 2) take."""
-    return covered(uv.reshape(-1, 2), np.arange(3 * len(uv)).reshape(-1, 3))
 
 
 def cut_into_parts(
@@ -182,4 +180,7 @@ def _map(
     uv = np.zeros((len(surface.corner_vertex), 2), dtype=np.float32)
     uv[corners.ravel()] = result.uv.reshape(-1, 2)
     one.result, one.corners = result, np.unique(corners)
-    one.uv, one.cuts = uv[one.corners], cut_edges(surface, uv)
+    layer = np.zeros(len(uv), dtype=np.int64)
+    for stacked in result.stacked:  # it may meet the part under it in a fold
+        layer[corners[result.part == stacked["part"]].ravel()] = stacked["part"] + 1
+    one.uv, one.cuts = uv[one.corners], cut_edges(surface, uv, layer)

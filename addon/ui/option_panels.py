@@ -122,6 +122,8 @@ class LayerPanel(ClosedPanel):
         column.prop(settings, "texels")
         for name in {"number": ("density", "pixels"), "layer": ("like",)}.get(settings.texels, ()):
             draw_option(column, settings, name, context)
+        for name in ("tiles", "stack"):
+            draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)
 

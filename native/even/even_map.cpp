@@ -4,6 +4,7 @@
 #include "even/void_mesh.h"
 #include "even/wanted_shapes.h"
 #include "foldover/face_energy.h"
+#include "foldover/newton_system.h"
 #include "foldover/turn_upright.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
@@ -106,7 +107,7 @@ public:
     bool relax_once(EvenMap& result, int iterations)
     {
         FoldoverProblem problem = surface_problem();
-        const FoldoverResult done = minimize(problem, iterations);
+        const FoldoverResult done = minimize(problem, iterations, &pattern_);
         take(problem, done, result);
         return done.hindered;
     }
@@ -131,7 +132,7 @@ public:
     }
 
 private:
-    FoldoverResult minimize(FoldoverProblem& problem, int iterations) const
+    FoldoverResult minimize(FoldoverProblem& problem, int iterations, NewtonPattern* pattern = nullptr) const
     {
         const Eigen::Index own = flat_.points.rows();
         return minimize_foldover_free(problem, context_,
@@ -140,6 +141,7 @@ private:
                                        .settled = settled_decrease,
                                        .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
                                        .strict = true,
+                                       .pattern = pattern,
                                        .refuses = [&](const FoldoverPlaces& places) {
                                            const PlanarPoints points = places.points.topRows(own);
                                            return !apart(points, shortest_) ||
@@ -311,6 +313,7 @@ private:
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
     std::vector<int> track_of_;
+    NewtonPattern pattern_;            // of the surface without the void
     const std::vector<Complex> none_;  // for maps without periods
 };
 

@@ -27,7 +27,7 @@ public:
         : problem_(problem),
           options_(options),
           energy_{options.area_weight, options.power, options.slack},
-          system_(problem)
+          system_(problem, options.pattern)
     {
         for (const Eigen::Matrix2d& reference : problem.reference) shapes_.emplace_back(reference);
     }

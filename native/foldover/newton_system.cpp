@@ -17,8 +17,8 @@ Eigen::Vector2d normal_of(const Eigen::Vector2d& along) { return {along[1], -alo
 
 }  // namespace
 
-NewtonSystem::NewtonSystem(const FoldoverProblem& problem)
-    : problem_(problem), first_unknown_(problem.points.rows(), -1)
+NewtonSystem::NewtonSystem(const FoldoverProblem& problem, NewtonPattern* kept)
+    : problem_(problem), first_unknown_(problem.points.rows(), -1), kept_(kept)
 {
     for (Eigen::Index v = 0; v < problem.points.rows(); ++v)
         if (problem.mobility[v] != Mobility::held) {
@@ -33,7 +33,16 @@ NewtonSystem::NewtonSystem(const FoldoverProblem& problem)
         first_of_period_.push_back(unknowns_);
         unknowns_ += j == 0 ? 1 : 2;
     }
-    if (unknowns_ > 0) set_pattern();
+    if (kept_) pattern_ = std::exchange(*kept_, {});
+    const bool fits = pattern_.hessian.rows() == unknowns_ &&
+                      pattern_.places.size() == static_cast<std::size_t>(problem.triangles.rows());
+    if (!fits) pattern_ = {};
+    if (!fits && unknowns_ > 0) set_pattern();
+}
+
+NewtonSystem::~NewtonSystem()
+{
+    if (kept_) *kept_ = std::move(pattern_);
 }
 
 Index NewtonSystem::unknowns_of(Index v) const
@@ -121,16 +130,16 @@ void NewtonSystem::set_pattern()
             outer.push_back(static_cast<Index>(rows.size()));
         }
     }
-    hessian_.resize(unknowns_, unknowns_);
-    hessian_.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
-    std::ranges::copy(outer, hessian_.outerIndexPtr());
-    std::ranges::copy(rows, hessian_.innerIndexPtr());
+    pattern_.hessian.resize(unknowns_, unknowns_);
+    pattern_.hessian.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
+    std::ranges::copy(outer, pattern_.hessian.outerIndexPtr());
+    std::ranges::copy(rows, pattern_.hessian.innerIndexPtr());
     for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
         std::array<Index, 3> places{-1, -1, -1};
         for (int k = 0; k < 3; ++k)
             if (const std::pair<Index, Index> pair = ends(f, k); pair.first >= 0)
                 places[k] = begin[std::ranges::lower_bound(pairs, pair) - pairs.begin()];
-        places_.push_back(places);
+        pattern_.places.push_back(places);
     }
 }
 
@@ -173,8 +182,8 @@ Eigen::Vector2d NewtonSystem::tangent(Index v) const
 void NewtonSystem::add(Index column_vertex, Index row_vertex, Index place, const Eigen::Matrix2d& block)
 {
     const Index first = first_unknown_[column_vertex];
-    double* const values = hessian_.valuePtr();
-    const Index* const outer = hessian_.outerIndexPtr();
+    double* const values = pattern_.hessian.valuePtr();
+    const Index* const outer = pattern_.hessian.outerIndexPtr();
     const bool wide = problem_.mobility[column_vertex] == Mobility::free;
     const bool high = problem_.mobility[row_vertex] == Mobility::free;
     const bool own = column_vertex == row_vertex;
@@ -203,9 +212,9 @@ void NewtonSystem::add_by_columns(Eigen::Index f, const FaceDerivatives& face, c
     for (int k = 0; k < 3; ++k)
         if (const Index v = problem_.triangles(f, k); rides(v))
             outward_force_[v] -= vector(face.gradient[k]).dot(normal_of(tangent(v)));
-    double* const values = hessian_.valuePtr();
-    const Index* const outer = hessian_.outerIndexPtr();
-    const Index* const inner = hessian_.innerIndexPtr();
+    double* const values = pattern_.hessian.valuePtr();
+    const Index* const outer = pattern_.hessian.outerIndexPtr();
+    const Index* const inner = pattern_.hessian.innerIndexPtr();
     for (const Column& column : all) {
         gradient_[column.unknown] += column.way.dot(vector(face.gradient[column.corner]));
         for (const Column& row : all) {
@@ -220,7 +229,7 @@ void NewtonSystem::add_by_columns(Eigen::Index f, const FaceDerivatives& face, c
 void NewtonSystem::clear()
 {
     gradient_ = VectorXd::Zero(unknowns_);
-    std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.0);
+    std::fill_n(pattern_.hessian.valuePtr(), pattern_.hessian.nonZeros(), 0.0);
     outward_force_.assign(problem_.bends ? first_unknown_.size() : problem_.track_of.size(), 0.0);
 }
 
@@ -241,10 +250,11 @@ void NewtonSystem::add_face(Eigen::Index f, const FaceDerivatives& face, const W
         if (problem_.bends && problem_.mobility[v] == Mobility::sliding)
             outward_force_[v] -= g.dot(normal_of(tangent(v)));
         add(v, v, 0, face.block(k, k, shape));
-        if (places_[f][k] < 0) continue;
+        if (pattern_.places[f][k] < 0) continue;
         const int l = (k + 1) % 3, column = first < first_unknown_[problem_.triangles(f, l)] ? k : l;
         const int row = k + l - column;
-        add(problem_.triangles(f, column), problem_.triangles(f, row), places_[f][k], face.block(row, column, shape));
+        add(problem_.triangles(f, column), problem_.triangles(f, row), pattern_.places[f][k],
+            face.block(row, column, shape));
     }
 }
 
@@ -260,7 +270,7 @@ void NewtonSystem::add_bends()
         const bool slides = problem_.bends && problem_.mobility[v] == Mobility::sliding;
         if (!slides && !(rides(v) && !track_of(v).straight)) continue;
         const Circle& circle = slides ? problem_.circles[v] : track_of(v).circle;
-        hessian_.valuePtr()[hessian_.outerIndexPtr()[first_unknown_[v]]] +=
+        pattern_.hessian.valuePtr()[pattern_.hessian.outerIndexPtr()[first_unknown_[v]]] +=
             std::max(outward_force_[v], 0.0) / circle.radius;
     }
 }
@@ -268,13 +278,13 @@ void NewtonSystem::add_bends()
 std::pair<VectorXd, double> NewtonSystem::descent()
 {
     for (Index i = 0; i < unknowns_; ++i) {
-        double& diagonal = hessian_.valuePtr()[hessian_.outerIndexPtr()[i]];
+        double& diagonal = pattern_.hessian.valuePtr()[pattern_.hessian.outerIndexPtr()[i]];
         diagonal = diagonal > 0.0 ? (1.0 + shift) * diagonal : 1.0;  // a track without riders
     }
     VectorXd step = newton_direction();
     double slope = gradient_.dot(step);
     if (!(slope < 0.0) || !step.allFinite()) {
-        step = -gradient_.cwiseQuotient(hessian_.diagonal().cwiseMax(1e-300));
+        step = -gradient_.cwiseQuotient(pattern_.hessian.diagonal().cwiseMax(1e-300));
         slope = gradient_.dot(step);
     }
     return {std::move(step), slope};
@@ -284,13 +294,13 @@ std::pair<VectorXd, double> NewtonSystem::descent()
 VectorXd NewtonSystem::newton_direction()
 {
     try {
-        if (solver_)
-            solver_->refactorize(hessian_);
+        if (pattern_.solver)
+            pattern_.solver->refactorize(pattern_.hessian);
         else
-            solver_.emplace(hessian_);
-        return -solver_->solve(gradient_);
+            pattern_.solver.emplace(pattern_.hessian);
+        return -pattern_.solver->solve(gradient_);
     } catch (const SolverError&) {
-        solver_.reset();
+        pattern_.solver.reset();
         return VectorXd::Zero(unknowns_);
     }
 }

@@ -14,12 +14,24 @@
 
 namespace koebe {
 
+/// The pattern of the Hessian and its analysis. They follow from triangles, mobility, tracks and lifts of a problem.
+struct NewtonPattern {
+    SparseMatrix hessian;
+    std::vector<std::array<Index, 3>> places;  ///< per face and corner: set by NewtonSystem::set_pattern
+    std::optional<SparseCholesky> solver;
+};
+
 /// A free vertex has two unknowns. A sliding or riding vertex has one unknown: the way along its circle or track. The
 /// unknowns of tracks and periods come last, as many faces share them. The pattern of the Hessian does not change.
 class NewtonSystem {
 public:
     /// @param problem must not change while the system is in use, except for its places
-    explicit NewtonSystem(const FoldoverProblem& problem);
+    /// @param kept pattern of an earlier system that differs in places, references and weights only, or an empty one;
+    /// it must outlive the system, which leaves its pattern there. Null: the pattern is not kept
+    explicit NewtonSystem(const FoldoverProblem& problem, NewtonPattern* kept = nullptr);
+    ~NewtonSystem();
+    NewtonSystem(const NewtonSystem&) = delete;
+    NewtonSystem& operator=(const NewtonSystem&) = delete;
 
     Index unknowns() const { return unknowns_; }
 
@@ -65,12 +77,11 @@ private:
     std::vector<Index> first_unknown_;  // per vertex, -1 if it is held
     std::vector<Index> first_of_track_, first_of_period_;
     Index unknowns_ = 0;
-    std::vector<std::array<Index, 3>> places_;  // per face and corner: set by set_pattern
+    NewtonPattern pattern_;
+    NewtonPattern* kept_;
     VectorXd gradient_;
     std::vector<double>
         outward_force_;  // (V) of riding, or bending sliding, vertices: minus the gradient, along the radius
-    SparseMatrix hessian_;
-    std::optional<SparseCholesky> solver_;
 };
 
 }  // namespace koebe

@@ -323,6 +323,7 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
     PlanarPoints points = 2.0 * uv.array() - 1.0;
     const Eigen::RowVector2d low = uv.colwise().minCoeff().array() - box_slack;
     const Eigen::RowVector2d high = uv.colwise().maxCoeff().array() + box_slack;
+    const Eigen::RowVector2d corner = (0.5 * (low + high)).array().floor();
     Index least = bad(points);
     // The middle vertex of a face with two edges on one loop may leave it at once: on the straight end of a tube that
     // face is flat.
@@ -338,7 +339,8 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
         PlanarPoints moved = points;
         untangle(part.vertices, part.surface, part.surface.loops, circles, boundary, moved, context,
                  {.slide = false, .held = stay, .effort = &effort, .share = stay.empty() ? 1.0 : 0.5});
-        const PlanarPoints in_square = (0.5 * (moved.array() + 1.0)).cwiseMax(0.0).cwiseMin(1.0);
+        const PlanarPoints in_square =
+            ((0.5 * (moved.array() + 1.0)).matrix().rowwise() - corner).cwiseMax(0.0).cwiseMin(1.0).rowwise() + corner;
         const bool in_box = (in_square.colwise().minCoeff().array() >= low.array()).all() &&
                             (in_square.colwise().maxCoeff().array() <= high.array()).all();
         if (!moved.allFinite() || !in_box || !loops_apart(part, in_square)) continue;

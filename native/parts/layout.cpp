@@ -31,7 +31,7 @@ void place_left_out(const std::vector<LeftOutFace>& left_out, PartsLayout& layou
 
 }  // namespace
 
-PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places)
+PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places, const std::vector<char>& mirrored)
 {
     PartsLayout layout = std::move(mesh.layout);
     const Triangles triangles = layout.triangles;
@@ -40,21 +40,26 @@ PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places)
     for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
         FlatPart& flat = mesh.parts[k];
         layout.overlaps += !flat.one_to_one;
+        const bool is_mirrored = !mirrored.empty() && mirrored[k];
         for (std::size_t i = 0; i < flat.faces.size(); ++i) {
             const Index f = flat.faces[i];
             const auto row = flat.surface.triangles.row(static_cast<Eigen::Index>(i));
             layout.part[f] = static_cast<Index>(k);
             if (!flat.one_to_one) layout.crossing.push_back(f);
             for (int c = 0; c < 3; ++c) {
-                layout.triangles(f, c) = flat.original[row[c]];
-                layout.uv.row(3 * static_cast<Eigen::Index>(f) + c) = places[k].row(row[c]);
+                const Index v = row[is_mirrored ? 2 - c : c];
+                layout.triangles(f, c) = flat.original[v];
+                layout.uv.row(3 * static_cast<Eigen::Index>(f) + c) = places[k].row(v);
             }
-            if (!is_turn_of(layout.triangles, triangles, f)) layout.reoriented.push_back(f);
+            const bool is_turned = !is_turn_of(layout.triangles, triangles, f);
+            if (is_turned) layout.turned.push_back(f);
+            if (is_turned != is_mirrored) layout.reoriented.push_back(f);
         }
         layout.parts.push_back(
             {flat.kind, std::move(flat.faces), std::move(flat.loops), off_round(flat, places[k]), 0.0});
     }
     std::ranges::sort(layout.reoriented);
+    std::ranges::sort(layout.turned);
     std::ranges::sort(layout.crossing);
     place_left_out(mesh.left_out, layout);
     return layout;

@@ -17,7 +17,8 @@ struct PartsLayout {
     PlanarPoints uv;          ///< (3F, 2) in [0, 1]^2, or in the places of the parts
     std::vector<Index> part;  ///< (F); -1: a face in no part: it is degenerate, or doubles another face
     std::vector<PartReport> parts;
-    std::vector<Index> reoriented;  ///< faces that were turned
+    std::vector<Index> reoriented;  ///< faces that were turned to the orientation of the others
+    std::vector<Index> turned;      ///< faces whose corners run backwards: `reoriented` or in a mirrored part, not both
     Index overlaps = 0;             ///< number of parts whose boundary crosses itself
     std::vector<Index> crossing;    ///< faces of these parts
     double slit_length = 0.0, dart_length = 0.0;
@@ -36,7 +37,8 @@ struct FlatMesh {
 };
 
 /// @param places (V, 2) of each part's vertices, the UVs of the layout
-PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places);
+/// @param mirrored of each part 1 if it lies there with its back to the front; empty: no part does
+PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places, const std::vector<char>& mirrored = {});
 
 /// (3F, 2) of the input's corners, in their order.
 PlanarPoints uv_of_input(const PartsLayout& layout, const Triangles& input);

@@ -2,7 +2,7 @@
 
 #include "core/errors.h"
 #include "execution/side_by_side.h"
-#include "parts/packing.h"
+#include "parts/tile_packing.h"
 
 #include <algorithm>
 #include <array>
@@ -41,14 +41,6 @@ double rim_moved(const FlatPart& flat, const PlanarPoints& from, const PlanarPoi
     return most;
 }
 
-IslandPacking shrunk(IslandPacking packing, double factor)
-{
-    for (IslandPlace& place : packing.places) place.offset *= factor;
-    packing.scale *= factor;
-    packing.margin *= factor;
-    return packing;
-}
-
 /// The largest number of six digits that is not above this one.
 double rounded_down(double number)
 {
@@ -63,41 +55,50 @@ std::string in_digits(double number)
     return text.data();
 }
 
-[[noreturn]] void throw_too_dense(const WantedScale& wanted, double largest)
+[[noreturn]] void throw_too_dense(const WantedScale& wanted, double largest, int tiles)
 {
-    throw InputError("a density of " + in_digits(wanted.density) +
-                     " pixels per unit does not fit into the square: at most " +
-                     in_digits(rounded_down(wanted.density * largest / wanted.scale)) + " does");
+    const std::string where = tiles == 1 ? "the square" : std::to_string(tiles) + " tiles";
+    throw InputError("a density of " + in_digits(wanted.density) + " pixels per unit does not fit into " + where +
+                     ": at most " + in_digits(rounded_down(wanted.density * largest / wanted.scale)) + " does");
 }
 
 /// At the wanted scale the margin between parts stays, if they leave room for it.
-IslandPacking pack_outlines(const std::vector<Outline>& outlines, const std::optional<WantedScale>& wanted)
+TilePacking pack_outlines(const std::vector<Outline>& outlines, const PackOptions& options)
 {
     const double room = margin + 2.0 * rim_slack;
-    IslandPacking largest = pack_islands(outlines, room);
-    if (!wanted) return largest;
-    const double factor = wanted->scale / largest.scale;
-    if (factor > 1.0) throw_too_dense(*wanted, largest.scale);
-    if (const IslandPacking wider = pack_islands(outlines, room / factor); wider.scale >= wanted->scale)
-        return shrunk(wider, wanted->scale / wider.scale);
+    if (!options.wanted) return pack_on_tiles(outlines, room, options.tiles);
+    const WantedScale& wanted = *options.wanted;
+    int tiles = options.tiles > 0 ? options.tiles : tiles_for(outlines, room, wanted.scale);
+    TilePacking largest = pack_on_tiles(outlines, room, tiles);
+    while (options.tiles == 0 && largest.scale < wanted.scale && tiles < most_tiles)
+        largest = pack_on_tiles(outlines, room, ++tiles);
+    const double factor = wanted.scale / largest.scale;
+    if (factor > 1.0) throw_too_dense(wanted, largest.scale, tiles);
+    if (const TilePacking wider = pack_on_tiles(outlines, room / factor, tiles); wider.scale >= wanted.scale)
+        return shrunk(wider, wanted.scale / wider.scale);
     return shrunk(std::move(largest), factor);
 }
 
-}  // namespace
-
-PackedParts pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context,
-                       const std::optional<WantedScale>& wanted)
+/// Packs the parts without twins.
+void pack_apart(std::vector<FlatPart>& flats, const PackOptions& options, PackedParts& packed,
+                ExecutionContext& context)
 {
-    PackedParts packed{std::vector<PlanarPoints>(flats.size()), std::vector<char>(flats.size(), 0)};
+    std::vector<std::size_t> alone;
+    for (std::size_t k = 0; k < flats.size(); ++k)
+        if (!packed.twins[k]) alone.push_back(k);
     std::vector<PlanarPoints>& places = packed.places;
+    std::vector<int> tile;
     bool again = true;
     for (int round = 1; again; ++round) {
         std::vector<Outline> outlines;
-        for (const FlatPart& flat : flats) outlines.push_back(outline_of(flat));
-        const IslandPacking packing = pack_outlines(outlines, wanted);
+        for (const std::size_t k : alone) outlines.push_back(outline_of(flats[k]));
+        const TilePacking packing = pack_outlines(outlines, options);
+        tile = packing.tile;
         std::vector<char> outgrown(flats.size(), 0);
-        side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
-            const PlanarPoints before = place_island(flats[k].points, packing.places[k], packing.scale);
+        side_by_side(alone.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
+            const std::size_t k = alone[i];
+            const PlanarPoints before =
+                place_island(flats[k].points, packing.places[i], packing.scale).rowwise() + tile_corner(tile[i]);
             const PartKind kind = flats[k].kind;
             places[k] = before;
             repair_flips(flats[k], places[k], own);
@@ -118,10 +119,44 @@ PackedParts pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionConte
         });
         again = std::ranges::count(outgrown, 1) > 0;
     }
-    side_by_side(flats.size(), threads, context, [&](std::size_t k, ExecutionContext&) {
-        places[k] = places[k].cwiseMax(0.0).cwiseMin(1.0);
+    side_by_side(alone.size(), options.threads, context, [&](std::size_t i, ExecutionContext&) {
+        const std::size_t k = alone[i];
+        const Eigen::RowVector2d corner = tile_corner(tile[i]);
+        places[k] = (places[k].rowwise() - corner).cwiseMax(0.0).cwiseMin(1.0).rowwise() + corner;
         if (!loops_apart(flats[k], places[k])) flats[k].one_to_one = false;
     });
+    packed.tiles = tile.empty() ? 1 : 1 + *std::ranges::max_element(tile);
+}
+
+/// Lays the twins on their parts. @return whether all lie as they should; the others are no twins any more
+bool lay_twins(std::vector<FlatPart>& flats, PackedParts& packed)
+{
+    bool all = true;
+    for (std::size_t k = 0; k < flats.size(); ++k) {
+        if (!packed.twins[k]) continue;
+        const Twin& twin = *packed.twins[k];
+        packed.places[k] = packed.places[twin.of](twin.vertex, Eigen::all);
+        if (flats[twin.of].one_to_one && lies_as_twin(flats[k], twin, packed.places[k])) continue;
+        packed.twins[k].reset();
+        all = false;
+    }
+    for (std::size_t k = 0; all && k < flats.size(); ++k) {
+        if (!packed.twins[k]) continue;
+        flats[k].kind = flats[packed.twins[k]->of].kind;
+        packed.anew[k] = packed.anew[packed.twins[k]->of];
+    }
+    return all;
+}
+
+}  // namespace
+
+PackedParts pack_parts(std::vector<FlatPart>& flats, const PackOptions& options, ExecutionContext& context)
+{
+    PackedParts packed{std::vector<PlanarPoints>(flats.size()), std::vector<char>(flats.size(), 0),
+                       std::vector<std::optional<Twin>>(flats.size())};
+    if (!options.twins.empty()) packed.twins = options.twins;
+    do pack_apart(flats, options, packed, context);
+    while (!lay_twins(flats, packed));
     return packed;
 }
 

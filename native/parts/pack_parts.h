@@ -1,8 +1,9 @@
-// Flat parts packed into the unit square.
+// Flat parts packed into the unit square, or onto tiles.
 #pragma once
 
 #include "execution/execution.h"
 #include "parts/flat_part.h"
+#include "parts/twins.h"
 
 #include <optional>
 #include <vector>
@@ -15,17 +16,25 @@ struct WantedScale {
     double density = 1.0;  ///< texel density at this scale, for messages
 };
 
-struct PackedParts {
-    std::vector<PlanarPoints> places;  ///< of each part, its points (V, 2) in [0, 1]^2
-    std::vector<char> anew;            ///< 1: the part overlapped itself after packing, and was drawn anew, less even
+struct PackOptions {
+    std::optional<WantedScale> wanted = {};       ///< with it the parts lie together at the corner of the square
+    int tiles = 1;                                ///< tiles (tile_packing.h); 0: as many as the wanted scale needs
+    std::vector<std::optional<Twin>> twins = {};  ///< of parts, if they shall lie on each other; empty: no part shall
+    int threads = 0;
 };
 
-/// Packs parts into the unit square, then turns flipped faces back there. If such a repair changes an outline, all
-/// parts are packed again. In the last round a repair may not change an outline.
+struct PackedParts {
+    std::vector<PlanarPoints> places;        ///< of each part, its points (V, 2) in [0, 1]^2, or on its tile
+    std::vector<char> anew;                  ///< 1: the part overlapped itself there, and was drawn anew, less even
+    std::vector<std::optional<Twin>> twins;  ///< of each part, if it lies on another part
+    int tiles = 1;                           ///< tiles with parts: the first ones
+};
+
+/// Packs parts into the unit square or onto tiles, then turns flipped faces back there. If a repair changes an outline,
+/// all parts are packed again. In the last round a repair may not change an outline. A twin that would not lie as it
+/// should there is packed by itself.
 /// @param flats their kinds and points may change
-/// @param wanted if given, the parts lie together at the corner of the square
 /// @throws InputError the parts do not fit at the wanted scale; SolverError, Cancelled
-PackedParts pack_parts(std::vector<FlatPart>& flats, int threads, ExecutionContext& context,
-                       const std::optional<WantedScale>& wanted = {});
+PackedParts pack_parts(std::vector<FlatPart>& flats, const PackOptions& options, ExecutionContext& context);
 
 }  // namespace koebe

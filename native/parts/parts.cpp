@@ -10,6 +10,7 @@
 #include "part_maps/part_mesh.h"
 #include "parts/flat_mesh.h"
 #include "parts/pack_parts.h"
+#include "parts/tile_packing.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
@@ -99,7 +100,7 @@ void report_density(const PartsLayout& layout, const PlanarPoints& uv, const std
 /// The length of edges whose faces do not meet in the UVs. An edge of more than two faces counts for each further face.
 double seam_length(const PartsLayout& layout, const std::vector<Index>& faces)
 {
-    using Side = std::array<double, 6>;  // the edge's vertices and their UVs
+    using Side = std::array<double, 7>;  // the edge's vertices, their UVs, and the part: twins may meet in their fold
     std::vector<Side> sides;
     sides.reserve(3 * faces.size());
     for (const Index f : faces)
@@ -108,7 +109,7 @@ double seam_length(const PartsLayout& layout, const std::vector<Index>& faces)
             if (layout.triangles.data()[a] > layout.triangles.data()[b]) std::swap(a, b);
             sides.push_back({static_cast<double>(layout.triangles.data()[a]),
                              static_cast<double>(layout.triangles.data()[b]), layout.uv(a, 0), layout.uv(a, 1),
-                             layout.uv(b, 0), layout.uv(b, 1)});
+                             layout.uv(b, 0), layout.uv(b, 1), static_cast<double>(layout.part[f])});
         }
     std::sort(sides.begin(), sides.end());
     double length = 0.0;
@@ -158,20 +159,31 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     if (options.density && (!(*options.density > 0.0) || !std::isfinite(*options.density)))
         throw InputError("the density must be positive");
     if (options.pixels < 1) throw InputError("the texture needs at least one pixel");
+    if (options.tiles < 0 || options.tiles > most_tiles) throw InputError("tiles must be from 0 to 100");
+    if (options.tiles == 0 && !options.density) throw InputError("as many tiles as needed (0) needs a density");
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
     FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
     const double unit = length_of_unit();
     context.begin_stage("pack", 0.9, 1.0);
-    const PackedParts packed = pack_parts(mesh.parts, options.threads, context, wanted_scale(mesh, options, unit));
+    PackOptions packing{.tiles = options.tiles, .threads = options.threads};
+    if (options.stack) packing.twins = find_twins(mesh.parts);
+    packing.wanted = wanted_scale(mesh, options, unit);
+    const PackedParts packed = pack_parts(mesh.parts, packing, context);
     std::vector<Index> anew;  // faces
     for (std::size_t k = 0; k < mesh.parts.size(); ++k)
         if (packed.anew[k]) anew.insert(anew.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());
     std::ranges::sort(anew);
-    PartsLayout layout = layout_at(std::move(mesh), packed.places);
-    const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report describes it
-
     PartsResult result;
+    std::vector<char> mirrored(mesh.parts.size(), 0);
+    for (std::size_t k = 0; k < packed.twins.size(); ++k) {
+        if (!packed.twins[k]) continue;
+        mirrored[k] = packed.twins[k]->mirrored;
+        result.stacked.push_back(
+            {static_cast<Index>(k), static_cast<Index>(packed.twins[k]->of), packed.twins[k]->mirrored});
+    }
+    PartsLayout layout = layout_at(std::move(mesh), packed.places, mirrored);
+    const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report describes it
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
     std::vector<Index> mapped, left_out;
@@ -179,13 +191,16 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
         (layout.part[f] >= 0 ? mapped : left_out).push_back(static_cast<Index>(f));
     result.uv = uv_of_input(layout, triangles);
     result.distortion = {distortion_of_parts(layout, uv, mapped),
-                         judge_corners(vertices, triangles, result.uv, layout.reoriented, left_out)};
-    result.turned = layout.reoriented;
+                         judge_corners(vertices, triangles, result.uv, layout.turned, left_out)};
+    result.turned = layout.turned;
     result.parts = std::move(layout.parts);
     for (PartReport& part : result.parts)
         part.angle_error_deg = distortion_of_parts(layout, uv, part.faces).angle_error_deg.mean;
     report_density(layout, uv, mapped, options.pixels / unit, result);
-    for (const Index f : mapped) result.coverage += uv_area(uv, f);
+    for (const Index f : mapped)
+        if (!packed.twins[static_cast<std::size_t>(layout.part[f])]) result.coverage += uv_area(uv, f);
+    result.tiles = packed.tiles;
+    result.coverage /= packed.tiles;
     result.cut_length = seam_length(layout, mapped);
     result.slit_length = layout.slit_length;
     result.dart_length = layout.dart_length;

@@ -44,12 +44,18 @@ struct PartsOptions : MapOptions {
     /// the parts fill the square.
     std::optional<double> density = {};
     int pixels = 2048;  ///< side of the texture; `density` counts them
-    int threads = 0;    ///< most threads; 0: one for each core. The result is the same for any number
+    /// UDIM tiles: parts lie on the squares at u = k mod 10, v = k / 10 for k from 0 to tiles - 1, with one texel
+    /// density. 0: as many tiles as `density` needs, at most 100.
+    int tiles = 1;
+    /// true: parts that are copies or mirror images of another part lie on it (twins.h).
+    bool stack = false;
+    int threads = 0;  ///< most threads; 0: one for each core. The result is the same for any number
 
     template <typename Visit>
     static void each_option(Visit&& visit)
     {
-        KOEBE_VISIT(PartsOptions, price, even, loops, importance, darts, density, pixels, show, round_cuts)
+        KOEBE_VISIT(PartsOptions, price, even, loops, importance, darts, density, pixels, tiles, stack, show,
+                    round_cuts)
         MapOptions::each_option(visit);
         KOEBE_VISIT(PartsOptions, cut, polygon, slits)
     }
@@ -65,20 +71,29 @@ struct PartReport {
     double angle_error_deg = 0.0;  ///< mean
 };
 
-/// The UVs lie in [0, 1]^2. `converged` is true if all parts are one to one, and lose little area as stored
+/// A part that lies on another part.
+struct StackedPart {
+    Index part = 0, onto = 0;
+    bool mirrored = false;  ///< it lies there with its back to the front: its faces are turned over as intended
+};
+
+/// The UVs lie in [0, 1]^2, or on tiles. Faces of mirrored parts are turned over in them, and count in `flipped` only
+/// if they are not. `converged` is true if all parts are one to one, and lose little area as stored
 /// (PartsOptions::most_lost).
 struct PartsResult : CornerMapReport {
     std::vector<Index> part;  ///< (F) part of each face; -1: in no part: it is degenerate, or doubles another face
     std::vector<PartReport> parts;
-    double cut_length = 0.0;   ///< length of cuts, slits and darts, over the root of the area
-    double slit_length = 0.0;  ///< length of the slits alone
-    double dart_length = 0.0;  ///< length of the darts alone
+    std::vector<StackedPart> stacked;  ///< no part lies on a part of this list
+    int tiles = 1;                     ///< tiles that have parts
+    double cut_length = 0.0;           ///< length of cuts, slits and darts, over the root of the area
+    double slit_length = 0.0;          ///< length of the slits alone
+    double dart_length = 0.0;          ///< length of the darts alone
     Index darts = 0;
     int handles_cut = 0;
     double density_ratio_5_95 = 1.0;  ///< texel density at 95 % of the area, over that at 5 %
     double density = 0.0;             ///< texel density that was reached, as in PartsOptions::density
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
-    double coverage = 0.0;            ///< share of the unit square that the faces cover, as stored
+    double coverage = 0.0;            ///< share of the unit square, or of the tiles, that the faces cover, as stored
     double maps = 0.0;                ///< number of faces mapped, over the faces of the surface
 };
 
@@ -91,8 +106,8 @@ struct PartsResult : CornerMapReport {
 ///
 /// @param vertices (V, 3) @param triangles (F, 3) never changed
 /// @return every face is in one part; every part is one to one, except for the faces listed in `flipped`
-/// @throws InputError, also for a density at which the parts do not fit into the square: it names the largest density
-/// that fits; TopologyError, SolverError, Cancelled
+/// @throws InputError, also for a density at which the parts do not fit into the square or the tiles: it names the
+/// largest density that fits; TopologyError, SolverError, Cancelled
 KOEBE_API PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                                ExecutionContext& context);
 

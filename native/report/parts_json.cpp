@@ -14,7 +14,12 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                          {"angle_error_deg", part.angle_error_deg},
                          {"loops", part.loops},
                          {"off_round", part.off_round}});
+    Json stacked = Json::array();
+    for (const StackedPart& one : result.stacked)
+        stacked.push_back({{"part", one.part}, {"onto", one.onto}, {"mirrored", one.mirrored}});
     Json report = report_json(result, {{"parts", std::move(parts)},
+                                       {"stacked", std::move(stacked)},
+                                       {"tiles", result.tiles},
                                        {"converged", result.converged},
                                        {"cut_length", result.cut_length},
                                        {"slit_length", result.slit_length},

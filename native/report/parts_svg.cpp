@@ -1,19 +1,35 @@
 #include "report/parts_svg.h"
 
+#include "parts/tile_packing.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace koebe {
 namespace {
 
-constexpr double picture_size = 10000.0;  // picture units
+constexpr double picture_size = 10000.0;  // picture units of a tile
 
-std::string pixels(double t) { return std::to_string(std::lround(picture_size * std::clamp(t, 0.0, 1.0))); }
+std::string pixels(double t) { return std::to_string(std::lround(picture_size * t)); }
+
+/// Frames and UDIM numbers.
+std::string tiles_svg(int tiles, int rows)
+{
+    std::string svg = "<g fill=\"none\" stroke=\"#8a93a6\" stroke-width=\"12\" font-size=\"400\">\n";
+    for (int k = 0; k < tiles; ++k) {
+        const std::string x = pixels(k % tiles_in_row), y = pixels(rows - 1 - k / tiles_in_row), side = pixels(1.0);
+        svg += "<rect x=\"" + x + "\" y=\"" + y + "\" width=\"" + side + "\" height=\"" + side + "\"/>\n";
+        svg += "<text x=\"" + x + "\" y=\"" + y + "\" dx=\"100\" dy=\"450\" fill=\"#33415c\" stroke=\"none\">" +
+               std::to_string(1001 + k) + "</text>\n";
+    }
+    return svg + "</g>\n";
+}
 
 }  // namespace
 
-std::string parts_svg(const PlanarPoints& corner_uv, const std::vector<Index>& part)
+std::string parts_svg(const PlanarPoints& corner_uv, const std::vector<Index>& part, int tiles)
 {
+    const int columns = std::min(tiles, tiles_in_row), rows = (tiles + tiles_in_row - 1) / tiles_in_row;
     Index count = 0;
     for (const Index p : part) count = std::max(count, p + 1);
     std::vector<std::string> paths(static_cast<std::size_t>(count));
@@ -22,21 +38,22 @@ std::string parts_svg(const PlanarPoints& corner_uv, const std::vector<Index>& p
         std::string& path = paths[static_cast<std::size_t>(part[f])];
         for (int k = 0; k < 3; ++k) {
             const auto corner = corner_uv.row(3 * static_cast<Eigen::Index>(f) + k);
-            path += (k == 0 ? "M" : "L") + pixels(corner[0]) + " " + pixels(1.0 - corner[1]);
+            path += (k == 0 ? "M" : "L") + pixels(corner[0]) + " " + pixels(rows - corner[1]);
         }
         path += "z";
     }
-    std::string svg =
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 10000 10000\" width=\"1000\" height=\"1000\">\n"
-        "<title>" +
-        std::to_string(count) +
-        " parts</title>\n<rect width=\"10000\" height=\"10000\" fill=\"#ffffff\"/>\n"
-        "<g stroke=\"#33415c\" stroke-width=\"3\" stroke-linejoin=\"round\">\n";
+    const std::string width = pixels(columns), height = pixels(rows);
+    std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height +
+                      "\" width=\"" + std::to_string(1000 * columns) + "\" height=\"" + std::to_string(1000 * rows) +
+                      "\">\n<title>" + std::to_string(count) + " parts</title>\n<rect width=\"" + width +
+                      "\" height=\"" + height +
+                      "\" fill=\"#ffffff\"/>\n"
+                      "<g stroke=\"#33415c\" stroke-width=\"3\" stroke-linejoin=\"round\">\n";
     for (std::size_t k = 0; k < paths.size(); ++k) {
         const int hue = static_cast<int>(std::lround(137.508 * static_cast<double>(k))) % 360;  // the golden angle
         svg += "<path fill=\"hsl(" + std::to_string(hue) + ",60%,70%)\" d=\"" + paths[k] + "\"/>\n";
     }
-    return svg + "</g>\n</svg>\n";
+    return svg + "</g>\n" + (tiles > 1 ? tiles_svg(tiles, rows) : "") + "</svg>\n";
 }
 
 }  // namespace koebe

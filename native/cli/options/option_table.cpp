@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <utility>
 
 namespace koebe::cli {
@@ -96,7 +97,9 @@ CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value)
 {
     CLI::Option* const option = app.add_option(row.flag(), value, std::string(row.does));
-    option->check(whole_number(static_cast<int>(std::max(row.range.min, 0.0))));
+    constexpr double largest = std::numeric_limits<int>::max();
+    option->check(whole_number(static_cast<int>(std::max(row.range.min, 0.0)),
+                               static_cast<int>(std::min(row.range.max, largest))));
     if (row.kind != "vertex") option->capture_default_str();
     return finished(option, row);
 }

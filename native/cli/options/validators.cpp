@@ -20,12 +20,14 @@ bool parse(const std::string& word, Number& number)
 
 }  // namespace
 
-CLI::Validator whole_number(int least)
+CLI::Validator whole_number(int least, int most)
 {
-    const auto check = [least](const std::string& word) -> std::string {
+    const auto check = [least, most](const std::string& word) -> std::string {
         int number = 0;
-        if (parse(word, number) && number >= least) return {};
-        return "must be a whole number from " + std::to_string(least) + " on; got '" + word + "'";
+        if (parse(word, number) && number >= least && number <= most) return {};
+        const std::string until =
+            most < std::numeric_limits<int>::max() ? " to " + std::to_string(most) : std::string(" on");
+        return "must be a whole number from " + std::to_string(least) + until + "; got '" + word + "'";
     };
     return {check, "", "whole_number"};
 }

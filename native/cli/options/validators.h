@@ -4,13 +4,14 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace koebe::cli {
 
-/// A whole number from `least` up, within a 32-bit int.
-CLI::Validator whole_number(int least);
+/// A whole number from `least` to `most`.
+CLI::Validator whole_number(int least, int most = std::numeric_limits<int>::max());
 
 /// From `min` to `max`, above `above`, below `below`: the keys in the table of options, sorted.
 struct NumberRange {

@@ -19,17 +19,20 @@ if TYPE_CHECKING:
 class PartsResult(MapReport):
     """The result of `parts`.
 
-    uv               (F, 3, 2) float64 in [0, 1]^2: of each corner of each triangle, read-only
+    uv               (F, 3, 2) float64 in [0, 1]^2, or on tiles: of each corner of each triangle, read-only
     part             (F,) int32: the part of each triangle; -1 for triangles in no part, degenerate or duplicates
     parts            for each part a dict: kind ('disk' or 'tube'), faces, angle_error_deg (mean), loops (lists of
                      vertices), off_round (for each loop its largest distance from the disk's circle, or from the end
                      of a tube's rectangle, over the circle's radius, or over the length of a turn)
+    stacked          for each part that lies on another part a dict: part, onto (their numbers), mirrored (it lies
+                     there with its back to the front: its triangles are turned over in the UVs, as intended)
+    tiles            number of tiles with parts
     cut_length, slit_length    of all cuts, and of the tubes' slits among them, over the square root of the area
     handles_cut      number of handles cut
     density_ratio_5_95    texel density (a length over a length) at 95 % of the area over the density at 5 %
     density          texel density: pixels per unit of the mesh (median over the area) on a texture of `pixels`
     even_area        share of the area whose texel density lies within the best factor 3
-    coverage         share of the unit square that the faces cover, as stored
+    coverage         share of the unit square, or of the tiles, that the faces cover, as stored
     seconds          in all
     maps             faces mapped in all maps, in faces of the mesh
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
@@ -40,6 +43,8 @@ class PartsResult(MapReport):
     uv: np.ndarray
     part: np.ndarray
     parts: list[dict[str, Any]]
+    stacked: list[dict[str, Any]]
+    tiles: int
     cut_length: float
     slit_length: float
     handles_cut: int
@@ -84,7 +89,7 @@ class PartsResult(MapReport):
 
 @takes("parts", PartsOptions, polygon=None, slits=None, progress=None, cancel=None)
 def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
-    """Cut a surface in its UVs only into disks and tubes of even texel density, packed into the unit square.
+    """Cut a surface in its UVs only into disks and tubes of even texel density, packed into the unit square or onto tiles.
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
     {options}

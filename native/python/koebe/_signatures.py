@@ -96,6 +96,8 @@ class PartsOptions(MapOptions, RunOptions, total=False):
     darts: float
     density: float | None
     pixels: int
+    tiles: int
+    stack: bool
     importance: Any
     show: Any
     price: float | None
