@@ -16,13 +16,13 @@ from .surface import Island, Surface
 from .wording import counted, explain, in_mesh
 
 SPREAD = ("circles", "voronoi")  # patterns that are even on the surface
-LATTICES = ("hexagons", "triangles", "diamonds", "stripes")  # patterns that are even in the map
+LATTICES = ("hexagons", "triangles", "diamonds", "stripes", "truchet")  # patterns that are even in the map
 DRAWN = ("file", "object")  # patterns that an artist has drawn
 CELLS = 12.0  # of the pattern, along the root of the area, if no size is given
 RISE = 0.08  # of a cell: the height, if none is given
 HIGHEST = 1e30  # that the solver takes
 REASONS = {
-    "closed": "the surface is closed: set Shape to Parts or Torus, or delete a face",
+    "closed": "the surface is closed: set Shape to Sphere, Parts or Torus, or delete a face",
     "genus": "the surface has a handle: set Shape to Parts, or to Torus if it is a torus",
 }
 
@@ -43,7 +43,7 @@ def is_used(name: str, options: Options) -> bool:
         "drawing": options.pattern == "object",
         "height": options.way == "raise",
         "bridge": not drawn,
-        "seed": options.pattern in SPREAD,
+        "seed": options.pattern in (*SPREAD, "truchet"),
         "turn": drawn,
         "repeats": (options.shape == "ring" and (drawn or lattice)) or (options.shape == "torus" and drawn),
     }.get(name, True)

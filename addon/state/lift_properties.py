@@ -18,6 +18,7 @@ PATTERNS = [
     ("triangles", "Triangles", "A lattice of triangles that is even in the map"),
     ("diamonds", "Diamonds", "A lattice of diamonds that is even in the map"),
     ("stripes", "Stripes", "Stripes that are even in the map"),
+    ("truchet", "Truchet", "Tiles of quarter circles, turned at random, that are even in the map"),
     ("file", "File", "The closed paths of an SVG file, or a PNG file whose white is raised"),
     ("object", "Curve or Text", "The closed curves of a curve object or text object of the scene"),
 ]
@@ -29,6 +30,7 @@ SHAPES = [
     ("disk", "Disk", "A surface with holes as a disk with round holes"),
     ("ring", "Cylinder", "A surface with two rims as a cylinder. The pattern goes on over the cut"),
     ("torus", "Torus", "A torus as a tile that repeats both ways. The pattern goes on over the cuts"),
+    ("sphere", "Sphere", "A closed surface without handles as a sphere, for circles, Voronoi cells and drawings"),
     ("parts", "Parts", "Any surface without a crowded edge, cut into parts. Outlines that meet a cut are left out"),
 ]
 MOST = 2**31 - 1

@@ -1,7 +1,7 @@
 #include "lift/even_sites.h"
 
 #include "core/errors.h"
-#include "transfer/nearest_triangle.h"
+#include "transfer/nearest_triangles.h"
 
 #include <Eigen/Geometry>
 

@@ -12,7 +12,7 @@
 #include "lift/pattern_file.h"
 #include "lift/patterns.h"
 #include "lift/placed_drawing.h"
-#include "lift/relief.h"
+#include "lift/image_relief.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "lift/outline_places.h"
 
-#include "transfer/nearest_triangle.h"
+#include "transfer/nearest_triangles.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/polygon_triangulation.h"
-#include "lift/grey_image.h"
+#include "lift/png_image.h"
 #include "lift/lift.h"
 #include "lift/svg_drawing.h"
 

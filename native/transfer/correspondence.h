@@ -7,7 +7,7 @@
 #include "pipeline/result.h"
 #include "shape/domain_alignment.h"
 #include "transfer/landmark_map.h"
-#include "transfer/nearest_triangle.h"
+#include "transfer/nearest_triangles.h"
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "transfer/surface_point.h"
 
 #include "core/errors.h"
-#include "transfer/nearest_triangle.h"
+#include "transfer/nearest_triangles.h"
 
 #include <string>
 #include <utility>

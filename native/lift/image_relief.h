@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lift/flat_sheet.h"
-#include "lift/grey_image.h"
+#include "lift/png_image.h"
 
 #include <optional>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "lift/grey_image.h"
+#include "lift/png_image.h"
 
 #include "core/errors.h"
 

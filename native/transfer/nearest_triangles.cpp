@@ -1,4 +1,4 @@
-#include "transfer/nearest_triangle.h"
+#include "transfer/nearest_triangles.h"
 
 #include "core/silent_cgal.h"
 

@@ -1,4 +1,4 @@
-#include "lift/relief.h"
+#include "lift/image_relief.h"
 
 #include "core/errors.h"
 #include "lift/sphere_sheets.h"
