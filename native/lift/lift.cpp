@@ -7,12 +7,12 @@
 #include "execution/stopwatch.h"
 #include "lift/bent_mesh.h"
 #include "lift/flat_domain.h"
+#include "lift/image_relief.h"
 #include "lift/kept_sheet.h"
 #include "lift/meeting_faces.h"
 #include "lift/pattern_file.h"
 #include "lift/patterns.h"
 #include "lift/placed_drawing.h"
-#include "lift/image_relief.h"
 
 #include <algorithm>
 #include <array>

@@ -63,8 +63,8 @@ struct LiftResult : MapReport {
 /// tells how many. A mesh is bent over the surface as it is: its own faces are the result.
 ///
 /// Where a result is raised or thick, distant places of it may meet. A warning tells the faces of the surface there.
-/// @param pattern a built-in one (patterns.h), or the name of an SVG (placed_drawing.h), PNG (image_relief.h) or OBJ file
-/// (bent_mesh.h)
+/// @param pattern a built-in one (patterns.h), or the name of an SVG (placed_drawing.h), PNG (image_relief.h) or OBJ
+/// file (bent_mesh.h)
 /// @throws FileError; InputError, TopologyError, SolverError, Cancelled: as the map, and where the result would not be
 /// as promised: one hole for each outline, no flipped face, a closed solid
 KOEBE_API LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,

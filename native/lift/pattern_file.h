@@ -2,8 +2,8 @@
 #pragma once
 
 #include "io/polygon_triangulation.h"
-#include "lift/png_image.h"
 #include "lift/lift.h"
+#include "lift/png_image.h"
 #include "lift/svg_drawing.h"
 
 #include <optional>

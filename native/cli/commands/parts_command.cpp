@@ -14,7 +14,9 @@ namespace {
 int run_parts(const CornerMapRequest<PartsOptions>& request)
 {
     auto kind = piece_map_kind(request, request.chosen, parts_of, &PartsResult::parts);
-    kind.draw = [](const MeshInput&, const PartsResult& result) { return parts_svg(result.uv, result.part, result.tiles); };
+    kind.draw = [](const MeshInput&, const PartsResult& result) {
+        return parts_svg(result.uv, result.part, result.tiles);
+    };
     kind.first_words = [](const PartsResult& result) {
         return counted(result.parts.size(), "part") + ", cuts " + formatted("%.2f", result.cut_length) +
                " times the root of the area, texel density within a factor " +

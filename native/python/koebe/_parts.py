@@ -89,7 +89,7 @@ class PartsResult(MapReport):
 
 @takes("parts", PartsOptions, polygon=None, slits=None, progress=None, cancel=None)
 def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
-    """Cut a surface in its UVs only into disks and tubes of even texel density, packed into the unit square or onto tiles.
+    """Cut a surface in its UVs only into disks and tubes of even texel density, packed into a square or onto tiles.
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
     {options}
