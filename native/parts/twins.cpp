@@ -6,6 +6,7 @@
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace {
 constexpr double most_off = 2e-4;            // in roots of the whole's area,
 constexpr double most_off_of_extent = 1e-3;  // and in the part's own extent
 constexpr double same_area = 1e-3;           // of the area: areas of polygons depend on their diagonals
-constexpr double same_size = 0.05;           // of the wanted sizes at a vertex
+constexpr double size_tolerance = 0.05;      // of the wanted sizes at a vertex
 constexpr double worse_angles = 0.1;         // degrees,
 constexpr double worse_share = 1.05;         // and times the error
 constexpr std::size_t most_others = 24;      // parts to which a part is compared
@@ -159,7 +160,7 @@ bool have_same_sizes(const FlatPart& part, const FlatPart& other, const std::vec
 {
     const VectorXd own = sizes_at_vertices(part), others = sizes_at_vertices(other);
     if (own.size() == 0 || others.size() == 0) return own.size() == others.size();
-    return ((others(vertex).array() / own.array()).log().abs() <= same_size).all();
+    return ((others(vertex).array() / own.array()).log().abs() <= size_tolerance).all();
 }
 
 /// The points as they lie on the twin's front.

@@ -44,7 +44,7 @@ TEST(PackParts, a_part_that_overlaps_itself_is_drawn_anew_and_says_so)
     for (const double turns : {0.9, 1.2}) {
         std::vector<FlatPart> flats = {strip(2.0 * std::numbers::pi * turns)};
         ExecutionContext context;
-        const PackedParts packed = pack_parts(flats, 1, context);
+        const PackedParts packed = pack_parts(flats, {.threads = 1}, context);
         EXPECT_EQ(packed.anew[0] != 0, turns > 1.0);
         EXPECT_TRUE(flats[0].one_to_one);
         EXPECT_TRUE(loops_apart(flats[0], packed.places[0]));
