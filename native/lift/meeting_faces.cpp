@@ -28,7 +28,7 @@ SpaceKernel::Triangle_3 triangle_at(const Vertices& vertices, const Triangles& t
 
 using FaceCorners = std::array<Eigen::Vector3d, 3>;
 
-FaceCorners corners_of(const Vertices& vertices, const Triangles& triangles, Index f)
+FaceCorners three_corners(const Vertices& vertices, const Triangles& triangles, Index f)
 {
     return {vertices.row(triangles(f, 0)), vertices.row(triangles(f, 1)), vertices.row(triangles(f, 2))};
 }
@@ -82,7 +82,7 @@ MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles)
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& first, const FaceBox& second) {
         const Index f = first.info(), g = second.info();
         if (neighbours(triangles, f, g)) return;
-        const FaceCorners own = corners_of(vertices, triangles, f), other = corners_of(vertices, triangles, g);
+        const FaceCorners own = three_corners(vertices, triangles, f), other = three_corners(vertices, triangles, g);
         if (clearly_apart(own, other) || clearly_apart(other, own) ||
             !CGAL::do_intersect(triangle_at(vertices, triangles, f), triangle_at(vertices, triangles, g)))
             return;
