@@ -9,6 +9,7 @@
 #include "tiles/tile_map.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +40,11 @@ SphereSheets sphere_domain(const Vertices& vertices, const Triangles& triangles,
     SphereOptions chosen;
     chosen.most_lost = 1.0;  // judged below
     SphereResult map = sphere_map(vertices, triangles, chosen, context);
+    std::vector<Index> flipped;
+    std::ranges::set_difference(map.flipped_on_sphere, map.below_sphere_resolution, std::back_inserter(flipped));
+    if (!flipped.empty())
+        throw SolverError("the map to the sphere is not one to one at these faces: take --shape parts",
+                          ElementKind::faces, std::move(flipped));
     SphereSheets sheets = sphere_sheets(vertices, surface.triangles, map.points,
                                         options.around < 0 ? std::nullopt : std::optional<Index>(options.around));
     std::erase_if(map.warnings, [](const Warning& warning) { return warning.kind == WarningKind::flipped; });

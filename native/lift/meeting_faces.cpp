@@ -3,6 +3,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
 #include <CGAL/box_intersection_d.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -23,6 +24,33 @@ SpaceKernel::Triangle_3 triangle_at(const Vertices& vertices, const Triangles& t
         return SpaceKernel::Point_3(vertices(v, 0), vertices(v, 1), vertices(v, 2));
     };
     return {corner(0), corner(1), corner(2)};
+}
+
+using FaceCorners = std::array<Eigen::Vector3d, 3>;
+
+FaceCorners three_corners(const Vertices& vertices, const Triangles& triangles, Index f)
+{
+    return {vertices.row(triangles(f, 0)), vertices.row(triangles(f, 1)), vertices.row(triangles(f, 2))};
+}
+
+/// Whether a triangle's plane, or a plane upright on it along a side, has another triangle beyond it, by more than
+/// rounding can be. It spares most exact tests.
+bool clearly_apart(const FaceCorners& own, const FaceCorners& other)
+{
+    constexpr double rounding = 1e-13;  // of the product of the lengths
+    const Eigen::Vector3d normal = (own[1] - own[0]).cross(own[2] - own[0]);
+    const double spans = (own[1] - own[0]).norm() * (own[2] - own[0]).norm();
+    const auto beyond = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& way, double lengths) {
+        for (const Eigen::Vector3d& p : other)
+            if (!(way.dot(p - from) > rounding * lengths * (p - from).norm())) return false;
+        return true;
+    };
+    if (beyond(own[0], normal, spans) || beyond(own[0], -normal, spans)) return true;
+    for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d side = own[(k + 1) % 3] - own[k];
+        if (beyond(own[k], side.cross(normal), side.norm() * spans)) return true;
+    }
+    return false;
 }
 
 bool neighbours(const Triangles& triangles, Index f, Index g)
@@ -53,7 +81,9 @@ MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles)
     MeetingFaces meeting;
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& first, const FaceBox& second) {
         const Index f = first.info(), g = second.info();
-        if (neighbours(triangles, f, g) ||
+        if (neighbours(triangles, f, g)) return;
+        const FaceCorners own = three_corners(vertices, triangles, f), other = three_corners(vertices, triangles, g);
+        if (clearly_apart(own, other) || clearly_apart(other, own) ||
             !CGAL::do_intersect(triangle_at(vertices, triangles, f), triangle_at(vertices, triangles, g)))
             return;
         ++meeting.pairs;
