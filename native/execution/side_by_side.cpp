@@ -73,8 +73,8 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
                 const BesideOthers beside;
                 run(own, {});
             });
-        } catch (const std::system_error&) {
-            break;  // no more threads can start
+        } catch (const std::exception&) {
+            break;  // no more threads can start: too many, or no memory
         }
     std::exception_ptr cancelled;
     try {

@@ -209,3 +209,9 @@ def test_the_command_reads_a_drawing(tmp_path):
         assert run.returncode == code and run.stderr, (pattern, run.stderr)
         assert not (tmp_path / "no.obj").exists()
     assert (tmp_path / "logo.SVG").read_text() == svg(path(SQUARE))
+
+
+def test_a_file_that_is_not_there_is_an_error_of_files(tmp_path):
+    with pytest.raises(koebe.FileError, match="cannot read") as caught:
+        koebe.lift(*tube(), tmp_path / "no.svg", perforate=True, **RING)
+    assert isinstance(caught.value, OSError) and isinstance(caught.value, koebe.KoebeError)

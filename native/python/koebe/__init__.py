@@ -44,7 +44,7 @@ from ._sphere import SphereMap, sphere_map
 from ._surface import Surface
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
-from .errors import Cancelled, InputError, KoebeError, OptionError, SolverError, TopologyError
+from .errors import Cancelled, FileError, InputError, KoebeError, OptionError, SolverError, TopologyError
 
 __all__ = [
     "CIRCLE_TOLERANCE",
@@ -56,6 +56,7 @@ __all__ = [
     "DomainAlignment",
     "EvenDial",
     "Family",
+    "FileError",
     "FitResult",
     "FlattenResult",
     "InputError",

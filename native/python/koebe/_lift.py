@@ -84,9 +84,9 @@ def lift(
                  flat and whose z is height, bent over the surface as it is
     {options}
     progress, cancel    as for `uniformize`
-    Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. Where it
-    returns, each outline that is not left out has become one hole or one hill, no face is flipped, and a solid is
-    closed.
+    Raises InputError (OptionError for an option), FileError for a file that cannot be read, TopologyError, SolverError,
+    Cancelled, or MemoryError. Where it returns, each outline that is not left out has become one hole or one hill, no
+    face is flipped, and a solid is closed.
     """
     options, said = filled("lift", _koebe.LiftOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")

@@ -37,5 +37,9 @@ class SolverError(KoebeError):
     """A linear system could not be solved, or its solution is not finite."""
 
 
+class FileError(KoebeError, OSError):
+    """A file cannot be read, or is not of its kind."""
+
+
 class Cancelled(KoebeError):
     """The caller asked to stop."""
