@@ -73,9 +73,19 @@ def _row(entry: dict[str, Any]) -> Row:
     )  # fmt: skip
 
 
+def _table() -> list[dict[str, Any]]:
+    table: list[dict[str, Any]] = json.loads((PACKED if PACKED.exists() else SOURCE).read_text(encoding="utf-8"))
+    return table
+
+
+def ranges_of(of: str) -> dict[str, dict[str, Any]]:
+    """The ranges of a map's numbers, also of those that are no properties: min, max, above, below."""
+    return {entry["name"]: entry["range"] for entry in _table() if of in entry["maps"].split() and "range" in entry}
+
+
 def _rows() -> dict[str, Row]:
-    table = json.loads((PACKED if PACKED.exists() else SOURCE).read_text(encoding="utf-8"))
-    rows = [_row(entry) for entry in table if not {"blender", "batch"}.isdisjoint(entry.get("in", "blender").split())]
+    shown = {"blender", "batch"}
+    rows = [_row(entry) for entry in _table() if not shown.isdisjoint(entry.get("in", "blender").split())]
     return {row.name: row for row in rows}
 
 

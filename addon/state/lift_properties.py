@@ -9,6 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 
 from ..blender.compat import path_options
 from ..maps.lifting import DRAWN, LiftChoice, is_used
+from ..maps.option_table import ranges_of
 from .option_properties import shown_number
 
 PATTERNS = [
@@ -33,7 +34,8 @@ SHAPES = [
     ("sphere", "Sphere", "A closed surface without handles as a sphere, for circles, Voronoi cells and drawings"),
     ("parts", "Parts", "Any surface without a crowded edge, cut into parts. Outlines that meet a cut are left out"),
 ]
-MOST = 2**31 - 1
+RANGES = ranges_of("lift")
+TURNS: dict[str, Any] = {end: math.radians(degrees) for end, degrees in RANGES["turn"].items()}
 
 
 def _length(name: str, description: str, **own: Any) -> Any:
@@ -58,18 +60,20 @@ PROPERTIES = {
         name="Shape", items=SHAPES, default="disk", description="Map of the surface in which the pattern is drawn"
     ),
     "even": FloatProperty(
-        name="Even", default=0.0, min=0.0, max=1.0, subtype="FACTOR",
+        name="Even", default=0.0, subtype="FACTOR", **RANGES["even"],
         description="0: the pattern keeps its form. 1: it keeps its size",
     ),
     "repeats": IntProperty(
-        name="Repeats", default=0, min=0, max=MOST, soft_max=200,
+        name="Repeats", default=0, soft_max=200, **RANGES["repeats"],
         description="How often the pattern repeats round the surface. 0: as Size asks for, and a drawing once",
     ),
     "turn": FloatProperty(
-        name="Turn", default=0.0, min=-2 * math.pi, max=2 * math.pi, subtype="ANGLE",
+        name="Turn", default=0.0, subtype="ANGLE", **TURNS,
         description="Turns a drawing in the map, counter-clockwise",
     ),
-    "seed": IntProperty(name="Seed", default=1, min=0, max=MOST, description="Another seed spreads the outlines anew"),
+    "seed": IntProperty(
+        name="Seed", default=1, description="Another seed spreads the outlines anew", **RANGES["seed"]
+    ),
     "seams": BoolProperty(name="Cut at Seams", default=False, description="Cut the surface open at its seams first"),
     "hide": BoolProperty(
         name="Hide Original", default=True,
