@@ -348,7 +348,7 @@ def hostile_meshes():
         ("past_the_end", "in.obj", good + "f 1 2 999\n", "InputError: 1 faces"),
         ("garbage", "in.obj", "v 0 0 0\nv 1 one 1\n", "InputError: vertex 1 is not three"),
         ("binary_noise", "in.stl", bytes(range(256)) * 8, "InputError"),
-        ("huge_counts", "in.off", "OFF\n2000000000 2000000000 0\n", "InputError: the header's number"),
+        ("huge_counts", "in.off", "OFF\n2000000000 2000000000 0\n", "InputError: the header's count"),
         ("cut_short", "in.ply", ply_bytes(vertices, triangles)[:-7], r"InputError: face \d+ is missing"),
         ("format", "in.glb", b"glTF\2\0\0\0", "InputError: format not supported: '.glb'; supported are OBJ"),
         ("all_collapsed", "in.obj", "v 0 0 0\nv 1 0 0\nf 1 1 2\n", "InputError"),
