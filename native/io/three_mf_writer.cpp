@@ -60,7 +60,7 @@ std::string zip_of(const std::vector<std::pair<std::string, std::string>>& files
         put_number(directory, static_cast<std::uint32_t>(bytes.size()));
         directory += name;
         put_number<std::uint32_t>(bytes, 0x04034B50);
-        bytes += about + name + content;
+        bytes.append(about).append(name).append(content);
     }
     const auto begin = static_cast<std::uint32_t>(bytes.size());
     bytes += directory;
