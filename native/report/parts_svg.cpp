@@ -17,10 +17,12 @@ std::string tiles_svg(int tiles, int rows)
 {
     std::string svg = "<g fill=\"none\" stroke=\"#8a93a6\" stroke-width=\"12\" font-size=\"400\">\n";
     for (int k = 0; k < tiles; ++k) {
-        const std::string x = pixels(k % tiles_in_row), y = pixels(rows - 1 - k / tiles_in_row), side = pixels(1.0);
-        svg += "<rect x=\"" + x + "\" y=\"" + y + "\" width=\"" + side + "\" height=\"" + side + "\"/>\n";
-        svg += "<text x=\"" + x + "\" y=\"" + y + "\" dx=\"100\" dy=\"450\" fill=\"#33415c\" stroke=\"none\">" +
-               std::to_string(1001 + k) + "</text>\n";
+        const int row = rows - 1 - k / tiles_in_row;
+        const std::string side = pixels(1.0),
+                          place = "x=\"" + pixels(k % tiles_in_row) + "\" y=\"" + pixels(row) + "\"";
+        svg.append("<rect ").append(place).append(" width=\"").append(side).append("\" height=\"").append(side);
+        svg.append("\"/>\n<text ").append(place).append(" dx=\"100\" dy=\"450\" fill=\"#33415c\" stroke=\"none\">");
+        svg.append(std::to_string(1001 + k)).append("</text>\n");
     }
     return svg + "</g>\n";
 }
