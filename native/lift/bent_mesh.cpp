@@ -88,12 +88,7 @@ private:
         for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
             if (const Corners face = corners(f); fits(triangles_(f, 0)))
                 faces.push_back(box_of({face[0], face[1], face[2]}, f));
-        std::vector<Complex> shifts{0.0};
-        for (const Complex period : sheet_.periods) {
-            const std::size_t n = shifts.size();
-            for (const int times : {-1, 1, -2, 2})
-                for (std::size_t i = 0; i < n; ++i) shifts.push_back(shifts[i] + static_cast<double>(times) * period);
-        }
+        const std::vector<Complex> shifts = period_shifts(sheet_.periods);
         std::vector<std::array<Complex, 2>> edges;
         std::vector<NumberedBox> borders;
         for (Index h = 0; h < static_cast<Index>(sheet_.uv.size()); ++h) {

@@ -48,9 +48,7 @@ SphereSheets sphere_domain(const Vertices& vertices, const Triangles& triangles,
     SphereSheets sheets = sphere_sheets(vertices, surface.triangles, map.points,
                                         options.around < 0 ? std::nullopt : std::optional<Index>(options.around));
     std::erase_if(map.warnings, [](const Warning& warning) { return warning.kind == WarningKind::flipped; });
-    PlanarPoints uv(surface.triangles.size(), 2);
-    for (Eigen::Index c = 0; c < uv.rows(); ++c) uv.row(c) << sheets.home.uv[c].real(), sheets.home.uv[c].imag();
-    static_cast<Verdict&>(map.distortion) = judge_corners(vertices, surface.triangles, uv);
+    static_cast<Verdict&>(map.distortion) = judge_corners(vertices, surface.triangles, planar_points(sheets.home.uv));
     take_verdict({.advice = "Parts (--shape parts) lose less"}, map);
     report = std::move(map);
     return sheets;

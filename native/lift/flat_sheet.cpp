@@ -139,4 +139,23 @@ FlatSheet flat_sheet(const Vertices& vertices, const Triangles& triangles, const
     return sheet;
 }
 
+std::vector<Complex> period_shifts(const std::vector<Complex>& periods)
+{
+    std::vector<Complex> shifts{0.0};
+    for (const Complex period : periods) {
+        const std::size_t n = shifts.size();
+        for (const int times : {-1, 1, -2, 2})
+            for (std::size_t i = 0; i < n; ++i) shifts.push_back(shifts[i] + static_cast<double>(times) * period);
+    }
+    return shifts;
+}
+
+PlanarPoints planar_points(const std::vector<Complex>& places)
+{
+    PlanarPoints points(static_cast<Eigen::Index>(places.size()), 2);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        points.row(static_cast<Eigen::Index>(i)) << places[i].real(), places[i].imag();
+    return points;
+}
+
 }  // namespace koebe

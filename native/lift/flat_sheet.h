@@ -41,4 +41,10 @@ struct FlatSheet {
 FlatSheet flat_sheet(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& corner_uvs,
                      double grid = 0.0, std::vector<Complex> periods = {});
 
+/// 0, and what leads to the copies of a domain around it: up to two of each period, both ways.
+std::vector<Complex> period_shifts(const std::vector<Complex>& periods);
+
+/// (n, 2)
+PlanarPoints planar_points(const std::vector<Complex>& places);
+
 }  // namespace koebe

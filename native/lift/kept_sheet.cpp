@@ -1,6 +1,7 @@
 #include "lift/kept_sheet.h"
 
 #include "core/errors.h"
+#include "lift/flat_sheet.h"
 #include "lift/solid.h"
 #include "mesh/connectivity.h"
 
@@ -86,9 +87,7 @@ void finish_sheet(const KeptSheet& sheet, RaisedSheet raised, const LiftOptions&
         result.vertices = moved_sheet(result.vertices, sheet.normals(raised.source, Eigen::all), raised.height,
                                       without_walls(raised), sheet.face);
     result.triangles = std::move(raised.triangles);
-    result.uv.resize(static_cast<Eigen::Index>(raised.uv.size()), 2);
-    for (std::size_t c = 0; c < raised.uv.size(); ++c)
-        result.uv.row(static_cast<Eigen::Index>(c)) << raised.uv[c].real(), raised.uv[c].imag();
+    result.uv = planar_points(raised.uv);
     result.patch = std::move(raised.patch);
 }
 

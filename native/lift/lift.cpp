@@ -246,9 +246,7 @@ void lift_mesh(const FlatDomain& domain, const PatternMesh& mesh, const LiftOpti
     result.triangles = std::move(bent.triangles);
     result.patch.assign(bent.uv.size() / 3, 0);
     result.original.assign(result.vertices.rows(), -1);
-    result.uv.resize(static_cast<Eigen::Index>(bent.uv.size()), 2);
-    for (std::size_t c = 0; c < bent.uv.size(); ++c)
-        result.uv.row(static_cast<Eigen::Index>(c)) << bent.uv[c].real(), bent.uv[c].imag();
+    result.uv = planar_points(bent.uv);
     const auto meeting_of = [](const Vertices& vertices, const Triangles& triangles) {
         const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
         return meeting_faces(vertices, joined_corners(vertices, triangles, 1e-9 * diagonal));

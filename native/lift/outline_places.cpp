@@ -3,26 +3,17 @@
 #include "transfer/nearest_triangles.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace koebe {
 
 std::vector<SheetPlace> places_in_sheet(const FlatSheet& sheet, const std::vector<Complex>& places, double near)
 {
-    std::vector<Complex> shifts{0.0};
-    for (const Complex period : sheet.periods) {
-        const std::size_t n = shifts.size();
-        for (const int times : {-1, 1, -2, 2})
-            for (std::size_t i = 0; i < n; ++i) shifts.push_back(shifts[i] + static_cast<double>(times) * period);
-    }
-    const Index count = static_cast<Index>(sheet.triangles.rows());
-    PlanarPoints corners(3 * count, 2);
-    Triangles faces(count, 3);
-    for (Index c = 0; c < 3 * count; ++c) {
-        corners.row(c) << sheet.uv[c].real(), sheet.uv[c].imag();
-        faces.data()[c] = c;
-    }
+    const PlanarPoints corners = planar_points(sheet.uv);
+    Triangles faces(sheet.triangles.rows(), 3);
+    std::iota(faces.data(), faces.data() + faces.size(), 0);
     std::vector<SheetPlace> found(places.size());
-    for (const Complex shift : shifts) {
+    for (const Complex shift : period_shifts(sheet.periods)) {
         std::vector<std::size_t> open;
         for (std::size_t i = 0; i < places.size(); ++i)
             if (found[i].face < 0) open.push_back(i);
