@@ -143,7 +143,7 @@ test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
 	scripts/blender_tests.sh $(BLENDER)
 
 test-blender-%: package $(DONE)/install-blender
-	scripts/blender_tests.sh $(BLENDER) --ignore-glob='*/tests/blender/test_[!$*]*'
+	scripts/blender_tests.sh $(BLENDER) --ignore-glob='tests/blender/test_[!$*]*'
 
 test-bpy-%: package build/venv-bpy-%/.done
 	scripts/blender_tests.sh build/venv-bpy-$*/bin/python
