@@ -1,5 +1,7 @@
 #include "cut/edge_chains.h"
 
+#include "core/sort_unique.h"
+
 #include <algorithm>
 
 namespace koebe {
@@ -7,8 +9,7 @@ namespace koebe {
 std::vector<std::vector<Index>> edge_chains(std::vector<std::pair<Index, Index>> edges)
 {
     for (auto& edge : edges) edge = std::minmax({edge.first, edge.second});
-    std::ranges::sort(edges);
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_unique(edges);
 
     struct End {
         Index vertex, other;

@@ -1,5 +1,6 @@
 #include "flaps/flaps.h"
 
+#include "core/sort_unique.h"
 #include "mesh/connectivity.h"
 #include "surface/laplacian.h"
 
@@ -144,8 +145,7 @@ private:
         for (const Index f : flap.faces)
             for (int k = 0; k < 3; ++k)
                 if (const Index v = surface_.triangles(f, k); loop_of_[v] == no_loop) flap.interior.push_back(v);
-        std::sort(flap.interior.begin(), flap.interior.end());
-        flap.interior.erase(std::unique(flap.interior.begin(), flap.interior.end()), flap.interior.end());
+        sort_unique(flap.interior);
         return flap;
     }
 

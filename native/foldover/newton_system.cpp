@@ -1,6 +1,7 @@
 #include "foldover/newton_system.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,8 +115,7 @@ void NewtonSystem::set_pattern()
             if (const auto [a, b] = ends(f, k); a >= 0) pairs.emplace_back(a, b);
         if (is_shared(f)) add_shared_pairs(f, pairs);
     }
-    std::ranges::sort(pairs);
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    sort_unique(pairs);
     std::vector<Index> begin(pairs.size());  // of each pair in its first column
     std::vector<Index> rows, outer{0};
     for (std::size_t i = 0; i < pairs.size();) {

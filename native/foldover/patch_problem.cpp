@@ -1,5 +1,6 @@
 #include "foldover/patch_problem.h"
 
+#include "core/sort_unique.h"
 #include "quality/stored_uv.h"
 
 #include <Eigen/LU>
@@ -22,8 +23,7 @@ public:
         auto& names = result_.vertices;
         for (const Index f : faces)
             names.insert(names.end(), map.triangles().row(f).begin(), map.triangles().row(f).end());
-        std::sort(names.begin(), names.end());
-        names.erase(std::unique(names.begin(), names.end()), names.end());
+        sort_unique(names);
         result_.problem.points = map.uv()(names, Eigen::all);
         for (const Index v : names) {
             result_.problem.mobility.push_back(mobility(v));

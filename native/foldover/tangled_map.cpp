@@ -1,5 +1,6 @@
 #include "foldover/tangled_map.h"
 
+#include "core/sort_unique.h"
 #include "core/tolerances.h"
 #include "execution/thread_share.h"
 #include "planar/boundary_crossings.h"
@@ -119,8 +120,7 @@ std::vector<int> TangledMap::clockwise_holes(const std::vector<Index>& moved) co
 {
     std::vector<int> loops, result;
     for (const Index v : moved) loops.push_back(loop_of_[v]);
-    std::ranges::sort(loops);
-    loops.erase(std::unique(loops.begin(), loops.end()), loops.end());
+    sort_unique(loops);
     for (const int k : loops)
         if (enclosed_area(loops_[k], uv_) < 0.0) result.push_back(k);
     return result;

@@ -1,5 +1,6 @@
 #include "foldover/untangle.h"
 
+#include "core/sort_unique.h"
 #include "execution/thread_share.h"
 #include "foldover/untangle_patch.h"
 #include "quality/stored_uv.h"
@@ -79,8 +80,7 @@ private:
                     if (const Index v = map_.triangles()(f, k);
                         map_.loop_of(v) > 0 && map_.place(v) == Place::on_circle)
                         met.push_back(v);
-            std::sort(met.begin(), met.end());
-            met.erase(std::unique(met.begin(), met.end()), met.end());
+            sort_unique(met);
             for (const Index v : met)
                 if (std::find(result.begin(), result.end(), v) == result.end()) result.push_back(v);
             std::vector<Index> wider;

@@ -1,10 +1,10 @@
 #include "holes/fan_filling.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "mesh/halfedge_mesh.h"
 #include "planar/planar_predicates.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -76,8 +76,7 @@ std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std:
             throw InputError("there is no boundary loop " + std::to_string(k) + " among " +
                              std::to_string(surface.loops.size()));
     ranks = *loops;
-    std::sort(ranks.begin(), ranks.end());
-    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    sort_unique(ranks);
     return ranks;
 }
 

@@ -1,6 +1,7 @@
 #include "lift/bent_mesh.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "lift/outline_places.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
@@ -148,8 +149,8 @@ public:
             if (StoredFace(stored[0], stored[1], stored[2]).flipped()) ++upside_down_;
             face_.push_back(f);
         }
-        std::ranges::sort(missing);
-        left_out_ += static_cast<Index>(std::unique(missing.begin(), missing.end()) - missing.begin());
+        sort_unique(missing);
+        left_out_ += static_cast<Index>(missing.size());
     }
 
     BentMesh result()
@@ -162,8 +163,7 @@ public:
         bent.uv = std::move(uv_);
         bent.original = std::move(face_);
         bent.left_out = left_out_;
-        std::ranges::sort(left_at_);
-        left_at_.erase(std::unique(left_at_.begin(), left_at_.end()), left_at_.end());
+        sort_unique(left_at_);
         bent.left_at = std::move(left_at_);
         bent.upside_down = upside_down_;
         return bent;

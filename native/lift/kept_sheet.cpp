@@ -1,6 +1,7 @@
 #include "lift/kept_sheet.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "lift/flat_sheet.h"
 #include "lift/solid.h"
 #include "mesh/connectivity.h"
@@ -32,8 +33,7 @@ Vertices moved_sheet(const Vertices& vertices, const Vertices& normals, const Ve
     } catch (const InputError& error) {
         std::vector<Index> faces;
         for (const Index f : error.elements()) faces.push_back(face[f]);
-        std::ranges::sort(faces);
-        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        sort_unique(faces);
         throw InputError(error.what(), ElementKind::faces, std::move(faces));
     }
 }

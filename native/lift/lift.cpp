@@ -2,6 +2,7 @@
 
 #include "core/counted.h"
 #include "core/enum_words.h"
+#include "core/sort_unique.h"
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
@@ -173,8 +174,7 @@ std::vector<Index> faces_below(const std::vector<Index>& meeting, const KeptShee
         const std::size_t number = static_cast<std::size_t>(f), own = number < outer ? number : number - outer;
         if (own < sheet.face.size()) faces.push_back(sheet.face[own]);  // others are walls
     }
-    std::ranges::sort(faces);
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    sort_unique(faces);
     return faces;
 }
 

@@ -1,5 +1,7 @@
 #include "lift/meeting_faces.h"
 
+#include "core/sort_unique.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
 #include <CGAL/box_intersection_d.h>
@@ -90,8 +92,7 @@ MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles)
         meeting.faces.push_back(f);
         meeting.faces.push_back(g);
     });
-    std::ranges::sort(meeting.faces);
-    meeting.faces.erase(std::unique(meeting.faces.begin(), meeting.faces.end()), meeting.faces.end());
+    sort_unique(meeting.faces);
     return meeting;
 }
 

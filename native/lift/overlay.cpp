@@ -1,5 +1,6 @@
 #include "lift/overlay.h"
 
+#include "core/sort_unique.h"
 #include "lift/outline_walk.h"
 #include "mesh/connectivity.h"
 #include "planar/divided_polygon.h"
@@ -341,8 +342,7 @@ Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines
         const Faults faults = Drawing(sheet, charts, outlines).run(result);
         if (faults.empty()) {
             result.outlines = std::move(outlines);
-            std::ranges::sort(left_out.faces);
-            left_out.faces.erase(std::unique(left_out.faces.begin(), left_out.faces.end()), left_out.faces.end());
+            sort_unique(left_out.faces);
             result.left_out = std::move(left_out);
             return result;
         }

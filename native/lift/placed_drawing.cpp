@@ -1,6 +1,7 @@
 #include "lift/placed_drawing.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "lift/outline_places.h"
 #include "planar/filled_paths.h"
 #include "planar/planar_predicates.h"
@@ -118,8 +119,7 @@ void drop_holes(PlacedDrawing& placed)
     }
     std::erase_if(placed.outlines, [](const DrawnOutline& outline) { return outline.hole; });
     std::vector<Index>& faces = placed.island_faces;
-    std::ranges::sort(faces);
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    sort_unique(faces);
 }
 
 }  // namespace

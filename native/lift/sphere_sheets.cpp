@@ -1,6 +1,9 @@
 #include "lift/sphere_sheets.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
+#include "mesh/connected_pieces.h"
+#include "mesh/connectivity.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 
@@ -65,31 +68,6 @@ FlatSheet chart_of(const Vertices& vertices, const Triangles& triangles, const s
     return flat_sheet(vertices, triangles, uv);
 }
 
-/// The number of the connected part of its half for each face, and the sizes of these parts.
-std::vector<Index> parts_of_halves(const std::vector<Index>& twin, const std::vector<char>& south,
-                                   std::vector<Index>& sizes)
-{
-    std::vector<Index> part(south.size(), -1), front;
-    for (Index f = 0; f < static_cast<Index>(south.size()); ++f) {
-        if (part[f] >= 0) continue;
-        part[f] = static_cast<Index>(sizes.size());
-        sizes.push_back(0);
-        front.assign(1, f);
-        while (!front.empty()) {
-            const Index g = front.back();
-            front.pop_back();
-            ++sizes[part[f]];
-            for (Index h = 3 * g; h < 3 * g + 3; ++h) {
-                const Index other = twin[h] == no_twin ? -1 : face_of(twin[h]);
-                if (other < 0 || part[other] >= 0 || south[other] != south[f]) continue;
-                part[other] = part[f];
-                front.push_back(other);
-            }
-        }
-    }
-    return part;
-}
-
 class Halves {
 public:
     Halves(const Triangles& triangles, const Vertices& points, const std::array<std::vector<Complex>, 2>& places)
@@ -98,15 +76,14 @@ public:
         for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
             double height = 0.0;
             for (int k = 0; k < 3; ++k) height += points(triangles(f, k), 2);
-            const char side = height < 0.0 ? 1 : 0;
-            south_.push_back(fits(f, side) || !fits(f, static_cast<char>(1 - side)) ? side
-                                                                                    : static_cast<char>(1 - side));
+            const int side = height < 0.0 ? 1 : 0;
+            south_.push_back(fits(f, side) || !fits(f, 1 - side) ? side : 1 - side);
         }
         join_crumbs(0);
         join_crumbs(1);
     }
 
-    const std::vector<char>& south() const { return south_; }
+    const std::vector<int>& south() const { return south_; }
 
     /// Faces that are not upright, and those at rims that cross: there the halves are not one to one.
     std::vector<Index> faults() const
@@ -114,9 +91,9 @@ public:
         std::vector<Index> faults;
         for (Index f = 0; f < static_cast<Index>(south_.size()); ++f)
             if (!fits(f, south_[f]) && longest(f) > 1e-5) faults.push_back(f);
-        std::vector<Index> sizes;
-        const std::vector<Index> part = parts_of_halves(twin_, south_, sizes);
-        for (const char side : {char(0), char(1)}) {
+        Index count = 0;
+        const std::vector<Index> part = connected_pieces(twin_, south_, count);
+        for (const int side : {0, 1}) {
             PlanarPoints points(static_cast<Eigen::Index>(places_[side].size()), 2);
             for (std::size_t v = 0; v < places_[side].size(); ++v) {
                 const Complex w = std::abs(places_[side][v]) < visible ? places_[side][v] : Complex(0.0, 0.0);
@@ -138,13 +115,12 @@ public:
             for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h)
                 if (south_[face_of(h)] == side && at_rim(h)) faults.push_back(face_of(h));
         }
-        std::ranges::sort(faults);
-        faults.erase(std::unique(faults.begin(), faults.end()), faults.end());
+        sort_unique(faults);
         return faults;
     }
 
 private:
-    bool fits(Index f, char side) const { return seen_whole(triangles_, places_[side], f); }
+    bool fits(Index f, int side) const { return seen_whole(triangles_, places_[side], f); }
 
     double longest(Index f) const
     {
@@ -158,27 +134,28 @@ private:
     bool at_rim(Index h) const { return twin_[h] == no_twin || south_[face_of(twin_[h])] != south_[face_of(h)]; }
 
     /// Small parts of a half that lie in the other half go over to it.
-    void join_crumbs(char side)
+    void join_crumbs(int side)
     {
-        std::vector<Index> sizes;
-        const std::vector<Index> part = parts_of_halves(twin_, south_, sizes);
-        std::vector<char> of_side(sizes.size(), 0), stays(sizes.size(), 0), meets_hole(sizes.size(), 0);
+        Index count = 0;
+        const std::vector<Index> part = connected_pieces(twin_, south_, count);
+        std::vector<Index> sizes(count, 0);
+        for (const Index p : part) ++sizes[p];
+        std::vector<char> of_side(count, 0), stays(count, 0), meets_hole(count, 0);
         Index largest = -1;
         for (Index f = 0; f < static_cast<Index>(part.size()); ++f) {
             if (south_[f] != side) continue;
             of_side[part[f]] = 1;
-            if (!fits(f, static_cast<char>(1 - side))) stays[part[f]] = 1;
+            if (!fits(f, 1 - side)) stays[part[f]] = 1;
             for (Index h = 3 * f; h < 3 * f + 3; ++h)
                 if (twin_[h] == no_twin) meets_hole[part[f]] = 1;
             if (largest < 0 || sizes[part[f]] > sizes[largest]) largest = part[f];
         }
         for (Index f = 0; f < static_cast<Index>(part.size()); ++f)
-            if (of_side[part[f]] && part[f] != largest && !stays[part[f]] && !meets_hole[part[f]])
-                south_[f] = static_cast<char>(1 - side);
+            if (of_side[part[f]] && part[f] != largest && !stays[part[f]] && !meets_hole[part[f]]) south_[f] = 1 - side;
     }
 
     /// The loops around a half, each with the number of its part.
-    std::vector<std::pair<Index, VertexLoop>> rims_of(char side, const std::vector<Index>& part) const
+    std::vector<std::pair<Index, VertexLoop>> rims_of(int side, const std::vector<Index>& part) const
     {
         std::vector<std::pair<Index, VertexLoop>> rims;
         std::vector<char> seen(twin_.size(), 0);
@@ -200,7 +177,7 @@ private:
     const Triangles& triangles_;
     const std::array<std::vector<Complex>, 2>& places_;
     std::vector<Index> twin_;
-    std::vector<char> south_;
+    std::vector<int> south_;
 };
 
 }  // namespace

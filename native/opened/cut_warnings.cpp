@@ -1,6 +1,7 @@
 #include "opened/cut_warnings.h"
 
 #include "core/counted.h"
+#include "core/sort_unique.h"
 #include "quality/shared_warnings.h"
 
 #include <algorithm>
@@ -16,8 +17,7 @@ constexpr std::array kinds{CutKind::crowded_edge, CutKind::orientation, CutKind:
 
 std::vector<Index> sorted(std::vector<Index> numbers)
 {
-    std::ranges::sort(numbers);
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    sort_unique(numbers);
     return numbers;
 }
 

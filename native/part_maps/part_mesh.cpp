@@ -1,6 +1,7 @@
 #include "part_maps/part_mesh.h"
 
 #include "core/length.h"
+#include "mesh/connected_pieces.h"
 #include "mesh/connectivity.h"
 
 #include <Eigen/Geometry>
@@ -130,24 +131,7 @@ PartMesh some_or_all(const CutSurface& whole, std::vector<Index> faces)
 
 std::vector<Index> connected_pieces(const PartMesh& part, const std::vector<int>& label, Index& count)
 {
-    std::vector<Index> piece(label.size(), -1), queue;
-    count = 0;
-    for (Index seed = 0; seed < static_cast<Index>(label.size()); ++seed) {
-        if (piece[seed] >= 0) continue;
-        queue.assign(1, seed);
-        piece[seed] = count;
-        for (std::size_t head = 0; head < queue.size(); ++head)
-            for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h) {
-                const Index t = part.surface.twin[h];
-                if (t == no_twin) continue;
-                const Index g = face_of(t);
-                if (piece[g] >= 0 || label[g] != label[seed]) continue;
-                piece[g] = count;
-                queue.push_back(g);
-            }
-        ++count;
-    }
-    return piece;
+    return connected_pieces(part.surface.twin, label, count);
 }
 
 std::vector<std::vector<Index>> pieces_of(const PartMesh& part, const std::vector<int>& label)

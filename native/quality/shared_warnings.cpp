@@ -1,6 +1,7 @@
 #include "quality/shared_warnings.h"
 
 #include "core/counted.h"
+#include "core/sort_unique.h"
 
 #include <algorithm>
 #include <iterator>
@@ -36,8 +37,7 @@ void warn_not_one_to_one(const std::vector<Index>& flipped, const std::vector<In
 
 void warn_off_circle(std::vector<Index> vertices, std::vector<Warning>& warnings)
 {
-    std::ranges::sort(vertices);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     if (vertices.empty()) return;
     std::string sentence =
         counted(vertices.size(), "vertex") + " taken off the circle, where straight triangles cannot follow it";

@@ -1,5 +1,6 @@
 #include "report/sphere_svg.h"
 
+#include "core/sort_unique.h"
 #include "report/edge_trails.h"
 
 #include <Eigen/Geometry>
@@ -38,8 +39,7 @@ std::string seen_edges(const Triangles& triangles, const Vertices& points, const
             if (view.toward(points.row(a)) >= 0.0 && view.toward(points.row(b)) >= 0.0)
                 edges.push_back({std::min(a, b), std::max(a, b)});
         }
-    std::ranges::sort(edges);
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_unique(edges);
     std::string path;
     for (const std::vector<Index>& trail : edge_trails(edges, static_cast<Index>(points.rows())))
         for (std::size_t i = 0; i < trail.size(); ++i) path += (i == 0 ? "M" : "L") + view.place(points.row(trail[i]));

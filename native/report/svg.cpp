@@ -1,5 +1,6 @@
 #include "report/svg.h"
 
+#include "core/sort_unique.h"
 #include "report/edge_trails.h"
 
 #include <algorithm>
@@ -66,8 +67,7 @@ std::vector<Edge> polygon_edges(const PolygonMesh& mesh)
             if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
         }
     }
-    std::ranges::sort(edges);
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_unique(edges);
     return edges;
 }
 

@@ -1,6 +1,7 @@
 #include "schottky/handle_cut.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "cut/open_surface.h"
 #include "mesh/connectivity.h"
 #include "surface/loop_edges.h"
@@ -64,8 +65,7 @@ std::vector<std::size_t> order_of(const std::vector<CutLoop>& loops, const std::
     for (const SurfaceCut& cut : opened.cuts)
         for (const Index v : cut.vertices)
             if (v < vertex_count) elements.push_back(v);
-    std::ranges::sort(elements);
-    elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+    sort_unique(elements);
     throw TopologyError(TopologyKind::genus,
                         "the handles cannot be cut along edges without touching each other or a hole: subdivide there",
                         elements);

@@ -2,6 +2,7 @@
 
 #include "circles/circle_projection.h"
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "core/tolerances.h"
 #include "foldover/untangle.h"
 #include "mesh/connectivity.h"
@@ -262,8 +263,7 @@ void SchottkyTiling::turn_back(const SchottkyTile& tile, SchottkyPlane& plane, c
         }
         circles.push_back(circle);
     }
-    std::ranges::sort(off_circle);
-    off_circle.erase(std::unique(off_circle.begin(), off_circle.end()), off_circle.end());
+    sort_unique(off_circle);
     PlanarPoints points = tile.points;
     Vertices vertices(static_cast<Eigen::Index>(tile.vertex.size()), 3);
     for (std::size_t i = 0; i < tile.vertex.size(); ++i)
@@ -303,8 +303,7 @@ SchottkyHole hole_in(const SchottkyTile& tile, const SchottkyPlane& plane, const
             hole.off_circle.push_back(cut.original[tile.vertex[i]]);
     }
     if (copy && !torn) hole.circle = applied(*copy, plane.generators, plane.holes[k]);
-    std::ranges::sort(hole.off_circle);
-    hole.off_circle.erase(std::unique(hole.off_circle.begin(), hole.off_circle.end()), hole.off_circle.end());
+    sort_unique(hole.off_circle);
     return hole;
 }
 

@@ -1,5 +1,7 @@
 #include "shape/assignment.h"
 
+#include "core/sort_unique.h"
+
 #define LEMON_ONLY_TEMPLATES  // header-only
 #include <lemon/network_simplex.h>
 #include <lemon/smart_graph.h>
@@ -55,8 +57,7 @@ std::vector<std::vector<int>> first_pairs(const Prices& cost)
         for (const int j : columns_of[i]) rows_of[j].push_back(i);
     for (int j = 0; j < n; ++j) {
         rows_of[j].push_back(j);
-        std::ranges::sort(rows_of[j]);
-        rows_of[j].erase(std::unique(rows_of[j].begin(), rows_of[j].end()), rows_of[j].end());
+        sort_unique(rows_of[j]);
     }
     return rows_of;
 }

@@ -3,6 +3,7 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/enum_words.h"
+#include "core/sort_unique.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
 #include "pipeline/loop_numbers.h"
@@ -150,8 +151,7 @@ SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map
         put_onto_circle(on, sphere.caps[k], sphere.points);
     }
     for (const Flap& flap : map.flaps) hang_into_hole(domain, flap, sphere);
-    std::ranges::sort(sphere.off_circle);
-    sphere.off_circle.erase(std::unique(sphere.off_circle.begin(), sphere.off_circle.end()), sphere.off_circle.end());
+    sort_unique(sphere.off_circle);
     return sphere;
 }
 

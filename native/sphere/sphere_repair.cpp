@@ -1,5 +1,6 @@
 #include "sphere/sphere_repair.h"
 
+#include "core/sort_unique.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/repair_effort.h"
@@ -135,8 +136,7 @@ private:
         std::vector<Index> vertices;
         for (const Index f : faces)
             for (const Index v : triangles_.row(f)) vertices.push_back(v);
-        std::ranges::sort(vertices);
-        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        sort_unique(vertices);
         const auto number = [&](Index v) {
             return static_cast<Index>(std::ranges::lower_bound(vertices, v) - vertices.begin());
         };
@@ -266,8 +266,7 @@ private:
         std::vector<int> touched;
         for (const Index v : vertices)
             if (loop_of_[v] >= 0) touched.push_back(loop_of_[v]);
-        std::ranges::sort(touched);
-        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+        sort_unique(touched);
         for (const int k : touched) {
             const std::size_t loop = static_cast<std::size_t>(k);
             const Triangles none(0, 3);

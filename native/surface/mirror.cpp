@@ -1,5 +1,7 @@
 #include "surface/mirror.h"
 
+#include "core/sort_unique.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -90,8 +92,7 @@ PolygonCorners polygon_corners(const Vertices& vertices, const Triangles& triang
     Eigen::AlignedBox3d box;
     for (std::size_t g = 0; g < found.corners.size(); ++g) {
         std::vector<Index>& own = found.corners[g];
-        std::ranges::sort(own);
-        own.erase(std::unique(own.begin(), own.end()), own.end());
+        sort_unique(own);
         for (const Index v : own) {
             found.middles.row(static_cast<Eigen::Index>(g)) += vertices.row(v) / static_cast<double>(own.size());
             box.extend(vertices.row(v).transpose());

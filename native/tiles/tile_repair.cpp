@@ -1,5 +1,6 @@
 #include "tiles/tile_repair.h"
 
+#include "core/sort_unique.h"
 #include "cut/seamed_mesh.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
@@ -110,8 +111,7 @@ void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, 
         map.z[sheet.source[v]] = lifted(map, at, {-l[0], -l[1]});
     }
     for (const Index v : report.freed) map.off_circle.push_back(sheet.source[v]);
-    std::ranges::sort(map.off_circle);
-    map.off_circle.erase(std::unique(map.off_circle.begin(), map.off_circle.end()), map.off_circle.end());
+    sort_unique(map.off_circle);
 }
 
 /// Faces within so many rings of some faces.

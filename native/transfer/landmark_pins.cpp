@@ -1,6 +1,7 @@
 #include "transfer/landmark_pins.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +15,7 @@ constexpr double on_rim = 1e-6;       // lengths in the disk: distance of points
 
 [[noreturn]] void refuse(const std::string& what, std::vector<Index> landmarks)
 {
-    std::ranges::sort(landmarks);
-    landmarks.erase(std::unique(landmarks.begin(), landmarks.end()), landmarks.end());
+    sort_unique(landmarks);
     const std::string text = what + ": " + landmark_numbers(landmarks);
     throw InputError(text, ElementKind::landmarks, std::move(landmarks));
 }

@@ -3,11 +3,11 @@
 #include "batch/content_hash.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "execution/detachable_run.h"
 #include "execution/thread_share.h"
 #include "quality/take_verdict.h"
 
-#include <algorithm>
 #include <chrono>
 #include <system_error>
 
@@ -68,8 +68,7 @@ std::vector<Index> filed_faces(const Triangulation& triangulation, const std::ve
     std::vector<Index> faces;
     faces.reserve(triangles.size());
     for (const Index t : triangles) faces.push_back(triangulation.face[static_cast<std::size_t>(t)]);
-    std::ranges::sort(faces);
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    sort_unique(faces);
     return faces;
 }
 

@@ -1,6 +1,7 @@
 #include "linear/factor/analysis.h"
 
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "execution/memory_limit.h"
 #include "execution/thread_share.h"
 #include "linear/cholmod_support.h"
@@ -48,12 +49,6 @@ void append_ranks(const SparseMatrix& matrix, Index row, const std::vector<Index
 {
     for (SparseMatrix::InnerIterator it(matrix, row); it; ++it)
         if (rank[it.row()] >= end) ranks.push_back(rank[it.row()]);
-}
-
-void sort_unique(std::vector<Index>& numbers)
-{
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 class AnalysisInPieces {
