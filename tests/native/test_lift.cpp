@@ -241,15 +241,17 @@ TEST(SphereSheets, ChartsAreTurnedAndTurnedBack)
 
 TEST(MeetingFaces, CountPairsThatAreNoNeighbours)
 {
-    Vertices points(7, 3);
-    points << 0, 0, 0, 2, 0, 0, 0, 2, 0, 0.3, 0.3, -1, 0.3, 0.3, 1, 5, 5, 0, 0.5, 0.5, 1e-9;
-    Triangles through(2, 3), apart(2, 3), above(2, 3);
+    Vertices points(8, 3);
+    points << 0, 0, 0, 2, 0, 0, 0, 2, 0, 0.3, 0.3, -1, 0.3, 0.3, 1, 5, 5, 0, 0.5, 0.5, 1e-9, 0.5, 0.5, 0;
+    Triangles through(2, 3), apart(2, 3), touching(2, 3), above(2, 3);
     through << 0, 1, 2, 3, 4, 5;
     apart << 0, 1, 2, 4, 5, 6;
+    touching << 0, 1, 2, 4, 5, 7;
     above << 0, 1, 2, 3, 4, 0;
     EXPECT_EQ(meeting_faces(points, through).pairs, 1);
     EXPECT_EQ(meeting_faces(points, through).faces, (std::vector<Index>{0, 1}));
     EXPECT_EQ(meeting_faces(points, apart).pairs, 0) << "a billionth above is above";
+    EXPECT_EQ(meeting_faces(points, touching).pairs, 1) << "a corner on a face meets it";
     EXPECT_EQ(meeting_faces(points, above).pairs, 0) << "they share a vertex";
 }
 

@@ -78,3 +78,20 @@ TEST(Mirror, is_found_in_any_pose_and_not_where_there_is_none)
     bent.col(2).array() += 0.01 * (3.0 * unit.col(0).array() + unit.col(1).array()).sin();
     EXPECT_TRUE(find_mirror(bent, mesh.triangles, polygon).image.empty());
 }
+
+TEST(Mirror, of_two_polygons_that_are_equally_near_it_takes_the_first)
+{
+    // Two sheets of one triangle on each side. The image of the first is half way between the sheets of the other side.
+    const double gap = 0x1p-16;
+    const double height[] = {0.0, gap, -gap, gap};
+    Vertices vertices(12, 3);
+    Triangles triangles(4, 3);
+    for (Index f = 0; f < 4; ++f) {
+        const double side = f < 2 ? -1.0 : 1.0;
+        vertices.row(3 * f) << side, 0.0, height[f];
+        vertices.row(3 * f + 1) << 2.0 * side, 0.0, height[f];
+        vertices.row(3 * f + 2) << side, 1.0, height[f];
+        triangles.row(f) << 3 * f, 3 * f + 1, 3 * f + 2;
+    }
+    EXPECT_EQ(find_mirror(vertices, triangles, {}).image, (std::vector<Index>{2, 3, 0, 1}));
+}
