@@ -98,6 +98,10 @@ TEST(ThroughCuts, pieces_are_the_part_and_without_a_price_of_pieces_nothing_is_s
     FlatPart part = ring_part(24, 24, [](double h) { return 0.3 + 0.25 * std::sin(2.0 * pi * h); });
     relax(part);
     EXPECT_EQ(cut(part, {1e-5, {}}).size(), 1U);
+    EXPECT_FALSE(promising_through_cuts(part, even, {1e-5, 1e-5}).empty());
+    for (const ThroughPrice& price : {ThroughPrice{1e-5, {}}, ThroughPrice{1e-5, 1e-5}})
+        for (const ThroughCut& promising : promising_through_cuts(part, even, price))
+            EXPECT_LT(promising.cost, promising.forecast);
     const std::vector<HeldPart> parts = cut(part, {1e-5, 1e-5});
     ASSERT_GT(parts.size(), 1U);
     std::multiset<Index> faces;
