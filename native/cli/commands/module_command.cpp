@@ -106,7 +106,9 @@ int run_certified(const ModuleRequest& request, const CancelToken& token)
     json["input"] = std::filesystem::path(request.input).filename().string();
     std::vector<Warning> warnings;
     add_input_warnings(input, warnings);
-    json["warnings"] = to_json(warnings);
+    nlohmann::ordered_json all = to_json(warnings);
+    for (const nlohmann::ordered_json& warning : json["warnings"]) all.push_back(warning);
+    json["warnings"] = all;
     print(json_text(json));
     return report.converged ? done : not_converged;
 }
@@ -143,8 +145,8 @@ void add_certified_options(CLI::App& app, ModuleRequest& request)
 {
     std::vector<CLI::Option*> of_map = app.get_options();
     CLI::Option* certified = app.add_flag("--certified", request.certified,
-                                          "proved bounds for the capacities between loops, and for a ring's "
-                                          "modulus and r_1");
+                                          "proved bounds for the capacities between loops, for a ring's "
+                                          "modulus, and for the module of up to four loops");
     for (CLI::Option* option : of_map)
         if (const std::string name = option->get_name(); name != "IN" && name != "--help" && name != "--threads")
             certified->excludes(option);
