@@ -24,9 +24,11 @@ WHEEL := $(DONE)/wheel-$(notdir $(VENV))
 NATIVE_SOURCES := CMakeLists.txt pyproject.toml $(shell find native -type f -not -path '*/__pycache__/*')
 ADDON_SOURCES  := $(shell find addon -type f -not -path '*/__pycache__/*')
 
-# ccache, if present, spares the wheel what the command has compiled already.
+# ccache, if present, spares the wheel what the command has compiled already. It learns of headers from the compiler, so
+# that nothing is preprocessed once more.
 export CCACHE_DIR := $(CURDIR)/build/ccache
 export CCACHE_SLOPPINESS := pch_defines,time_macros
+export CCACHE_DEPEND := 1
 ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 
 .DELETE_ON_ERROR:
@@ -38,7 +40,7 @@ endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
 .PHONY: help build native programs wheel package dist matrix lint lint-python lint-native check check-native check-form \
-        test test-all test-native test-python test-long test-labs test-blender test-gui test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
+        test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -96,10 +98,14 @@ build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install
 # ---------------------------------------------------------------- tests
 
 # Three runners at once: each uses half of a core, as it waits for processes that it starts. Each runs, whatever became of
-# the others, and is printed when it has ended. What they need is made before, by one process: two would wait for apt's
-# lock, and fail. What no version of Blender changes is tested in one of them.
-test: build programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done) ## what a user could hit: native, Python, labs, and the installed zip in Debian's Blender and in bpy $(BPY)
-	@$(SIDE_BY_SIDE) test-blender $(BPY:%=test-differing-%) test-python test-native test-labs
+# the others, and is printed when it has ended. The longest begin, in halves by the first letter of the files, so that all
+# end at one time. What they need is made before, by one process: two would wait for apt's lock, and fail. What no version
+# of Blender changes is tested in one of them.
+test: build test-tools ## what a user could hit: native, Python, labs, and the installed zip in Debian's Blender and in bpy $(BPY)
+	@$(SIDE_BY_SIDE) $(BPY:%=test-differing-%) test-blender-a-m test-blender-n-z test-python-a-m test-python-n-z \
+	    test-native test-labs
+
+test-tools: programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done)
 
 test-all: lint test test-long test-fuzz $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, and all tests in each bpy that add-ons still meet
 
@@ -124,6 +130,9 @@ test-native: programs ## ctest
 test-python: programs ## pytest tests/python
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m 'not long' tests/python
 
+test-python-%: programs
+	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m 'not long' tests/python/test_[$*]*.py
+
 test-long: programs ## the Python tests that are marked long
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m long tests/python
 
@@ -132,6 +141,9 @@ test-labs: $(WHEEL) build/venv-labs/.done ## pytest tests/labs, beside PyVista, 
 
 test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
 	scripts/blender_tests.sh $(BLENDER)
+
+test-blender-%: package $(DONE)/install-blender
+	scripts/blender_tests.sh $(BLENDER) --ignore-glob='*/tests/blender/test_[!$*]*'
 
 test-bpy-%: package build/venv-bpy-%/.done
 	scripts/blender_tests.sh build/venv-bpy-$*/bin/python
@@ -239,7 +251,7 @@ build/venv-lint/.done: Makefile | $(DONE)/install-build
 
 build/venv-labs/.done: Makefile | $(DONE)/install-build
 	/usr/bin/python3 -m venv --clear $(@D)
-	$(@D)/bin/pip install --quiet $(LABS)
+	$(@D)/bin/pip install --quiet --no-compile $(LABS)
 	@touch $@
 
 build/venv-compare/.done: Makefile | $(DONE)/install-build $(DONE)/install-blender
@@ -250,7 +262,7 @@ build/venv-compare/.done: Makefile | $(DONE)/install-build $(DONE)/install-blend
 build/venv-bpy-%/.done: | $(DONE)/install-build $(DONE)/install-blender
 	@echo "Installing bpy $* (about 350 MB) into $(@D)"
 	/usr/bin/python3 -m venv --clear $(@D)
-	$(@D)/bin/pip install --quiet 'bpy==$*.*' pytest
+	$(@D)/bin/pip install --quiet --no-compile 'bpy==$*.*' pytest
 	@touch $@
 
 clean: ## remove what was built, keep the virtual environments

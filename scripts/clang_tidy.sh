@@ -21,4 +21,5 @@ checks=-clang-analyzer-*
 [ -z "${ANALYZER:-}" ] || checks=clang-analyzer-*
 printf '%s\0' "${files[@]}" | xargs -0 -n 4 -P "$(nproc)" \
     clang-tidy -p "$build" --quiet --checks="$checks" --warnings-as-errors='*' \
-    --extra-arg=-Wno-ignored-optimization-argument 2> >(grep -vE '^[0-9]+ warnings?( and [0-9]+ errors?)? generated\.$|^Suppressed|^Use -header-filter' >&2)
+    --extra-arg=-Wno-ignored-optimization-argument --extra-arg=-Wreserved-identifier \
+    --extra-arg=-Wzero-as-null-pointer-constant 2> >(grep -vE '^[0-9]+ warnings?( and [0-9]+ errors?)? generated\.$|^Suppressed|^Use -header-filter' >&2)

@@ -15,7 +15,9 @@ declare -A targets=(
     [macos-x64]="x86_64-macos.11.0 macosx_11_0_x86_64"
 )
 
-scripts/fetch_sources.sh
+declare -A systems=([linux]=linux [windows]=windows [macos]=macosx) # in Maven's words
+mapfile -t fetched < <(for platform in "$@"; do echo "${systems[${platform%-*}]}"; done | sort -u)
+scripts/fetch_sources.sh "${fetched[@]}"
 packages=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 export ZIG_GLOBAL_CACHE_DIR="${ZIG_GLOBAL_CACHE_DIR:-$PWD/build/zig-cache}"
 

@@ -2,6 +2,7 @@
 
 import pytest
 from addon_support import addon_module
+from batch_support import blends, library  # noqa: F401
 from cli_support import obj_text, perforated
 
 
