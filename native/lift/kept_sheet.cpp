@@ -6,6 +6,8 @@
 #include "mesh/connectivity.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <utility>
 
 namespace koebe {
@@ -36,6 +38,31 @@ Vertices moved_sheet(const Vertices& vertices, const Vertices& normals, const Ve
         faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
         throw InputError(error.what(), ElementKind::faces, std::move(faces));
     }
+}
+
+using EdgeKey = std::array<Index, 2>;  // the lower vertex first
+
+EdgeKey edge_key(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// A face of the sheet at each of these edges, a raised one if there is.
+std::map<EdgeKey, Index> faces_at(std::map<EdgeKey, Index> edges, const KeptSheet& sheet)
+{
+    for (Index h = 0; h < static_cast<Index>(sheet.triangles.size()); ++h) {
+        const auto at = edges.find(edge_key(origin(sheet.triangles, h), target(sheet.triangles, h)));
+        if (at != edges.end() && (at->second < 0 || sheet.patch[face_of(h)] == 1)) at->second = face_of(h);
+    }
+    return edges;
+}
+
+/// Where a corner of a sheet's face lies in the surface's face below, by its corners as given.
+Eigen::RowVector3d weights_below(const FlatSheet& domain, const Triangles& given, Index below, Complex place)
+{
+    const Eigen::RowVector3d own = domain.weights_of(below, place).cwiseMax(0.0);
+    Eigen::RowVector3d weights;
+    for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j)
+            if (given(below, k) == domain.triangles(below, j)) weights[k] = own[j];
+    return weights.sum() > 0.0 ? (weights / weights.sum()).eval() : Eigen::RowVector3d::Constant(1.0 / 3.0);
 }
 
 }  // namespace
@@ -110,6 +137,33 @@ void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftO
     for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
         if (twin[h] == no_twin || origin(result.triangles, h) != target(result.triangles, twin[h]))
             throw SolverError("the solid is not closed");
+}
+
+void tell_places(const KeptSheet& sheet, const FlatSheet& domain, const Triangles& given,
+                 const std::vector<Index>& source, std::size_t outer, LiftResult& result)
+{
+    const Index faces = static_cast<Index>(result.triangles.rows()), own = static_cast<Index>(sheet.face.size());
+    const Index vertices = static_cast<Index>(source.size()), inner = static_cast<Index>(outer);
+    const auto vertex = [&](Index f, int k) {  // of the sheet; the inner side has the sheet's own
+        const Index v = result.triangles(f, k);
+        return v < vertices ? source[v] : v - vertices;
+    };
+    const auto foot = [&](Index f) { return edge_key(vertex(f, 0), vertex(f, 1)); };  // of a wall, over one edge
+    const auto is_wall = [&](Index f) { return f >= own && !(f >= inner && f < inner + own); };
+    std::map<EdgeKey, Index> feet;
+    for (Index f = 0; f < faces; ++f)
+        if (is_wall(f)) feet.emplace(foot(f), -1);
+    feet = faces_at(std::move(feet), sheet);
+    result.weights.resize(3 * static_cast<Eigen::Index>(faces), 3);
+    for (Index f = 0; f < faces; ++f) {
+        const Index below = is_wall(f) ? feet.at(foot(f)) : f < own ? f : f - inner;
+        result.face.push_back(sheet.face[below]);
+        for (int k = 0; k < 3; ++k) {
+            int j = 0;
+            while (sheet.triangles(below, j) != vertex(f, k)) ++j;
+            result.weights.row(3 * f + k) = weights_below(domain, given, sheet.face[below], sheet.uv[3 * below + j]);
+        }
+    }
 }
 
 }  // namespace koebe

@@ -33,4 +33,10 @@ void finish_sheet(const KeptSheet& sheet, RaisedSheet raised, const LiftOptions&
 /// @throws InputError faces would turn over, or the pattern is sunk through the solid; SolverError it is not closed
 void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftOptions& options, LiftResult& result);
 
+/// Tells the result's `face` and `weights`.
+/// @param given the surface's triangles as they came in: their corners may be in another order in the domain
+/// @param source (V) vertex of the sheet for each vertex of the raised sheet @param outer number of its faces
+void tell_places(const KeptSheet& sheet, const FlatSheet& domain, const Triangles& given,
+                 const std::vector<Index>& source, std::size_t outer, LiftResult& result);
+
 }  // namespace koebe

@@ -66,6 +66,7 @@ PatternOptions pattern_options(const FlatDomain& domain, const LiftOptions& opti
     chosen.bridge = options.bridge.value_or(0.2 * chosen.size);
     chosen.repeats = options.repeats;
     chosen.seed = static_cast<std::uint64_t>(options.seed);
+    chosen.turn = options.turn;
     chosen.hole = domain.hole;
     if (!(chosen.size > 0.0)) throw InputError("the surface has no area: no size for the pattern");
     return chosen;
@@ -188,7 +189,7 @@ void warn_of_crossings(const MeetingFaces& meeting, std::vector<Index> faces, Li
                                    std::move(faces), "Lower the thickness or the height there"});
 }
 
-void lift_outlines(const FlatDomain& domain, const PatternFile& file, const std::string& name,
+void lift_outlines(const FlatDomain& domain, const Triangles& given, const PatternFile& file, const std::string& name,
                    const LiftOptions& options, LiftResult& result, ExecutionContext& context)
 {
     KeptSheet sheet;
@@ -205,10 +206,12 @@ void lift_outlines(const FlatDomain& domain, const PatternFile& file, const std:
     context.checkpoint();
     require_foretold(domain.surface, sheet, options.perforate ? result.outlines : 0, result);
     const std::size_t outer = raised.patch.size();
+    const std::vector<Index> source = raised.source;
     if (options.thickness)
         finish_solid(sheet, raised, options, result);
     else
         finish_sheet(sheet, std::move(raised), options, result);
+    tell_places(sheet, domain.sheet(), given, source, outer, result);
     warn_of_left_out(result);
     if (!options.thickness && !options.height) return;
     context.checkpoint();
@@ -274,7 +277,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     if (file.mesh)
         lift_mesh(domain, *file.mesh, options, result, context);
     else
-        lift_outlines(domain, file, name, options, result, context);
+        lift_outlines(domain, triangles, file, name, options, result, context);
     result.vertex_count = static_cast<Index>(result.vertices.rows());
     result.face_count = static_cast<Index>(result.triangles.rows());
     result.peak_memory_mb = peak_memory_mb();

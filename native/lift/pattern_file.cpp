@@ -14,7 +14,7 @@ void require_fitting_options(const std::string& kind, const LiftOptions& options
     const bool placed = kind == ".svg" || kind == ".obj";
     if (kind != ".obj" && options.perforate == options.height.has_value())
         throw InputError("either perforate, or give a height");
-    if (options.turn != 0.0 && !placed) throw InputError("a turn is for drawings and meshes");
+    if (options.turn != 0.0 && kind == ".png") throw InputError("an image has no turn");
     if (options.bridge && !kind.empty()) throw InputError("a bridge is for the built-in patterns: a file has its own");
     if (kind == ".obj" && (options.perforate || options.thickness))
         throw InputError("a mesh is bent as it is: without perforate and thickness");
