@@ -5,6 +5,7 @@
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
+#include "execution/thread_share.h"
 #include "lift/bent_mesh.h"
 #include "lift/flat_domain.h"
 #include "lift/image_relief.h"
@@ -264,6 +265,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
                      const LiftOptions& options, ExecutionContext& context)
 {
     const Stopwatch clock;
+    const ThreadShare threads(0);
     const PatternFile file = read_pattern(name, options);
     FlatDomain domain = flat_domain(vertices, triangles, options, context);
     context.checkpoint();

@@ -19,7 +19,7 @@ struct PatternOptions {
     double bridge = 0.0;  ///< between two outlines
     int repeats = 0;      ///< of a lattice round a ring or a hole; 0: it follows from the size
     std::uint64_t seed = 1;
-    double turn = 0.0;  ///< of a lattice, degrees counter-clockwise
+    double turn = 0.0;                ///< of a lattice, degrees counter-clockwise
     std::optional<Circle> hole = {};  ///< of the unit disk: a lattice's rows lie around it
 };
 
