@@ -22,7 +22,8 @@ def carry_attributes(source: MeshObject, made: bpy.types.Object, lifted: Lifted)
 
     Attributes of edges, shape keys and custom normals stay behind. Layers that the new mesh has already are kept.
     """
-    own, mesh = source.data, made.data
+    own: Any = source.data
+    mesh: Any = made.data
     corner_vertex, _ = compat.corner_indices(own)
     at = np.zeros(len(mesh.vertices), dtype=np.int64)
     at[lifted.corner_vertex] = np.arange(len(lifted.corner_vertex))  # a corner of each vertex
@@ -62,7 +63,7 @@ def _carry_uv(own: bpy.types.Mesh, mesh: bpy.types.Mesh, places: tuple[np.ndarra
         if made is None:  # Blender has no room for another one
             break
         compat.set_corner_uv(made, _mixed(compat.corner_uv(layer), *places))
-    mesh.uv_layers.active_index = max(first, 0)
+    mesh.uv_layers.active_index = max(first or 0, 0)
 
 
 def _carry_groups(source: MeshObject, made: bpy.types.Object, places: tuple[np.ndarray, np.ndarray]) -> None:

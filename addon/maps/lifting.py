@@ -42,7 +42,7 @@ def is_used(name: str, options: Options) -> bool:
     drawn, lattice, shape = options.pattern in DRAWN, options.pattern in LATTICES, options.shape
     may_surround = (shape == "disk" and (lattice or options.pattern == "circles")) or (shape == "sphere" and drawn)
     rows = options.around != "none" and shape == "disk" and may_surround
-    round_it = shape == "ring" or rows
+    round_it, bounded = shape == "ring" or rows, shape in ("disk", "parts") and not rows
     return {
         "file": options.pattern == "file",
         "drawing": options.pattern == "object",
@@ -50,7 +50,8 @@ def is_used(name: str, options: Options) -> bool:
         "bridge": not drawn,
         "seed": options.pattern in (*SPREAD, "truchet"),
         "around": may_surround,
-        "turn": drawn or options.pattern == "stripes" and round_it or lattice and shape in ("disk", "parts") and not rows,
+        "rows": rows,
+        "turn": drawn or (lattice and bounded) or (options.pattern == "stripes" and round_it),
         "repeats": rows or (shape == "ring" and (drawn or lattice)) or (shape == "torus" and drawn),
     }.get(name, True)
 

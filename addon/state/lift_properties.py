@@ -37,7 +37,7 @@ PROPERTIES = {
     "drawing": StringProperty(name="Object", description="Curve object or text object with the pattern"),
     "way": EnumProperty(name="Make", items=WAYS, default="perforate", description="What is made of the outlines"),
     **{name: property_of(OWN[name]) for name in (
-        "height", "size", "bridge", "thickness", "shape", "even", "around", "repeats", "turn", "seed"
+        "height", "size", "bridge", "thickness", "shape", "even", "around", "rows", "repeats", "turn", "seed"
     )},
     "seams": BoolProperty(name="Cut at Seams", default=False, description="Cut the surface open at its seams first"),
     "hide": BoolProperty(
@@ -85,12 +85,14 @@ def lift_choice_of(options: Any) -> LiftChoice:
         return value if is_used(name, options) else 0
 
     others = {name: number(name) or None for name in ("bridge", "thickness", "even")}
-    others |= {"shape": options.shape, "repeats": number("repeats"), "turn": math.degrees(number("turn"))}
+    others |= {"shape": options.shape, "turn": math.degrees(number("turn"))}
+    others |= {name: number(name) for name in ("repeats", "rows")}
     if is_used("seed", options):
         others["seed"] = options.seed
     pattern = bpy.path.abspath(options.file) if options.pattern in DRAWN else options.pattern
     cursor = is_used("around", options) and options.around == "cursor"
-    return LiftChoice(pattern, options.way == "perforate", number("height"), number("size"), options.seams, cursor, others)
+    lengths, perforate = (number("height"), number("size")), options.way == "perforate"
+    return LiftChoice(pattern, perforate, *lengths, options.seams, cursor, others)
 
 
 def register() -> None:

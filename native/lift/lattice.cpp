@@ -198,6 +198,7 @@ LaidLattice lay_lattice(const Lattice& lattice, const std::vector<Complex>& peri
             const long cells = cells_round(lattice, periods[0].real(), size, repeats);
             const Complex scale = periods[0] / (static_cast<double>(cells) * lattice.a);
             map = {scale, scale * Complex(0.0, 1.0)};
+            laid.unit = std::abs(scale);
             last = static_cast<double>(cells);
         }
         const double rise = map(lattice.b).imag(), run = map(lattice.a).real(), lean = map(lattice.b).real();

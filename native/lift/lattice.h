@@ -27,6 +27,7 @@ Lattice lattice_of(const std::string& pattern, double bridge, bool along = false
 struct LaidLattice {
     std::vector<std::vector<Complex>> shapes, other_shapes;
     std::vector<Complex> places;
+    double unit = 1.0;  ///< length of the middles' distance 1
     double bend = 1.0;  ///< longest over shortest image of a unit vector: above 1 the lattice is no longer regular
 };
 

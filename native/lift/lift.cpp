@@ -68,6 +68,7 @@ PatternOptions pattern_options(const FlatDomain& domain, const LiftOptions& opti
     chosen.repeats = options.repeats;
     chosen.seed = static_cast<std::uint64_t>(options.seed);
     chosen.turn = options.turn;
+    chosen.rows = options.rows;
     chosen.hole = domain.hole;
     if (!(chosen.size > 0.0)) throw InputError("the surface has no area: no size for the pattern");
     return chosen;

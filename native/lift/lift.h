@@ -30,11 +30,13 @@ struct LiftOptions {
     double turn = 0.0;                  ///< of a drawing, mesh or lattice, degrees counter-clockwise
     Index around = -1;                  ///< vertex of the hole of a disk that rows follow; of a sphere, the middle of
                                         ///< a drawing or mesh. -1: no hole; the top
+    int rows = 0;                       ///< around the hole, beginning there; 0: as many as fit
     bool perforate = false;             ///< cut the outlines out
     std::optional<double> height = {};  ///< raise them; below 0: sink them. Of a mesh a factor of its heights
     std::optional<double> thickness = {};  ///< of a closed solid; none: the surface stays a sheet
 
-    KOEBE_OPTIONS(LiftOptions, shape, even, size, bridge, repeats, seed, turn, around, perforate, height, thickness)
+    KOEBE_OPTIONS(LiftOptions, shape, even, size, bridge, repeats, seed, turn, around, rows, perforate, height,
+                  thickness)
 };
 
 /// `vertex_count` and `face_count` count the result. All figures of a map are for the map that the pattern is drawn in.

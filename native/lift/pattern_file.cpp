@@ -23,6 +23,7 @@ void require_fitting_options(const std::string& kind, const LiftOptions& options
     const bool on_sphere = options.shape == LiftShape::sphere;
     if (options.around >= 0 && !(on_sphere ? placed : kind.empty() && options.shape == LiftShape::disk))
         throw InputError("around is for built-in patterns on a disk, and for drawings and meshes on a sphere");
+    if (options.rows > 0 && (options.around < 0 || on_sphere)) throw InputError("rows are counted around a hole only");
     if (kind != ".png") return;
     if (!options.height) throw InputError("an image is a relief: give the height of white");
     if (options.shape == LiftShape::parts)

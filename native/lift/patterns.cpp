@@ -93,13 +93,34 @@ bool runs_along(const std::string& name, const PatternOptions& options)
     return options.hole.has_value() == (std::fmod(options.turn, 180.0) == 0.0);
 }
 
+/// Moves the rows, so that the first one lies a bridge away from the hole, and drops those at the rim and beyond
+/// `most`.
+void begin_at_hole(LaidLattice& laid, const LatticePlane& plane, double rise, double bridge, int most)
+{
+    double top = -INFINITY, bottom = INFINITY;
+    for (const auto* shapes : {&laid.shapes, &laid.other_shapes})
+        for (const auto& shape : *shapes)
+            for (const Complex z : shape) {
+                top = std::max(top, z.imag());
+                bottom = std::min(bottom, z.imag());
+            }
+    const double first = plane.high.imag() - bridge - top, near = 1e-6 * rise;
+    const double last = std::max(plane.low.imag() + bridge - bottom, most > 0 ? first - (most - 1) * rise : -INFINITY);
+    const Complex shift(0.0, std::fmod(first - laid.places.front().imag(), rise));
+    for (Complex& place : laid.places) place += shift;
+    std::erase_if(laid.places, [&](Complex z) { return z.imag() > first + near || z.imag() < last - near; });
+}
+
 DrawnPattern lattice_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
 {
     const bool repeats = options.hole || sheet.periods.size() == 1, along = repeats && runs_along(name, options);
     const LatticePlane plane = options.hole ? plane_about(sheet, *options.hole)
                                             : plane_of(sheet, repeats ? Complex(1.0) : unit_turn(options.turn));
-    const LaidLattice laid = lay_lattice(lattice_of(name, options.bridge / options.size, along), plane.periods,
-                                         options.size / plane.scale, options.repeats, plane.low, plane.high);
+    const double bridge = options.bridge / options.size;
+    const Lattice lattice = lattice_of(name, bridge, along);
+    LaidLattice laid =
+        lay_lattice(lattice, plane.periods, options.size / plane.scale, options.repeats, plane.low, plane.high);
+    if (options.hole) begin_at_hole(laid, plane, laid.unit * lattice.b.imag(), laid.unit * bridge, options.rows);
     DrawnPattern pattern;
     pattern.bend = laid.bend;
     for (std::size_t i = 0; i < laid.places.size(); ++i)

@@ -21,12 +21,14 @@ struct PatternOptions {
     std::uint64_t seed = 1;
     double turn = 0.0;                ///< of a lattice, degrees counter-clockwise
     std::optional<Circle> hole = {};  ///< of the unit disk: a lattice's rows lie around it
+    int rows = 0;                     ///< around the hole, beginning there; 0: as many as fit
 };
 
 /// The patterns' names. Circles and Voronoi cells are even on the surface. Hexagons, triangles, diamonds, stripes and
 /// truchet lie in lattices that are even in the domain, and go on over the cut of a ring or a torus. Around a hole of a
-/// disk, lattices and circles lie in rows that are concentric in the domain. There stripes follow the circles, and
-/// turned by 90 degrees they are rays. On a ring they run from rim to rim, and turned by 90 degrees they go round.
+/// disk, lattices and circles lie in rows that are concentric in the domain, a bridge away from it and the rim. There
+/// stripes follow the circles, and turned by 90 degrees they are rays. On a ring they run from rim to rim, and turned
+/// by 90 degrees they go round.
 KOEBE_API const std::vector<std::string>& pattern_names();
 
 /// Whether a pattern is the name of a file: by its extension.

@@ -131,6 +131,10 @@ def test_rows_follow_a_hole(pattern):
     in_a_row = 24 if pattern == "truchet" else 12
     assert result.outlines >= in_a_row and result.outlines % in_a_row == 0  # whole rows, or none of a row
     assert len(loops_of(result.triangles)) == 2 + result.outlines
+    one = koebe.lift(vertices, faces, pattern, around=vertex, repeats=12, rows=1, perforate=True)
+    assert one.outlines == in_a_row < result.outlines
+    with pytest.raises(koebe.InputError, match="rows are counted around a hole only"):
+        koebe.lift(vertices, faces, pattern, rows=1, perforate=True)
     with pytest.raises(koebe.InputError, match="on no hole"):
         koebe.lift(vertices, faces, pattern, around=0, perforate=True)
     with pytest.raises(koebe.InputError, match="no rows"):
@@ -169,6 +173,8 @@ def test_stripes_follow_the_circles_of_a_hole_or_are_rays(turn, along):
     middles, axes = directions(result)
     assert result.outlines % (8 if along else 24) == 0 and len(axes) == result.outlines > 8
     radial = abs((axes * middles.conj() / abs(middles)).real)
+    rows = 1 + (np.diff(np.sort(abs(middles))) > 0.02).sum()
+    assert rows == result.outlines // (8 if along else 24) > 1
     assert (radial < 0.1).all() if along else (radial > 0.99).all()
 
 
