@@ -5,8 +5,11 @@
 #include "lift/solid.h"
 #include "mesh/connectivity.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -54,15 +57,19 @@ std::map<EdgeKey, Index> faces_at(std::map<EdgeKey, Index> edges, const KeptShee
     return edges;
 }
 
-/// Where a corner of a sheet's face lies in the surface's face below, by its corners as given.
-Eigen::RowVector3d weights_below(const FlatSheet& domain, const Triangles& given, Index below, Complex place)
+/// The barycentric coordinates of a point of a triangle in space, whose rows are the corners; of one without area, of
+/// the nearest corner.
+Eigen::RowVector3d weights_in(const Eigen::Matrix3d& corners, const Eigen::RowVector3d& point)
 {
-    const Eigen::RowVector3d own = domain.weights_of(below, place).cwiseMax(0.0);
-    Eigen::RowVector3d weights;
-    for (int k = 0; k < 3; ++k)
-        for (int j = 0; j < 3; ++j)
-            if (given(below, k) == domain.triangles(below, j)) weights[k] = own[j];
-    return weights.sum() > 0.0 ? (weights / weights.sum()).eval() : Eigen::RowVector3d::Constant(1.0 / 3.0);
+    const Eigen::RowVector3d b = corners.row(1) - corners.row(0), c = corners.row(2) - corners.row(0);
+    const Eigen::RowVector3d from = point - corners.row(0), normal = b.cross(c);
+    const double at_b = from.cross(c).dot(normal) / normal.squaredNorm();
+    const double at_c = b.cross(from).dot(normal) / normal.squaredNorm();
+    Eigen::RowVector3d weights = Eigen::RowVector3d(1.0 - at_b - at_c, at_b, at_c).cwiseMax(0.0);
+    if (std::isfinite(at_b) && std::isfinite(at_c)) return weights / weights.sum();
+    Eigen::Index nearest = 0;
+    (corners.rowwise() - point).rowwise().squaredNorm().minCoeff(&nearest);
+    return Eigen::RowVector3d::Unit(nearest);
 }
 
 }  // namespace
@@ -139,14 +146,14 @@ void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftO
             throw SolverError("the solid is not closed");
 }
 
-void tell_places(const KeptSheet& sheet, const FlatSheet& domain, const Triangles& given,
+void tell_places(const KeptSheet& sheet, const Vertices& vertices, const Triangles& triangles,
                  const std::vector<Index>& source, std::size_t outer, LiftResult& result)
 {
     const Index faces = static_cast<Index>(result.triangles.rows()), own = static_cast<Index>(sheet.face.size());
-    const Index vertices = static_cast<Index>(source.size()), inner = static_cast<Index>(outer);
+    const Index count = static_cast<Index>(source.size()), inner = static_cast<Index>(outer);
     const auto vertex = [&](Index f, int k) {  // of the sheet; the inner side has the sheet's own
         const Index v = result.triangles(f, k);
-        return v < vertices ? source[v] : v - vertices;
+        return v < count ? source[v] : v - count;
     };
     const auto foot = [&](Index f) { return edge_key(vertex(f, 0), vertex(f, 1)); };  // of a wall, over one edge
     const auto is_wall = [&](Index f) { return f >= own && !(f >= inner && f < inner + own); };
@@ -158,11 +165,10 @@ void tell_places(const KeptSheet& sheet, const FlatSheet& domain, const Triangle
     for (Index f = 0; f < faces; ++f) {
         const Index below = is_wall(f) ? feet.at(foot(f)) : f < own ? f : f - inner;
         result.face.push_back(sheet.face[below]);
-        for (int k = 0; k < 3; ++k) {
-            int j = 0;
-            while (sheet.triangles(below, j) != vertex(f, k)) ++j;
-            result.weights.row(3 * f + k) = weights_below(domain, given, sheet.face[below], sheet.uv[3 * below + j]);
-        }
+        Eigen::Matrix3d corners;
+        for (int k = 0; k < 3; ++k) corners.row(k) = vertices.row(triangles(result.face[f], k));
+        for (int k = 0; k < 3; ++k)
+            result.weights.row(3 * f + k) = weights_in(corners, sheet.vertices.row(vertex(f, k)));
     }
 }
 

@@ -34,9 +34,9 @@ void finish_sheet(const KeptSheet& sheet, RaisedSheet raised, const LiftOptions&
 void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftOptions& options, LiftResult& result);
 
 /// Tells the result's `face` and `weights`.
-/// @param given the surface's triangles as they came in: their corners may be in another order in the domain
-/// @param source (V) vertex of the sheet for each vertex of the raised sheet @param outer number of its faces
-void tell_places(const KeptSheet& sheet, const FlatSheet& domain, const Triangles& given,
+/// @param vertices, triangles of the surface as they came in @param source (V) vertex of the sheet for each vertex of
+/// the raised sheet @param outer number of its faces
+void tell_places(const KeptSheet& sheet, const Vertices& vertices, const Triangles& triangles,
                  const std::vector<Index>& source, std::size_t outer, LiftResult& result);
 
 }  // namespace koebe

@@ -213,7 +213,7 @@ void lift_outlines(const FlatDomain& domain, const Triangles& given, const Patte
         finish_solid(sheet, raised, options, result);
     else
         finish_sheet(sheet, std::move(raised), options, result);
-    tell_places(sheet, domain.sheet(), given, source, outer, result);
+    tell_places(sheet, domain.sheet().vertices, given, source, outer, result);
     warn_of_left_out(result);
     if (!options.thickness && !options.height) return;
     context.checkpoint();
