@@ -4,12 +4,10 @@
 #include "lift/flat_sheet.h"
 #include "lift/solid.h"
 #include "mesh/connectivity.h"
-
-#include <Eigen/Geometry>
+#include "transfer/nearest_triangles.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -55,21 +53,6 @@ std::map<EdgeKey, Index> faces_at(std::map<EdgeKey, Index> edges, const KeptShee
         if (at != edges.end() && (at->second < 0 || sheet.patch[face_of(h)] == 1)) at->second = face_of(h);
     }
     return edges;
-}
-
-/// The barycentric coordinates of a point of a triangle in space, whose rows are the corners; of one without area, of
-/// the nearest corner.
-Eigen::RowVector3d weights_in(const Eigen::Matrix3d& corners, const Eigen::RowVector3d& point)
-{
-    const Eigen::RowVector3d b = corners.row(1) - corners.row(0), c = corners.row(2) - corners.row(0);
-    const Eigen::RowVector3d from = point - corners.row(0), normal = b.cross(c);
-    const double at_b = from.cross(c).dot(normal) / normal.squaredNorm();
-    const double at_c = b.cross(from).dot(normal) / normal.squaredNorm();
-    Eigen::RowVector3d weights = Eigen::RowVector3d(1.0 - at_b - at_c, at_b, at_c).cwiseMax(0.0);
-    if (std::isfinite(at_b) && std::isfinite(at_c)) return weights / weights.sum();
-    Eigen::Index nearest = 0;
-    (corners.rowwise() - point).rowwise().squaredNorm().minCoeff(&nearest);
-    return Eigen::RowVector3d::Unit(nearest);
 }
 
 }  // namespace
@@ -168,7 +151,7 @@ void tell_places(const KeptSheet& sheet, const Vertices& vertices, const Triangl
         Eigen::Matrix3d corners;
         for (int k = 0; k < 3; ++k) corners.row(k) = vertices.row(triangles(result.face[f], k));
         for (int k = 0; k < 3; ++k)
-            result.weights.row(3 * f + k) = weights_in(corners, sheet.vertices.row(vertex(f, k)));
+            result.weights.row(3 * f + k) = weights_in_triangle(sheet.vertices.row(vertex(f, k)), corners);
     }
 }
 

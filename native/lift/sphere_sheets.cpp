@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace koebe {
 namespace {
@@ -125,7 +126,7 @@ public:
             std::vector<std::pair<Index, VertexLoop>> rims = rims_of(side, part);
             std::vector<VertexLoop> all;
             for (const auto& [number, loop] : rims) all.push_back(loop);
-            bool bad = !crossing_boundary_edges(all, points, 1e-6).empty();
+            bool bad = !crossing_boundary_edges(all, points, 1e-6).empty() || any_nested(side, part, rims);
             while (!rims.empty() && !bad) {
                 const Index number = rims.front().first;
                 std::vector<VertexLoop> own;
@@ -195,6 +196,29 @@ private:
             rims.emplace_back(part[face_of(h)], std::move(loop));
         }
         return rims;
+    }
+
+    /// Whether a part of a half lies inside another one: their rims do not cross, and faces are covered twice.
+    bool any_nested(char side, const std::vector<Index>& part,
+                    const std::vector<std::pair<Index, VertexLoop>>& rims) const
+    {
+        const std::vector<Complex>& places = places_[side];
+        std::map<Index, Complex> middles;  // of a face of each part
+        for (Index f = 0; f < static_cast<Index>(south_.size()); ++f)
+            if (south_[f] == side)
+                middles.try_emplace(
+                    part[f], (places[triangles_(f, 0)] + places[triangles_(f, 1)] + places[triangles_(f, 2)]) / 3.0);
+        return std::ranges::any_of(middles, [&](const auto& own) {
+            int turns = 0;
+            for (const auto& [number, loop] : rims)
+                for (std::size_t i = 0; number != own.first && i < loop.size(); ++i) {
+                    const Complex a = places[loop[i]], b = places[loop[(i + 1) % loop.size()]], m = own.second;
+                    if ((a.imag() <= m.imag()) == (b.imag() <= m.imag())) continue;
+                    const bool up = b.imag() > m.imag();
+                    if ((cross(b - a, m - a) > 0.0) == up) turns += up ? 1 : -1;
+                }
+            return turns != 0;
+        });
     }
 
     const Triangles& triangles_;
