@@ -14,6 +14,7 @@
 #include "cli/process/standard_streams.h"
 
 #include "certified/capacities.h"
+#include "core/counted.h"
 #include "report/capacity_json.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
@@ -44,8 +45,8 @@ std::vector<int> order_of_ranks(const ShapeInput& shape, const std::vector<std::
     for (const std::string& word : words) {
         const auto found = std::ranges::find(shape.ranks, std::stoi(word));
         if (found == shape.ranks.end())
-            throw WrongUsage("--loops: there is no boundary loop " + word + " among " +
-                             std::to_string(shape.ranks.size()) + ", counted from 0");
+            throw WrongUsage("--loops: there is no boundary loop " + word + ": the surface has " +
+                             counted(shape.ranks.size(), "loop") + ", numbered from 0");
         order.push_back(static_cast<int>(found - shape.ranks.begin()));
     }
     return order;
