@@ -205,6 +205,8 @@ lint-native: $(VENV)/.done $(DONE)/install-lint
 
 demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.blend, out/*.png and a table
 	$(PYTHON) scripts/demo.py
+	for name in lift lift_sphere lift_rows; do \
+	  $(BLENDER) --background --factory-startup --python-exit-code 1 --python scripts/lift_picture.py -- out/$$name.jpg 24 || exit; done
 
 bench: build programs $(DONE)/install-blender $(DONE)/install-bench ## time and accuracy: out/bench/
 	$(configure)

@@ -119,7 +119,7 @@ def write(known):
     others = sorted({path.stem for path in MAPS.glob("*.npz") if ", " not in path.stem} - {*known})
     needed = {*UNWRAPS, *SETTINGS} - {"OptCuts"}
     groups = {heading: {model: rows for model in models if needed <= {*(rows := found(model))}}
-              for heading, models in (("models it was made with", known), ("other models", others))}  # fmt: skip
+              for heading, models in (("development models", known), ("other models", others))}  # fmt: skip
     rows_of = {model: rows for group in groups.values() for model, rows in group.items()}
     compare_tables.write(PAGE, groups)
     compare_front.draw(rows_of, IMAGES / "compare_front.png")

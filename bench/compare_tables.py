@@ -13,13 +13,13 @@ SUMMARY = ["unwrap", "models done", *HEAD[1:7], "models with flips", "with faces
 OURS = ("ours, in parts", *SETTINGS)
 TIE = 1.01  # of density and angle error: ours over theirs that counts as equal
 # Of a goal: its words, the figure, and the most that ours over theirs may be.
-CUTS = ("cuts at most 0.6 of its", "seams", 0.6)
-AT_ITS_CUTS = ("cuts at most its", "seams", 1.0)
-BESIDE_XATLAS = (("density at most its", "spread", TIE), ("angle error at most 1.1 of its", "angle", 1.1),
-                 ("islands at most half of its, or 1", "islands", 0.5),
-                 ("seconds at most its", "seconds", 1.0))  # fmt: skip
-BESIDE_SMART = (("density at most its", "spread", TIE), ("angle error at most its", "angle", TIE),
-                ("islands at most its", "islands", 1.0))  # fmt: skip
+CUTS = ("cuts at most 0.6 times as long", "seams", 0.6)
+AT_ITS_CUTS = ("cuts at most as long", "seams", 1.0)
+BESIDE_XATLAS = (("density at most as large", "spread", TIE), ("angle error at most 1.1 times as large", "angle", 1.1),
+                 ("islands at most half as many, or 1", "islands", 0.5),
+                 ("seconds at most as many", "seconds", 1.0))  # fmt: skip
+BESIDE_SMART = (("density at most as large", "spread", TIE), ("angle error at most as large", "angle", TIE),
+                ("islands at most as many", "islands", 1.0))  # fmt: skip
 
 
 def done(rows, unwrap):
@@ -70,7 +70,7 @@ def default(rows):
 
 def goal_table(groups, peer, cuts, goals, setting_of):
     """A goal a row, and of each group of models the median ratio and how often the goal is met."""
-    head = ["goal", *(f"{heading}: {what}" for heading in groups for what in ("ours / its", "met"))]
+    head = ["goal", *(f"{heading}: {what}" for heading in groups for what in ("ratio", "goal met"))]
     columns = [beside(rows_of, peer, cuts, goals, setting_of) for rows_of in groups.values()]
     return markdown(head, [[lines[0][0], *(cell for line in lines for cell in line[1:])] for lines in zip(*columns)])
 
@@ -138,18 +138,19 @@ def write(page, groups):
     def best(peer, cuts, goals):
         return lambda rows: chosen(rows, peer, cuts, goals)
 
-    text = ["### Beside xatlas, at six tenths of its cuts\n",
+    text = ["### Compared with xatlas, with 60 % of its cuts\n",
             goal_table(groups, "xatlas", CUTS, BESIDE_XATLAS, best("xatlas", CUTS, BESIDE_XATLAS)),
-            "### Beside xatlas, with our default\n",
+            "### Compared with xatlas, with our default\n",
             goal_table(groups, "xatlas", AT_ITS_CUTS, BESIDE_XATLAS, default),
-            "### Beside Smart UV, with our default\n",
+            "### Compared with Smart UV, with our default\n",
             goal_table(groups, "Smart UV", AT_ITS_CUTS, BESIDE_SMART, default)]  # fmt: skip
     if any(done(rows, "OptCuts") for rows_of in groups.values() for rows in rows_of.values()):
-        text += ["### Beside OptCuts, with our default\n",
+        text += ["### Compared with OptCuts, with our default\n",
                  goal_table(groups, "OptCuts", AT_ITS_CUTS, BESIDE_SMART, default)]  # fmt: skip
     for heading, rows_of in groups.items():
         text += [f"### {heading}\n", summary(rows_of)]
-    text += ["### Ours over xatlas's at six tenths of its cuts\n", setting_table(groups), "### Each model\n"]
+    text += ["### Our figures over the figures of xatlas, with 60 % of its cuts\n", setting_table(groups),
+             "### Each model\n"]  # fmt: skip
     text += [table(model, rows) for rows_of in groups.values() for model, rows in rows_of.items()]
     before, rest = page.read_text(encoding="utf-8").split(BEGIN)
     page.write_text(f"{before}{BEGIN}\n\n" + "\n".join(text) + f"\n{END}{rest.split(END)[1]}", encoding="utf-8")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pictures of docs/lift.md: a ring with a lattice of hexagons, a lampshade of Voronoi cells, a vase with text; and
-in lift_sphere.jpg an egg of Voronoi cells, a woven basket, a pebble with text.
+"""The pictures of docs/lift.md: a ring with a lattice of hexagons, a lampshade of Voronoi cells, a vase with text; in
+lift_sphere.jpg an egg of Voronoi cells, a woven basket, a pebble with text; in lift_rows.jpg a mask of lace with rows
+around its eyes and mouth, and a sleeve for a forearm whose holes are smaller at the wrist.
 
     blender -b --factory-startup --python-exit-code 1 -P scripts/lift_picture.py -- docs/images/lift.jpg [SAMPLES]
 
@@ -25,6 +26,7 @@ import studio  # noqa: E402
 COMMAND = os.environ.get("KOEBE_COMMAND", str(Path(__file__).resolve().parent.parent / "build" / "koebe"))
 SIZE = (1280, 500)
 VASE_TURN = 1.45  # radians, so that the text faces the camera
+HOLES = ((-0.286, -0.816, 0.0), (0.286, -0.816, 0.0), (0.0, -0.933, -0.717))  # of the face: middles of eyes and mouth
 SHARP = 0.6  # radians between two faces at an edge that is not smooth
 
 
@@ -59,6 +61,14 @@ def vase(height, angle):
 def bowl(height, angle):
     radius = 3.2 + 2.6 * np.sin(0.5 * np.pi * height) + 0.35 * height**6
     return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), 6.5 * height])
+
+
+def forearm(height, angle):
+    """A sleeve for a forearm in centimetres, from the wrist upwards: it bends a little, and is flatter at the wrist."""
+    radius = 2.9 + 2.1 * np.sin(0.5 * np.pi * np.minimum(1.0, 1.25 * height)) - 0.5 * height**4
+    flat = 0.74 + 0.2 * height
+    bend = 1.1 * height**2
+    return np.column_stack([radius * np.cos(angle) + bend, flat * radius * np.sin(angle), 21.0 * height])
 
 
 def globe(steps, place):
@@ -137,19 +147,23 @@ def write_text(file, text):
     Path(file).write_text(text, encoding="ascii")
 
 
+def read_mesh(file):
+    """Points and triangles of an OBJ file."""
+    rows = [line.split() for line in Path(file).read_text(encoding="ascii").splitlines()]
+    polygons = [[int(corner.split("/")[0]) - 1 for corner in row[1:]] for row in rows if row and row[0] == "f"]
+    fans = [(corners[0], *corners[i : i + 2]) for corners in polygons for i in range(1, len(corners) - 1)]
+    return np.array([row[1:4] for row in rows if row and row[0] == "v"], float), np.array(fans)
+
+
 def lifted(points, faces, *options):
-    """The solid of `koebe lift`: points and triangles."""
+    """What `koebe lift` makes of a mesh: points and triangles."""
     with tempfile.TemporaryDirectory() as folder:
         surface, solid = Path(folder) / "in.obj", Path(folder) / "out.obj"
         lines = ["v {} {} {}".format(*p) for p in points] + ["f {} {} {}".format(*f) for f in faces + 1]
         surface.write_text("\n".join(lines) + "\n", encoding="ascii")
         pattern, *rest = options
         subprocess.run([COMMAND, "lift", surface, pattern, solid, *rest], check=True)
-        rows = [line.split() for line in solid.read_text(encoding="ascii").splitlines()]
-    return (
-        [tuple(map(float, row[1:4])) for row in rows if row and row[0] == "v"],
-        [tuple(int(corner.split("/")[0]) - 1 for corner in row[1:4]) for row in rows if row and row[0] == "f"],
-    )
+        return read_mesh(solid)
 
 
 def metal(name, color, roughness, metallic):
@@ -163,7 +177,7 @@ def metal(name, color, roughness, metallic):
 
 def add(name, solid, material, place, turn, scale):
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(solid[0], [], solid[1])
+    mesh.from_pydata(solid[0].tolist(), [], solid[1].tolist())
     mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
     if hasattr(mesh, "use_auto_smooth"):
         mesh.use_auto_smooth, mesh.auto_smooth_angle = True, SHARP
@@ -216,11 +230,44 @@ def add_spheres():
     add("pebble", text, metal("slate", (0.13, 0.16, 0.2, 1.0), 0.4, 0.0), (2.25, -0.2, 0.5), (-0.5, 0.0, 0.0), 1.0)
 
 
+def finer(points, faces):
+    """The triangles of a smooth surface through the mesh."""
+    mesh = bpy.data.meshes.new("coarse")
+    mesh.from_pydata(points.tolist(), [], faces.tolist())
+    obj = bpy.data.objects.new("coarse", mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    obj.modifiers.new("fine", "SUBSURF").levels = 2
+    fine = obj.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    fine.calc_loop_triangles()
+    result = np.array([v.co for v in fine.vertices]), np.array([t.vertices for t in fine.loop_triangles])
+    bpy.data.objects.remove(obj)
+    return result
+
+
+def lace_mask():
+    """The sample's face, its eyes and mouth ringed by rows of slots, and filled with circles."""
+    points, faces = finer(*read_mesh(Path(__file__).resolve().parent.parent / "blend_samples" / "face.obj"))
+    holes = [points[np.argmin(np.linalg.norm(points - middle, axis=1))] for middle in HOLES]
+    for rim, repeats in zip(holes, (12, 12, 14), strict=True):
+        at = int(np.argmin(np.linalg.norm(points - rim, axis=1)))  # the vertex is still there
+        points, faces = lifted(points, faces, "stripes", "--around", str(at), "--rows", "4", "--repeats", str(repeats),
+                               "--size", "0.1", "--bridge", "0.035", "--perforate")  # fmt: skip
+    return lifted(points, faces, "circles", "--size", "0.085", "--bridge", "0.022", "--perforate")
+
+
+def add_rows():
+    sleeve = lifted(*tube(120, 200, forearm), "hexagons", "--shape", "ring", "--perforate", "--repeats", "22",
+                    "--bridge", "0.3", "--thickness", "0.3")  # fmt: skip
+    lace = metal("lace", (0.03, 0.03, 0.045, 1.0), 0.55, 0.0)
+    add("mask", lace_mask(), lace, (-1.05, 0.0, 1.3), (0.0, 0.0, 0.2), 1.05)
+    add("sleeve", sleeve, metal("nylon", (0.1, 0.16, 0.24, 1.0), 0.5, 0.0), (1.35, 0.2, 0.0), (0.0, 0.0, 0.4), 0.105)
+
+
 def main():
     out, *samples = sys.argv[sys.argv.index("--") + 1 :]
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    (add_spheres if Path(out).stem == "lift_sphere" else add_tubes)()
+    {"lift_sphere": add_spheres, "lift_rows": add_rows}.get(Path(out).stem, add_tubes)()
     bpy.ops.mesh.primitive_plane_add(size=60.0)
     bpy.context.object.data.materials.append(studio.plain_material(studio.BACKDROP))
     add_lamp((-3.0, -3.5, 5.0), 170.0, 2.5)

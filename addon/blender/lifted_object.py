@@ -3,11 +3,10 @@
 
 import bpy
 import numpy as np
-from mathutils import Vector
-from mathutils.bvhtree import BVHTree
 
 from ..maps.lifting import Lifted
 from . import compat
+from .carried_attributes import carry_attributes
 from .copied_object import fill_mesh, note_new_objects
 from .errors import TransferError
 from .mesh_object import MeshObject
@@ -21,9 +20,11 @@ ROUNDING = 1e-5  # of a transform, relative to its largest number
 def add_lifted_object(
     run: Transaction, context: bpy.types.Context, source: MeshObject, lifted: Lifted, layer: str
 ) -> bpy.types.Object:
-    """A new object with this mesh and the transform, slots and shading of its source, in the active collection.
+    """A new object with this mesh and the transform, slots, shading, UVs and attributes of its source, in the active
+    collection.
 
-    @param layer name of the UV layer; a solid has none. Raises TransferError if the source has no inverse transform.
+    @param layer name of the map's UV layer; a solid has none. Raises TransferError if the source has no inverse
+    transform.
     """
     note_new_objects(run)
     mesh = bpy.data.meshes.new(f"{source.data.name} {ENDING}")
@@ -34,6 +35,7 @@ def add_lifted_object(
         compat.set_corner_uv(mesh.uv_layers.new(name=layer, do_init=False), lifted.uv)
     for slot in source.material_slots:
         mesh.materials.append(slot.material)
+    carry_attributes(source, obj, lifted)
     _take_faces(source.data, mesh, lifted)
     mesh.update()
     context.collection.objects.link(obj)
@@ -52,7 +54,8 @@ def _local_points(source: MeshObject, made: bpy.types.Object, lifted: Lifted) ->
         raise TransferError(f"{source.name}: its scale is 0 along an axis") from None
     own = compat.vertex_positions(source.data)
     stayed = lifted.original >= 0
-    if stayed.any() and int(lifted.original.max()) >= len(own):
+    numbers = ((lifted.original, own), (lifted.below, source.data.loops), (lifted.face, source.data.polygons))
+    if any(int(one.max()) >= len(of) for one, of in numbers):
         raise TransferError(f"{source.name}: its mesh has changed during the run")
     if np.abs(of_source - to_world).max() <= ROUNDING * np.abs(to_world).max():
         found[stayed] = own[lifted.original[stayed]]
@@ -60,26 +63,13 @@ def _local_points(source: MeshObject, made: bpy.types.Object, lifted: Lifted) ->
 
 
 def _take_faces(own: bpy.types.Mesh, mesh: bpy.types.Mesh, lifted: Lifted) -> None:
-    """Give each new face the slot and the shading of the source's face that is nearest to its middle. Walls
-    are flat."""
+    """Give each new face the slot and the shading of the source's face below it. Walls are flat."""
     slots = compat.read(own.polygons, "material_index", np.int32)
     smooth = compat.read(own.polygons, "use_smooth", bool)
     if not slots.any() and not smooth.any():
         mesh.polygons.foreach_set("use_smooth", np.zeros(len(mesh.polygons), dtype=bool))
         return
-    nearest: np.ndarray | int = 0
-    if np.ptp(slots) or np.ptp(smooth.astype(np.int8)):
-        nearest = _nearest_faces(own, mesh)
-    bent = np.broadcast_to(smooth[nearest], lifted.patch.shape) & (lifted.patch != WALLS)
+    bent = smooth[lifted.face] & (lifted.patch != WALLS)
     mesh.polygons.foreach_set("use_smooth", bent)
     if slots.any():
-        chosen = np.broadcast_to(slots[nearest], lifted.patch.shape)
-        mesh.polygons.foreach_set("material_index", np.ascontiguousarray(chosen))
-
-
-def _nearest_faces(own: bpy.types.Mesh, mesh: bpy.types.Mesh) -> np.ndarray:
-    """The source's face (F,) nearest to the middle of each new face."""
-    tree = BVHTree.FromPolygons([vertex.co for vertex in own.vertices], [list(face.vertices) for face in own.polygons])
-    corners = compat.vertex_positions(mesh)[compat.corner_indices(mesh)[0]]
-    middles = corners.reshape(-1, 3, 3).mean(axis=1)
-    return np.array([tree.find_nearest(Vector(middle))[2] or 0 for middle in middles], dtype=np.int64)
+        mesh.polygons.foreach_set("material_index", slots[lifted.face])

@@ -136,7 +136,7 @@ def _lift(build: NodeBuilder) -> None:
     build.input("Object", "Surface", None, "The mapped surface")
     build.input("String", *UV_MAP)
     build.input("Vector", "Place", (0.0, 0.0, 0.0), "Place in the UVs to which the origin comes")
-    build.input("Float", "Size", 1.0, "Length in the UVs for a length of 1")
+    build.input("Float", "Size", 1.0, "Length in the UVs of a length of 1 in the geometry")
     build.input("Float", "Height", 1.0, "Factor of the heights")
     build.input("Bool", "In Proportion", False, "Heights grow with the pattern, by the local scale of the map")
     surface, layer, size = _object(build, "Surface"), build.given("UV Map"), build.given("Size")

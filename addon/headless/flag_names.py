@@ -10,7 +10,7 @@ FLAGS = {
     "Unwrap to Parts": "--parts",
     **{domain.button: f"--domain {name}" for name, domain in DOMAINS.items()},
     "Unwrap to Disk": "--domain disk",
-    "Tube: Annulus": "--tube annulus",
+    "Tube: Ring": "--tube annulus",
     "Fit: Inside": "--fit inside",
     "Target: Attributes": "--sequence-target attribute",
     "set Balance to Area": "take --balance area",

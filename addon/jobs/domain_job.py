@@ -17,7 +17,7 @@ from ..maps.tile_pattern import Pattern
 from .choice_job import ChoiceJob
 
 BESIDE = 0.1  # of an object's size, between the object and its sphere
-OTHER_PERIODS = "its tiles differ in size: the checker has no seam on the largest tile only"
+OTHER_PERIODS = "its tiles differ in size: only on the largest tile the checker runs over the cut without a seam"
 
 
 class DomainJob(ChoiceJob):

@@ -38,7 +38,7 @@ class LiftJob:
         self.choice, self._drawing = choice, drawing
         for obj in objects:
             try:
-                self.outcomes.append(_read(obj))
+                self.outcomes.append(_read(obj, choice.cursor))
                 self._places.append((obj.name, obj.library.filepath if obj.library else None))
             except Exception as error:
                 self.problems.append(reason(obj.name, error))
@@ -80,9 +80,10 @@ class LiftJob:
         return made
 
 
-def _read(obj: MeshObject) -> LiftOutcome:
+def _read(obj: MeshObject, cursor: bool) -> LiftOutcome:
     check_readable(obj)
     surface = mesh_reading.read_surface(obj, selected_only=False)
     if not len(surface.face_size):
         raise TransferError(f"{obj.name}: it has no faces")
-    return LiftOutcome(obj.name, surface, mirrored=obj.matrix_world.determinant() < 0.0)
+    place = mesh_reading.cursor_place(obj) if cursor else None
+    return LiftOutcome(obj.name, surface, obj.matrix_world.determinant() < 0.0, place)

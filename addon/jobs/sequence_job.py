@@ -160,8 +160,8 @@ class SequenceJob(ChoiceJob):
         if outcome.alike:
             return ""  # a warning says what was written
         if self.choice.target == "LAYERS":
-            said = f"each {each} has its own UV layer. Choose one in Object Data ▸ UV Maps"
-            return said if each == "shape key" else f"{said}, or take Target: Attributes, which plays them"
+            said = f"each {each} has its own UV layer. Choose a layer in Object Data ▸ UV Maps"
+            return said if each == "shape key" else f"{said}. With Target: Attributes the map follows the timeline"
         if plan[0] is not None:
             return "play the timeline: the checker and the UV Editor show the map of each frame"
         return f"each {each} has its own attribute. An Attribute node in a material shows it: {outcome.written[-1]}"

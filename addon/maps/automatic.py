@@ -59,10 +59,10 @@ def unserved(disk: SurfaceOutcome) -> str:
     """Why a disk does not serve this surface, or nothing."""
     for one in disk.islands:
         if one.error is not None:
-            return NO_DISK.get(kind_of(one.error) or "", "one disk cannot show the surface")
+            return NO_DISK.get(kind_of(one.error) or "", "the surface cannot be mapped to one disk")
         if reason := _bad(one):
             return reason
-    return "" if disk.islands else "one disk cannot show the surface"
+    return "" if disk.islands else "the surface cannot be mapped to one disk"
 
 
 def _bad(one: IslandOutcome) -> str:

@@ -63,7 +63,7 @@ def read_source(koebe: ModuleType, shape: Shape, corner_uv: np.ndarray) -> Sourc
     island, result = shape.island, shape.result
     uv = corner_uv[island.some_corner()].astype(np.float64)
     if np.abs(uv[island.corner_vertex] - corner_uv[island.corners]).max() > ON_CIRCLE:
-        raise ShapeError(f"{shape.name}: its UVs are cut: map it again, with Tube: Annulus")
+        raise ShapeError(f"{shape.name}: its UVs are cut: map it again, with Tube: Ring")
     circles = []
     for loop, off in zip(result.loops, result.off_circle, strict=True):
         rim = np.setdiff1d(loop, off)

@@ -239,7 +239,7 @@ def domain_in(koebe: ModuleType, island: Island, old_uv: np.ndarray) -> CircleDo
     inside = [dataclasses.replace(loop, center=(loop.center - offset) / scale, radius=loop.radius / scale)
               for loop in holes]  # fmt: skip
     if not all(abs(loop.center) + loop.radius < 1.0 for loop in inside):
-        raise DomainError("its UVs are not a disk with round holes: unwrap it with Shape: Disk and Tube: Annulus")
+        raise DomainError("its UVs are not a disk with round holes: unwrap it with Shape: Disk and Tube: Ring")
     unit = dataclasses.replace(rim, center=0.0j, radius=1.0)
     return CircleDomain(island, old_uv, (as_complex(plane) - offset) / scale, [unit, *inside], offset, scale)
 
@@ -263,7 +263,7 @@ def _fitted(koebe: ModuleType, plane: np.ndarray, vertices: np.ndarray) -> Loop:
         if len(on) > 2:
             center, radius, off = koebe.fit_circle(plane[on])
     if not (radius > 0.0 and off <= ON_CIRCLE and len(on) >= LEAST_ROUND * len(vertices)):
-        raise DomainError("its UVs are not a disk with round holes: unwrap it with Shape: Disk and Tube: Annulus")
+        raise DomainError("its UVs are not a disk with round holes: unwrap it with Shape: Disk and Tube: Ring")
     return Loop(vertices, on, complex(*center), radius)
 
 

@@ -12,6 +12,7 @@ from .errors import elements_of, kind_of
 from .islands import cut_into_islands
 from .offending_elements import FACES, VERTICES, offending_elements
 from .outcomes import Progress, share_of
+from .places import centers, points
 from .surface import Island, Surface
 from .wording import counted, explain, in_mesh
 
@@ -33,19 +34,25 @@ class Options(Protocol):
     pattern: str
     way: str
     shape: str
+    around: str
 
 
 def is_used(name: str, options: Options) -> bool:
     """Whether an option matters with these choices."""
-    drawn, lattice = options.pattern in DRAWN, options.pattern in LATTICES
+    drawn, lattice, shape = options.pattern in DRAWN, options.pattern in LATTICES, options.shape
+    may_surround = (shape == "disk" and (lattice or options.pattern == "circles")) or (shape == "sphere" and drawn)
+    rows = options.around != "none" and shape == "disk" and may_surround
+    round_it, bounded = shape == "ring" or rows, shape in ("disk", "parts") and not rows
     return {
         "file": options.pattern == "file",
         "drawing": options.pattern == "object",
         "height": options.way == "raise",
         "bridge": not drawn,
         "seed": options.pattern in (*SPREAD, "truchet"),
-        "turn": drawn,
-        "repeats": (options.shape == "ring" and (drawn or lattice)) or (options.shape == "torus" and drawn),
+        "around": may_surround,
+        "rows": rows,
+        "turn": drawn or (lattice and bounded) or (options.pattern == "stripes" and round_it),
+        "repeats": rows or (shape == "ring" and (drawn or lattice)) or (shape == "torus" and drawn),
     }.get(name, True)
 
 
@@ -55,6 +62,7 @@ class LiftChoice:
 
     pattern  a built-in one, or the path of a file
     seams    cut the surface at its seams first
+    cursor   the pattern lies around the hole nearest to the 3D cursor; on a sphere, around the vertex
     others   further keyword arguments of `koebe.lift`
     """
 
@@ -63,6 +71,7 @@ class LiftChoice:
     height: float = 0.0
     size: float = 0.0
     seams: bool = False
+    cursor: bool = False
     others: dict[str, Any] = dataclasses.field(default_factory=dict)
 
     def arguments(self, area: float, mirrored: bool) -> dict[str, Any]:
@@ -86,6 +95,9 @@ class Lifted:
     corner_vertex  (3 F,)
     uv             (3 F, 2) in 32 bits, or None of a solid
     patch          (F,) 2 for walls
+    face           (F,) the surface's face below
+    below          (3 F, 3) corners of the surface around each corner
+    weights        (3 F, 3) of these: they sum to 1
     """
 
     points: np.ndarray
@@ -93,6 +105,9 @@ class Lifted:
     corner_vertex: np.ndarray
     uv: np.ndarray | None
     patch: np.ndarray
+    face: np.ndarray
+    below: np.ndarray
+    weights: np.ndarray
     outlines: int
     closed: bool
     converged: bool
@@ -111,11 +126,15 @@ class Lifted:
 
 @dataclasses.dataclass
 class LiftOutcome:
-    """What became of one object: its result, or the error and the island that has it."""
+    """What became of one object: its result, or the error and the island that has it.
+
+    cursor  the place of the 3D cursor, if the pattern lies around it
+    """
 
     name: str
     surface: Surface
     mirrored: bool = False
+    cursor: np.ndarray | None = None
     lifted: Lifted | None = None
     error: Exception | None = None
     island: Island | None = None
@@ -167,6 +186,7 @@ def lift_surface(
         surface = dataclasses.replace(surface, seam=np.zeros_like(surface.seam))
     islands = cut_into_islands(surface)
     sizes = [len(island.triangles) for island in islands]
+    around = (centers if choice.others.get("shape") == "sphere" else points)(islands, outcome.cursor)
     results = []
     with np.errstate(all="ignore"):  # a vertex may be no number
         areas = [float(island.areas.sum()) for island in islands]
@@ -174,19 +194,20 @@ def lift_surface(
         outcome.island = island
         results.append(koebe.lift(
             island.vertices, island.triangles, progress=share_of(progress, sum(sizes[:k]), sizes[k], sum(sizes)),
-            cancel=cancel, **choice.arguments(areas[k], outcome.mirrored),
+            cancel=cancel, around=around[k], **choice.arguments(areas[k], outcome.mirrored),
         ))  # fmt: skip
     outcome.island = None
-    outcome.lifted = _joined(islands, results, outcome.mirrored)
+    outcome.lifted = _joined(surface, islands, results, outcome.mirrored)
 
 
-def _joined(islands: list[Island], results: list[Any], mirrored: bool) -> Lifted:
+def _joined(surface: Surface, islands: list[Island], results: list[Any], mirrored: bool) -> Lifted:
     """The results as one mesh."""
     starts = np.cumsum([0, *(len(result.vertices) for result in results)])
     triangles = np.concatenate([result.triangles + start for result, start in zip(results, starts, strict=False)])
     closed = all(result.closed for result in results)
+    below, weights = _corners_below(surface, islands, results), np.concatenate([result.weights for result in results])
     if closed and mirrored:  # Blender shows a mirrored object's faces from their other side
-        triangles = triangles[:, ::-1]
+        triangles, below, weights = (one[:, ::-1] for one in (triangles, below, weights))
     original = [
         np.where(result.original >= 0, island.source_vertex[result.original], -1)
         for island, result in zip(islands, results, strict=True)
@@ -197,6 +218,19 @@ def _joined(islands: list[Island], results: list[Any], mirrored: bool) -> Lifted
     return Lifted(
         np.concatenate([result.vertices for result in results]), np.concatenate(original),
         triangles.ravel(), uv, np.concatenate([result.patch for result in results]),
+        np.concatenate([island.triangle_face[result.face] for island, result in zip(islands, results, strict=True)]),
+        below.reshape(-1, 3), weights.reshape(-1, 3),
         sum(result.outlines for result in results), closed, all(result.converged for result in results),
         list(dict.fromkeys(warnings)),
     )  # fmt: skip
+
+
+def _corners_below(surface: Surface, islands: list[Island], results: list[Any]) -> np.ndarray:
+    """The surface's corners (F, 3, 3) of the triangle below each face, for each of its corners."""
+    number = np.zeros(len(surface.face_size), dtype=np.int64)
+    for k, island in enumerate(islands):
+        number[island.faces] = k
+    triangles = np.argsort(number[surface.triangle_face], kind="stable")  # those of an island are in order
+    starts = np.cumsum([0, *(len(island.triangles) for island in islands)])
+    own = [triangles[start + result.face] for start, result in zip(starts, results, strict=False)]
+    return np.repeat(surface.triangle_corners[np.concatenate(own)][:, None], 3, axis=1)

@@ -328,7 +328,7 @@ def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> Non
         cases = [(one.island, one.result.uv, one.result.loops, one.opening is not None) for one in tubes]
         for one, unrolled in zip(tubes, unroll(koebe, outcome.task.surface, cases), strict=True):
             if unrolled is None:
-                one.error = MapError("the tube cannot be cut open along its edges: take Tube: Annulus")
+                one.error = MapError("the tube cannot be cut open along its edges: take Tube: Ring")
                 continue
             if one.opening is not None and len(over := flipped_triangles(unrolled[0].triangles, unrolled[1])):
                 one.remark = f"not unrolled, as {counted(len(over), 'triangle')} would be turned over"

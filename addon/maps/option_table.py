@@ -78,9 +78,9 @@ def _table() -> list[dict[str, Any]]:
     return table
 
 
-def ranges_of(of: str) -> dict[str, dict[str, Any]]:
-    """The ranges of a map's numbers, also of those that are no properties: min, max, above, below."""
-    return {entry["name"]: entry["range"] for entry in _table() if of in entry["maps"].split() and "range" in entry}
+def own_rows(of: str) -> dict[str, Row]:
+    """The options of an operator whose properties are its own: in `ROWS` their names may be of others."""
+    return {entry["name"]: _row(entry) for entry in _table() if of in entry["maps"].split() and "blender" in entry}
 
 
 def _rows() -> dict[str, Row]:

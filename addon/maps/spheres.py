@@ -75,7 +75,7 @@ class SphereOutcome(DomainOutcome):
 def _check_sphere(handles: int, loops: int) -> None:
     if handles:
         had = counted(handles, "handle")
-        raise DomainError(f"this surface has {had}: a sphere has none", *takers(handles))
+        raise DomainError(f"this surface has {had}, and a sphere has no handle", *takers(handles))
 
 
 SPHERE = Domain(

@@ -75,13 +75,13 @@ def cut_line(opening: "Opening") -> str:
 
     words = []
     if "opening" in edges:
-        words.append(f"{along('opening')} cut, as it is closed")
+        words.append(f"{along('opening')} cut, as the surface is closed")
     if "handle" in edges:
         words.append(f"{along('handle')} cut through {counted(opening.handles, 'handle')}")
     if "crowded_edge" in edges:
         words.append(f"{along('crowded_edge')} with more than two faces cut")
     if "orientation" in edges:
-        words.append(f"{along('orientation')} cut where it changes its side")
+        words.append(f"{along('orientation')} cut, as the surface is one-sided")
     if "bow_tie" in edges:
         words.append(f"faces parted in {counted(edges['bow_tie'], 'vertex', 'vertices')}")
     if len(opening.turned):

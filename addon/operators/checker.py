@@ -57,7 +57,7 @@ class UV_OT_koebe_checker(bpy.types.Operator):
                 return {"CANCELLED"}
             edit_mode.undo_all(context)
             if problems:
-                self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
+                self.report({"WARNING"}, f"Koebe UV: not done. {few(problems)}")
             return {"FINISHED"}
 
     def _read(self, obj: MeshObject) -> tuple[Surface, np.ndarray] | None:

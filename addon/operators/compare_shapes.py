@@ -53,7 +53,7 @@ class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
             if not job.comparisons[0].converged:
                 self.report({"WARNING"}, f"{job.names[0]}: not converged")
             if job.failures:
-                self.report({"WARNING"}, "Koebe UV: left out. " + few(job.failures))
+                self.report({"WARNING"}, "Koebe UV: not compared. " + few(job.failures))
             return {"FINISHED"}
 
 

@@ -56,7 +56,7 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
             _show_colors(run, context, self.kind != "none")
             edit_mode.undo_all(context)
             if problems:
-                self.report({"WARNING"}, f"Koebe UV: left out. {few(problems)}")
+                self.report({"WARNING"}, f"Koebe UV: not coloured. {few(problems)}")
             return {"FINISHED"}
 
     def _color(self, run: Transaction, obj: MeshObject) -> None:

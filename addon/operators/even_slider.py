@@ -39,7 +39,8 @@ class UV_OT_koebe_even(bpy.types.Operator):
         return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        self.report({"ERROR"}, "Koebe UV: only a mouse can drag this slider. In a script, give even to uv.koebe_unwrap")
+        self.report({"ERROR"}, "Koebe UV: only a mouse can drag this slider. In a script, set the "
+                    "option even of uv.koebe_unwrap")
         return {"CANCELLED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

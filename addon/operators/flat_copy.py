@@ -80,7 +80,7 @@ class FlatOperator(ModalRun):
             fine = flat.layout.is_true and not flat.layout.left_out
             self.report({"INFO"} if fine else {"WARNING"}, f"{flat.describe()}{where}")
         if problems:
-            self.report({"WARNING"}, "Koebe UV: left out. " + few(problems))
+            self.report({"WARNING"}, "Koebe UV: not flattened. " + few(problems))
         return {"FINISHED"}
 
 
@@ -234,7 +234,7 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
         for (name, pattern), text in zip(patterns, written, strict=True):
             self.report({"INFO"}, f"{name}: {pattern.describe()}; {text}")
         if job.problems:
-            self.report({"WARNING"}, "Koebe UV: left out. " + few(job.problems))
+            self.report({"WARNING"}, "Koebe UV: not flattened. " + few(job.problems))
         return {"FINISHED"}
 
     def _pages(self, pattern: FlatPattern) -> list[str]:

@@ -24,7 +24,7 @@ class MESH_OT_koebe_loops_around_holes(bpy.types.Operator):
     along circles around each hole. The UVs must have circles as holes"""
 
     bl_idname = "mesh.koebe_loops_around_holes"
-    bl_label = "Koebe Loops Around Holes"
+    bl_label = "Koebe Hole Loops"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 

@@ -118,7 +118,7 @@ class MapOperator(ModalRun):
             edit_mode.undo_all(context)
             answer = self._tell(job)
             if selected and answer == {"CANCELLED"}:  # after this Blender makes no undo step
-                bpy.ops.ed.undo_push(message="Select What Is Wrong")
+                bpy.ops.ed.undo_push(message="Select Elements at Fault")
             return answer
 
     def _write(self, run: Transaction, context: bpy.types.Context, job: Job) -> None:

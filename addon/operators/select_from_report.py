@@ -59,7 +59,7 @@ class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
     """Select, in Edit Mode, the elements because of which this island could not be mapped"""
 
     bl_idname = "uv.koebe_select_offenders"
-    bl_label = "Select What Is Wrong"
+    bl_label = "Select Elements at Fault"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -107,7 +107,7 @@ class UV_OT_koebe_select_warning(ReportOperator, bpy.types.Operator):
     """Select, in Edit Mode, the faces or vertices of this warning"""
 
     bl_idname = "uv.koebe_select_warning"
-    bl_label = "Select What the Warning Means"
+    bl_label = "Select Elements of the Warning"
 
     warning: bpy.props.IntProperty(name="Warning", min=0, description="Number of the warning in the report")
 

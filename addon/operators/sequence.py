@@ -24,7 +24,7 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
     first map, so a texture stays in its place. Modifiers may move vertices, but must not make other faces"""
 
     bl_idname = "uv.koebe_sequence"
-    bl_label = "Koebe Unwrap Sequence"
+    bl_label = "Koebe Sequence"
     bl_description = tooltip(__doc__)
     options_shown = ("source", *RANGE_NAMES, "target", "play", "checker", "checker_size")  # others are in the panel
 

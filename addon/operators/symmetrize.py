@@ -81,7 +81,7 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
             self.report({"WARNING"} if ":" in text else {"INFO"},
                         f"{job.name}: {text}, {made.pairs} pairs of vertices, moved by {made.moved:.1e} at most")
         if problems:
-            self.report({"WARNING"}, "Koebe UV: some stay as they were. " + few(problems))
+            self.report({"WARNING"}, "Koebe UV: some objects or islands were not changed. " + few(problems))
         return {"FINISHED"}
 
 

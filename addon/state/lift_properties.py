@@ -5,12 +5,12 @@ import math
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, PointerProperty, StringProperty
 
 from ..blender.compat import path_options
 from ..maps.lifting import DRAWN, LiftChoice, is_used
-from ..maps.option_table import ranges_of
-from .option_properties import shown_number
+from ..maps.option_table import own_rows
+from .option_properties import property_of, shown_number
 
 PATTERNS = [
     ("circles", "Circles", "Circles that are even on the surface"),
@@ -27,20 +27,7 @@ WAYS = [
     ("perforate", "Perforate", "Cut the outlines out of the surface"),
     ("raise", "Relief", "Raise the outlines along the normals, with upright walls"),
 ]
-SHAPES = [
-    ("disk", "Disk", "A surface with holes as a disk with round holes"),
-    ("ring", "Cylinder", "A surface with two rims as a cylinder. The pattern goes on over the cut"),
-    ("torus", "Torus", "A torus as a tile that repeats both ways. The pattern goes on over the cuts"),
-    ("sphere", "Sphere", "A closed surface without handles as a sphere, for circles, Voronoi cells and drawings"),
-    ("parts", "Parts", "Any surface without a crowded edge, cut into parts. Outlines that meet a cut are left out"),
-]
-RANGES = ranges_of("lift")
-TURNS: dict[str, Any] = {end: math.radians(degrees) for end, degrees in RANGES["turn"].items()}
-
-
-def _length(name: str, description: str, **own: Any) -> Any:
-    return FloatProperty(name=name, description=description, default=0.0, min=0.0, subtype="DISTANCE", **own)
-
+OWN = own_rows("lift")
 
 PROPERTIES = {
     "pattern": EnumProperty(name="Pattern", items=PATTERNS, default="circles", description="The pattern to be lifted"),
@@ -49,31 +36,9 @@ PROPERTIES = {
     ),
     "drawing": StringProperty(name="Object", description="Curve object or text object with the pattern"),
     "way": EnumProperty(name="Make", items=WAYS, default="perforate", description="What is made of the outlines"),
-    "height": FloatProperty(
-        name="Height", default=0.0, subtype="DISTANCE",
-        description="Height of the outlines, or of an image's white. Below 0 sinks them. 0: by the size",
-    ),
-    "size": _length("Size", "From one outline to the next on the surface, or a drawing's width. 0: automatic"),
-    "bridge": _length("Bridge", "Width that stays between two outlines, below half of Size. 0: a fifth of Size"),
-    "thickness": _length("Thickness", "Makes a closed solid of this thickness. 0: the surface stays a sheet"),
-    "shape": EnumProperty(
-        name="Shape", items=SHAPES, default="disk", description="Map of the surface in which the pattern is drawn"
-    ),
-    "even": FloatProperty(
-        name="Even", default=0.0, subtype="FACTOR", **RANGES["even"],
-        description="0: the pattern keeps its form. 1: it keeps its size",
-    ),
-    "repeats": IntProperty(
-        name="Repeats", default=0, soft_max=200, **RANGES["repeats"],
-        description="How often the pattern repeats round the surface. 0: as Size asks for, and a drawing once",
-    ),
-    "turn": FloatProperty(
-        name="Turn", default=0.0, subtype="ANGLE", **TURNS,
-        description="Turns a drawing in the map, counter-clockwise",
-    ),
-    "seed": IntProperty(
-        name="Seed", default=1, description="Another seed spreads the outlines anew", **RANGES["seed"]
-    ),
+    **{name: property_of(OWN[name]) for name in (
+        "height", "size", "bridge", "thickness", "shape", "even", "around", "rows", "repeats", "turn", "seed"
+    )},
     "seams": BoolProperty(name="Cut at Seams", default=False, description="Cut the surface open at its seams first"),
     "hide": BoolProperty(
         name="Hide Original", default=True,
@@ -120,11 +85,14 @@ def lift_choice_of(options: Any) -> LiftChoice:
         return value if is_used(name, options) else 0
 
     others = {name: number(name) or None for name in ("bridge", "thickness", "even")}
-    others |= {"shape": options.shape, "repeats": number("repeats"), "turn": math.degrees(number("turn"))}
+    others |= {"shape": options.shape, "turn": math.degrees(number("turn"))}
+    others |= {name: number(name) for name in ("repeats", "rows")}
     if is_used("seed", options):
         others["seed"] = options.seed
     pattern = bpy.path.abspath(options.file) if options.pattern in DRAWN else options.pattern
-    return LiftChoice(pattern, options.way == "perforate", number("height"), number("size"), options.seams, others)
+    cursor = is_used("around", options) and options.around == "cursor"
+    lengths, perforate = (number("height"), number("size")), options.way == "perforate"
+    return LiftChoice(pattern, perforate, *lengths, options.seams, cursor, others)
 
 
 def register() -> None:

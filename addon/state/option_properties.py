@@ -2,6 +2,7 @@
 """The options as Blender properties: of the operator (redo panel) and of the scene (panel, before the run)."""
 
 import dataclasses
+import math
 from typing import Any
 
 import bpy
@@ -9,7 +10,7 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from ..maps.domains import DOMAINS
-from ..maps.option_table import ROWS, rows_of
+from ..maps.option_table import ROWS, Row, rows_of
 from ..maps.options import WRITTEN, Options, PartsChoice
 
 PROPERTIES = {"number": FloatProperty, "integer": IntProperty, "flag": BoolProperty, "text": StringProperty,
@@ -19,14 +20,20 @@ OWN = ("precision", "subtype", "maxlen", "soft_max")  # keys of a property in th
 
 def option(name: str) -> Any:
     """The Blender property of an option."""
-    row = ROWS[name]
+    return property_of(ROWS[name])
+
+
+def property_of(row: Row) -> Any:
+    """The Blender property of a row of the table. Its degrees are Blender's radians."""
     own: dict[str, Any] = {key: row.blender[key] for key in OWN if key in row.blender}
     if "options" in row.blender:
         own["options"] = set(row.blender["options"])
     if row.choices:
         own["items"] = [(word, label, _sentence(means)) for word, label, means in row.choices]
     elif row.kind in ("number", "integer"):
-        own.update(row.blender.get("range", row.range))
+        angle = row.blender.get("subtype") == "ANGLE"
+        bounds = row.blender.get("range", row.range).items()
+        own.update({end: math.radians(value) if angle else value for end, value in bounds})
     kind = EnumProperty if row.choices else PROPERTIES[row.kind]
     description = ". ".join(map(_sentence, (row.does, *row.more)))
     return kind(name=row.blender["label"], description=description, default=row.default, **own)

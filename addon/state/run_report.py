@@ -72,10 +72,12 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
     domain: StringProperty(description="The domain: torus, ring, sphere or schottky; else empty")
-    modulus: StringProperty(description="Of a torus the ratio of its periods, of a cylinder i times height over period")
+    modulus: StringProperty(
+        description="For a torus: the ratio of its periods. For a cylinder: i times height over period"
+    )
     periods: StringProperty(description="Of a tile: its periods in the UVs")
     layout: StringProperty(description="Of a sphere: how it is laid out as UVs")
-    torn_faces: StringProperty(description="Of a sphere: the faces that fit to no UVs of its layout, as JSON")
+    torn_faces: StringProperty(description="Of a sphere: the faces that its layout cannot place in the UVs, as JSON")
     handles: IntProperty(description="Of a fundamental domain: the handles that are cut open")
     by_circles: BoolProperty(description="Of a fundamental domain: whether the UVs are cut along circles, or edges")
     offer: StringProperty(description="The operators that take an island that this one does not, with spaces between")
@@ -92,7 +94,7 @@ class KoebeReport(bpy.types.PropertyGroup):
     islands: CollectionProperty(type=KoebeIslandReport, description="Islands of the last run")
     active: IntProperty(name="Island", description="Island whose details are shown")
     show_all: BoolProperty(
-        name="All of It", default=False, description="Show the report's messages in full, however long they are"
+        name="Full Messages", default=False, description="Show the report's messages in full, however long they are"
     )
     show_circles: BoolProperty(
         name="Show Circles",

@@ -54,7 +54,7 @@ def draw_module(column: bpy.types.UILayout, shapes: KoebeShapes) -> None:
         for letter in "xyr":
             row.label(text=values.get(letter, ""))
     if len(numbers) > MAX_NUMBERS:
-        column.label(text=f"and {len(numbers) - MAX_NUMBERS} numbers more")
+        column.label(text=f"and {len(numbers) - MAX_NUMBERS} more numbers")
 
 
 def draw_entries(column: bpy.types.UILayout, title: str, entries: Any, form: str) -> None:
@@ -66,4 +66,4 @@ def draw_entries(column: bpy.types.UILayout, title: str, entries: Any, form: str
         split.label(text=form.format(entry.distance) if entry.measured else "")
         draw_message(column, entry.message)
     if len(entries) > MAX_ENTRIES:
-        column.label(text=f"and {len(entries) - MAX_ENTRIES} objects more")
+        column.label(text=f"and {len(entries) - MAX_ENTRIES} more objects")

@@ -8,10 +8,10 @@
 
 namespace koebe {
 
-/// The places of a map's faces, and by how much it shrinks them.
+/// Where a map puts each face, and how much it shrinks the face.
 struct FaceScales {
     VectorXcd centers;   ///< (F) centroids in the unit disk
-    VectorXd log_ratio;  ///< (F) log(UV area / surface area) less that of an even map onto the whole disk
+    VectorXd log_ratio;  ///< (F) log(UV area / surface area) less the same number of an even map onto the whole disk
     VectorXd weights;    ///< (F) area on the surface
 };
 

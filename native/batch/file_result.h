@@ -1,4 +1,5 @@
-// The files that a mapping process writes; they are moved to their places with a report, or removed.
+// The temporary files of one mapping process. They are moved to their final places together with the report, or
+// removed.
 #pragma once
 
 #include "batch/child_process.h"

@@ -1,6 +1,7 @@
 #include "certified/capacities.h"
 
 #include "certified/bisected_surface.h"
+#include "certified/module_enclosure.h"
 #include "certified/quadratic_functions.h"
 #include "core/errors.h"
 #include "execution/detachable_run.h"
@@ -15,15 +16,18 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index at_once = 8;      // condensers
-constexpr std::size_t summands = 1024;   // short sums round less
-constexpr double share_to_cut = 0.6;     // of the gap (Doerfler 1996)
-constexpr double least_progress = 0.02;  // of the width; below it rounding is all that is left
-constexpr double growth_reserve = 2.0;   // cut faces become four, and their neighbours are cut too
+constexpr Eigen::Index at_once = 8;            // condensers
+constexpr std::size_t summands = 1024;         // short sums round less
+constexpr double share_to_cut = 0.6;           // of the gap (Doerfler 1996)
+constexpr double least_progress = 0.02;        // of the width; below it rounding is all that is left
+constexpr double width_for_circles = 0.01;     // of the wanted width; capacities are refined to it, to find the circles
+constexpr double progress_for_circles = 0.25;  // of this width, before a further attempt
+constexpr double growth_reserve = 2.0;         // cut faces become four, and their neighbours are cut too
 
 /// Which loops are held, ascending: condensers that hold the same loops share their factors.
 std::vector<int> held_loops(const Condenser& condenser)
@@ -270,9 +274,16 @@ public:
         if (!ring_ || report_.capacities.empty()) return;
         const Interval two_pi{0x1.921fb54442d18p2, 0x1.921fb54442d19p2};
         report_.modulus = Interval(1.0) / report_.capacities[0].value;
-        report_.inner_radius = exponential(-(two_pi * *report_.modulus));
+        report_.module = {exponential(-(two_pi * *report_.modulus))};
+        report_.order = {0, 1};
         add_width(*report_.modulus);
-        add_width(*report_.inner_radius);
+        add_width(report_.module[0]);
+    }
+
+    void take_module(std::vector<Interval> module)
+    {
+        report_.module = std::move(module);
+        for (const Interval& number : report_.module) add_width(number);
     }
 
     CapacityReport& report() { return report_; }
@@ -332,6 +343,43 @@ bool has_room(double faces, const CapacityOptions& options)
     return faces <= options.max_faces && memory_for(faces) <= available_memory();
 }
 
+/// The module from the capacities between all loops.
+class ModuleOfCapacities {
+public:
+    ModuleOfCapacities(const Vertices& vertices, const Surface& surface, int threads)
+        : vertices_(vertices), surface_(surface), threads_(threads)
+    {
+    }
+
+    /// Leaves in the report the module, or why it is not enclosed.
+    void enclose(Enclosures& enclosures, ExecutionContext& context)
+    {
+        CapacityReport& report = enclosures.report();
+        if (!report.no_module.empty() && report.width > progress_for_circles * tried_) return;
+        tried_ = report.width;
+        report.no_module.clear();
+        try {
+            if (static_cast<int>(surface_.loops.size()) > most_enclosed_loops)
+                throw SolverError("there are proved bounds for up to four loops");
+            ExecutionContext quiet({}, {}, [&] { context.checkpoint(); });  // it is a stage of no known length
+            if (near_.order.empty()) near_ = near_module(vertices_, surface_, threads_, quiet);
+            enclosures.take_module(enclose_module(near_, report.capacities, quiet));
+            report.order = near_.order;
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const KoebeError& error) {
+            report.no_module = error.what();
+        }
+    }
+
+private:
+    const Vertices& vertices_;
+    const Surface& surface_;
+    int threads_;
+    double tried_ = 0.0;  // the widest enclosure of a capacity
+    NearModule near_;
+};
+
 CapacityReport capacities_here(const Vertices& vertices, const Triangles& triangles,
                                const std::vector<Condenser>& condensers, const CapacityOptions& options,
                                ExecutionContext& context)
@@ -347,15 +395,20 @@ CapacityReport capacities_here(const Vertices& vertices, const Triangles& triang
     BisectedSurface surface(vertices, input);
     Enclosures enclosures(chosen, loop_count);
     CapacityReport& report = enclosures.report();
+    ModuleOfCapacities module(vertices, input, options.threads);
     const double wanted = options.width.value_or(std::numeric_limits<double>::infinity());
+    double of_capacities = 0.0;  // the widest enclosure of a capacity
     while (true) {
         context.begin_stage("enclose", 0.0, 1.0);
-        const double before = report.width;
         const VectorXd gap = enclose_all(surface, chosen, enclosures, context);
         enclosures.end_level(surface.face_count());
+        const double before = std::exchange(of_capacities, report.width);
+        if (condensers.empty() && loop_count > 2 && report.width <= wanted) module.enclose(enclosures, context);
         report.converged = report.width <= wanted;
-        const bool stuck = report.levels > 1 && report.width > (1.0 - least_progress) * before;
-        if (report.converged || stuck) return std::move(report);
+        const bool may_find_circles = !report.no_module.empty() && loop_count <= most_enclosed_loops && options.width &&
+                                      of_capacities > width_for_circles * wanted;
+        const bool stuck = report.levels > 1 && of_capacities > (1.0 - least_progress) * before;
+        if ((report.converged && !may_find_circles) || stuck) return std::move(report);
         const std::vector<char> marked = largest_gaps(gap);
         const double cut = static_cast<double>(std::ranges::count(marked, 1));
         if (!has_room(surface.face_count() + growth_reserve * 3.0 * cut, options)) return std::move(report);

@@ -1,6 +1,7 @@
 // Capacities of a surface between its boundary loops, and what follows from them, enclosed with proof.
 #pragma once
 
+#include "certified/condenser.h"
 #include "certified/interval.h"
 #include "core/api.h"
 #include "core/option_list.h"
@@ -8,15 +9,10 @@
 #include "execution/execution.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace koebe {
-
-/// Loops held at 0 and loops held at 1. No flux runs through the other loops. Loops are numbered by their lowest
-/// vertices, as Surface::loops.
-struct Condenser {
-    std::vector<int> low, high;
-};
 
 struct CapacityOptions {
     std::optional<double> width;  ///< refine until no enclosure is wider; none: only the mesh's own faces
@@ -33,9 +29,13 @@ struct Capacity {
 
 struct CapacityReport {
     std::vector<Capacity> capacities;
-    /// Of a surface with two loops whose one capacity is C: 1 / C, the height of the conformal cylinder over its girth,
-    /// and exp(-2 pi / C), the inner radius of the round ring in the unit disk.
-    std::optional<Interval> modulus, inner_radius;
+    /// Of a surface with two loops whose one capacity is C: 1 / C, the height of the conformal cylinder over its girth.
+    std::optional<Interval> modulus;
+    /// The conformal module (shape/conformal_module.h) of the loops in this order: of two loops exp(-2 pi / C), of
+    /// three and four as enclose_module (certified/module_enclosure.h), if the condensers are those of loop_condensers.
+    std::vector<Interval> module;
+    std::vector<int> order;
+    std::string no_module;  ///< why three loops or more have no enclosure of the module, or empty
     Index faces = 0;        ///< of the finest triangulation
     int levels = 0;         ///< triangulations that were solved on
     double width = 0.0;     ///< of the widest enclosure

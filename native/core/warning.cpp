@@ -33,6 +33,7 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::pieces: return "pieces";
     case WarningKind::left_out: return "left_out";
     case WarningKind::not_even: return "not_even";
+    case WarningKind::not_enclosed: return "not_enclosed";
     case WarningKind::crossings: return "crossings";
     case WarningKind::lost_area: return "lost_area";
     case WarningKind::not_mapped: return "not_mapped";

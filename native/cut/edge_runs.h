@@ -10,7 +10,8 @@
 
 namespace koebe {
 
-/// Calls visit(span of half-edges, ascending) for every edge, with any number and direction of half-edges.
+/// Calls visit(half-edges, in ascending order) for every edge. An edge may have any number of half-edges, in either
+/// direction.
 template <typename Visit>
 void for_each_edge(const Triangles& triangles, Index vertex_count, Visit visit)
 {

@@ -41,10 +41,10 @@ struct FitResult : UniformizeResult {
 /// surface, mu_f its Beltrami coefficient from the conformal circle domain.
 ///
 /// The surface is uniformized. An automorphism of the disk lays its circles over the template's (align_domains). If
-/// loops are not given, those correspond whose conformal modules are nearest, and then those whose circles are. From
-/// there circles move to their places without meeting (paths_between), and the map follows, one to one all the way
-/// (bend_along). There are many such maps that no continuous motion on the template takes to each other: how often
-/// holes wind around each other is chosen by the path. Straight paths are taken where they leave room.
+/// no loops are given, loops and circles are matched by the nearest conformal modules, and afterwards by the nearest
+/// circles. From there circles move to their places without meeting (paths_between), and the map follows, one to one
+/// all the way (bend_along). There are many such maps that no continuous motion on the template takes to each other:
+/// how often holes wind around each other is chosen by the path. Straight paths are taken where they leave room.
 /// @param vertices (V, 3) @param triangles (F, 3)
 /// @throws InputError a template that is not feasible (require_feasible), has another number of circles than the
 /// surface has holes, names loops or vertices that the surface lacks, or pins a vertex of another loop; TopologyError;

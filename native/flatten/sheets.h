@@ -1,4 +1,4 @@
-// Pieces put on sheets, and what is drawn on them.
+// Places pieces on sheets, and makes the drawing of each sheet.
 #pragma once
 
 #include "flatten/pattern.h"

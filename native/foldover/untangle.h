@@ -24,10 +24,11 @@ struct UntangleReport {
 };
 
 /// Repairs the neighbourhoods of flipped faces (judged as stored, distortion.h) by foldover-free minimization, until no
-/// flipped face is left. There are three measures. First 2, 4, 8 and 16 rings around the faces move with the loops
-/// held. Then the same rings move with loop vertices sliding along their circles. At last a few vertices are freed from
-/// their circles: a face whose vertices span more than half a circle may need this. The first two measures may use
-/// three quarters of the effort. A neighbourhood that has failed is not tried again from the same places.
+/// flipped face is left. There are three measures. Patches of 2, then 4, 8 and 16 rings around the faces move with the
+/// loops held. Each of these patches then moves with loop vertices that slide along their circles. At last a few
+/// vertices are freed from their circles: a face whose vertices span more than half a circle may need this. The first
+/// two measures may use three quarters of the effort. A neighbourhood that has failed is not tried again from the same
+/// places.
 /// @param vertices, surface, loops (the outer loop first), circles the surface and the circles of its image
 /// @param off_circle loop vertices that are already off their circles
 /// @param uv (V, 2) moved in place

@@ -16,7 +16,7 @@ namespace koebe {
 /// two edges from the loop. A loop of more than 277 edges gets a coarser patch, of 10,000 triangles or 4 for each edge,
 /// by the Laplacian of second order, with loop and tangent planes given.
 /// @param loops ranks of the loops to fill, in the order of Surface::loops; all loops if absent
-/// @return as fill_holes: the input's vertices and faces, then the patches', loop by loop
+/// @return as fill_holes: the vertices and faces of the input, then the vertices and faces of the patches, loop by loop
 /// @throws InputError a rank that does not exist, a loop without extent, a loop that meets itself or that CGAL cannot
 /// triangulate (elements: its vertices); SolverError the fairing failed; TopologyError as analyze_surface
 KOEBE_API FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& triangles,

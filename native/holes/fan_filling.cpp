@@ -1,5 +1,6 @@
 #include "holes/fan_filling.h"
 
+#include "core/counted.h"
 #include "core/errors.h"
 #include "core/sort_unique.h"
 #include "mesh/halfedge_mesh.h"
@@ -73,8 +74,8 @@ std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std:
     if (!loops) return ranks;
     for (const Index k : *loops)
         if (k < 0 || k >= static_cast<Index>(surface.loops.size()))
-            throw InputError("there is no boundary loop " + std::to_string(k) + " among " +
-                             std::to_string(surface.loops.size()));
+            throw InputError("there is no boundary loop " + std::to_string(k) + ": the surface has " +
+                             counted(surface.loops.size(), "loop") + ", numbered from 0");
     ranks = *loops;
     sort_unique(ranks);
     return ranks;

@@ -40,7 +40,7 @@ std::vector<Warning> loss_warnings(const FileLosses& losses)
     if (losses.texture_coordinates)
         warnings.push_back({WarningKind::replaced_uvs, "the file's texture coordinates are replaced by the map's"});
     if (!losses.others.empty())
-        warnings.push_back({WarningKind::not_kept, "not kept of the file: " + listed(losses.others)});
+        warnings.push_back({WarningKind::not_kept, "the written file does not have: " + listed(losses.others)});
     return warnings;
 }
 

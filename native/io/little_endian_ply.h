@@ -8,8 +8,8 @@
 
 namespace koebe::io {
 
-/// Reads a little-endian file with vertices, then faces whose only list is that of the corners, on the calling thread's
-/// share of threads.
+/// Reads a little-endian file that has vertices first and then faces. The list of corners must be the only list of a
+/// face. Uses the calling thread's share of threads.
 /// @return nothing for another kind of file, or with a fault: the file is then read value by value, which reports it
 std::optional<PolygonMesh> read_little_endian_ply(const PlyFile& file);
 

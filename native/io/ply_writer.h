@@ -1,5 +1,5 @@
-// Writes PLY files as text: the polygons as filed, with texture coordinates or patch numbers, and the file's other
-// contents.
+// Writes PLY files as text: the polygons of the input file, with texture coordinates or patch numbers, and the other
+// contents of the input file.
 #pragma once
 
 #include "io/atomic_file.h"

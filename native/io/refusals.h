@@ -18,7 +18,8 @@ inline constexpr std::size_t most_elements = std::numeric_limits<Index>::max();
 /// @param element "vertex", "face" ... @throws InputError always
 [[noreturn]] void refuse(const std::string& element, std::size_t number, const char* complaint);
 
-/// Checks that each vertex or face has at least one byte. Otherwise a header could ask for any amount of memory.
+/// Checks that the file has at least one byte for each vertex or face that its header declares. Otherwise a header
+/// could ask for any amount of memory.
 /// @throws InputError
 void require_count_fits(std::size_t count, const std::string& element, std::size_t bytes);
 

@@ -1,6 +1,7 @@
 #include "lift/even_sites.h"
 
 #include "core/errors.h"
+#include "execution/thread_share.h"
 #include "transfer/nearest_triangles.h"
 
 #include <Eigen/Geometry>
@@ -17,6 +18,7 @@ namespace {
 
 constexpr int samples_of_a_site = 64, rounds = 40;  // dimensionless; more change the picture little
 constexpr double most_sites = 1e6;
+constexpr double rounding = 1.0 + 1e-6;  // dimensionless: no site is missed for it
 
 /// SplitMix64 [Steele, Lea, Flood 2014]: alike on every machine.
 class RandomNumbers {
@@ -83,30 +85,46 @@ public:
     }
     void add(std::size_t site) { cells_[key(cell_of(sites_[site].position))].push_back(site); }
     /// The nearest site in the cubes around a sample, and its squared distance; or no site.
-    std::pair<std::ptrdiff_t, double> nearest(const Sample& sample) const
+    /// @param guess a site that may be near, or -1: it saves time and changes nothing
+    std::pair<std::ptrdiff_t, double> nearest(const Sample& sample, std::ptrdiff_t guess = -1) const
     {
         std::pair<std::ptrdiff_t, double> best{-1, std::numeric_limits<double>::infinity()};
-        const std::array<std::int64_t, 3> middle = cell_of(sample.position);
+        const Cell middle = cell_of(sample.position);
+        const auto away = [&](int axis, std::int64_t step) {  // squared, from the cubes that lie a step away
+            const double low = sample.position[axis] - spacing_ * static_cast<double>(middle[axis]);
+            return step == 0 ? 0.0 : step < 0 ? low * low : (spacing_ - low) * (spacing_ - low);
+        };
+        double most = guess >= 0 && beside(middle, cell_of(sites_[guess].position))
+                          ? rounding * apart(sample, sites_[guess], spacing_)
+                          : best.second;
         for (std::int64_t x = -1; x <= 1; ++x)
             for (std::int64_t y = -1; y <= 1; ++y)
                 for (std::int64_t z = -1; z <= 1; ++z) {
+                    if (away(0, x) + away(1, y) + away(2, z) > most) continue;
                     const auto cell = cells_.find(key({middle[0] + x, middle[1] + y, middle[2] + z}));
                     if (cell == cells_.end()) continue;
                     for (const std::size_t i : cell->second)
                         if (const double d = apart(sample, sites_[i], spacing_); d < best.second)
                             best = {static_cast<std::ptrdiff_t>(i), d};
+                    most = std::min(most, rounding * best.second);
                 }
         return best;
     }
 
 private:
-    std::array<std::int64_t, 3> cell_of(const Eigen::RowVector3d& p) const
+    using Cell = std::array<std::int64_t, 3>;
+
+    static bool beside(const Cell& a, const Cell& b)
+    {
+        return std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1 && std::abs(a[2] - b[2]) <= 1;
+    }
+    Cell cell_of(const Eigen::RowVector3d& p) const
     {
         return {static_cast<std::int64_t>(std::floor(p[0] / spacing_)),
                 static_cast<std::int64_t>(std::floor(p[1] / spacing_)),
                 static_cast<std::int64_t>(std::floor(p[2] / spacing_))};
     }
-    static std::uint64_t key(const std::array<std::int64_t, 3>& cell)
+    static std::uint64_t key(const Cell& cell)
     {
         std::uint64_t key = 0;
         for (const std::int64_t c : cell) key = (key << 21) ^ (static_cast<std::uint64_t>(c) & 0x1FFFFF);
@@ -134,16 +152,21 @@ std::vector<Sample> first_sites(const std::vector<Sample>& samples, std::size_t 
 }
 
 /// Moves each site to the mean of its samples.
-void relax(std::vector<Sample>& sites, const std::vector<Sample>& samples, double spacing)
+/// @param site_of (n) the site of each sample: before, and now
+void relax(std::vector<Sample>& sites, const std::vector<Sample>& samples, double spacing,
+           std::vector<std::ptrdiff_t>& site_of)
 {
     const SiteGrid grid(sites, spacing);
+    in_pieces(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) site_of[i] = grid.nearest(samples[i], site_of[i]).first;
+    });
     std::vector<Sample> sums(sites.size(), {Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()});
     std::vector<double> counts(sites.size(), 0.0);
-    for (const Sample& sample : samples) {
-        const std::ptrdiff_t i = grid.nearest(sample).first;
+    for (std::size_t s = 0; s < samples.size(); ++s) {
+        const std::ptrdiff_t i = site_of[s];
         if (i < 0) continue;
-        sums[i].position += sample.position;
-        sums[i].normal += sample.normal;
+        sums[i].position += samples[s].position;
+        sums[i].normal += samples[s].normal;
         counts[i] += 1.0;
     }
     for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -164,7 +187,8 @@ std::vector<SurfacePoint> even_sites(const FlatSheet& sheet, double spacing, std
     RandomNumbers random(seed);
     const std::vector<Sample> samples = random_samples(sheet, count * samples_of_a_site, random);
     std::vector<Sample> sites = first_sites(samples, count, spacing);
-    for (int round = 0; round < rounds; ++round) relax(sites, samples, spacing);
+    std::vector<std::ptrdiff_t> site_of(samples.size(), -1);
+    for (int round = 0; round < rounds; ++round) relax(sites, samples, spacing, site_of);
 
     Vertices positions(static_cast<Eigen::Index>(sites.size()), 3);
     for (std::size_t i = 0; i < sites.size(); ++i) positions.row(static_cast<Eigen::Index>(i)) = sites[i].position;

@@ -1,5 +1,6 @@
 #include "lift/flat_domain.h"
 
+#include "core/counted.h"
 #include "mesh/corner_order.h"
 #include "parts/parts.h"
 #include "pipeline/uniformize.h"
@@ -16,6 +17,8 @@
 
 namespace koebe {
 namespace {
+
+const char* const no_map = "the map is not one to one at these faces: take --shape parts";
 
 PlanarPoints disk_corners(const Surface& surface, const PlanarPoints& disk)
 {
@@ -42,14 +45,15 @@ SphereSheets sphere_domain(const Vertices& vertices, const Triangles& triangles,
     SphereResult map = sphere_map(vertices, triangles, chosen, context);
     std::vector<Index> flipped;
     std::ranges::set_difference(map.flipped_on_sphere, map.below_sphere_resolution, std::back_inserter(flipped));
-    if (!flipped.empty())
-        throw SolverError("the map to the sphere is not one to one at these faces: take --shape parts",
-                          ElementKind::faces, std::move(flipped));
+    if (!flipped.empty()) throw SolverError(no_map, ElementKind::faces, std::move(flipped));
     SphereSheets sheets = sphere_sheets(vertices, surface.triangles, map.points,
                                         options.around < 0 ? std::nullopt : std::optional<Index>(options.around));
     std::erase_if(map.warnings, [](const Warning& warning) { return warning.kind == WarningKind::flipped; });
     static_cast<Verdict&>(map.distortion) = judge_corners(vertices, surface.triangles, planar_points(sheets.home.uv));
     take_verdict({.advice = "Parts (--shape parts) lose less"}, map);
+    if (const std::vector<Index>& faces = map.distortion.flipped; !faces.empty())
+        map.warnings.push_back(
+            {WarningKind::flipped, counted(faces.size(), "face") + " of the map without area in 32-bit UVs", faces});
     report = std::move(map);
     return sheets;
 }
@@ -95,6 +99,9 @@ FlatDomain flat_domain(const Vertices& vertices, const Triangles& triangles, con
         grid = uv_grid;
         domain.map = std::move(map);
     }
+    for (const Warning& warning : domain.map.warnings)
+        if (warning.kind == WarningKind::not_one_to_one)
+            throw SolverError(no_map, ElementKind::faces, warning.elements);
     domain.flat = flat_sheet(vertices, domain.surface.triangles, uv, grid, std::move(periods));
     return domain;
 }

@@ -24,7 +24,7 @@ struct FlatDomain {
 };
 
 /// Maps the surface by `uniformize`, `ring_map`, `torus_map`, `sphere_map` or `parts_of`.
-/// @throws as these maps; SolverError the map to the sphere is not one to one; InputError faces too large on it, a
+/// @throws as these maps; SolverError the map is not one to one; InputError faces too large on it, a
 /// vertex that does not exist, or on no hole
 FlatDomain flat_domain(const Vertices& vertices, const Triangles& triangles, const LiftOptions& options,
                        ExecutionContext& context);

@@ -5,8 +5,11 @@
 #include "lift/flat_sheet.h"
 #include "lift/solid.h"
 #include "mesh/connectivity.h"
+#include "transfer/nearest_triangles.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <utility>
 
 namespace koebe {
@@ -36,6 +39,20 @@ Vertices moved_sheet(const Vertices& vertices, const Vertices& normals, const Ve
         sort_unique(faces);
         throw InputError(error.what(), ElementKind::faces, std::move(faces));
     }
+}
+
+using EdgeKey = std::array<Index, 2>;  // the lower vertex first
+
+EdgeKey edge_key(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// A face of the sheet at each of these edges, a raised one if there is.
+std::map<EdgeKey, Index> faces_at(std::map<EdgeKey, Index> edges, const KeptSheet& sheet)
+{
+    for (Index h = 0; h < static_cast<Index>(sheet.triangles.size()); ++h) {
+        const auto at = edges.find(edge_key(origin(sheet.triangles, h), target(sheet.triangles, h)));
+        if (at != edges.end() && (at->second < 0 || sheet.patch[face_of(h)] == 1)) at->second = face_of(h);
+    }
+    return edges;
 }
 
 }  // namespace
@@ -110,6 +127,32 @@ void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftO
     for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
         if (twin[h] == no_twin || origin(result.triangles, h) != target(result.triangles, twin[h]))
             throw SolverError("the solid is not closed");
+}
+
+void tell_places(const KeptSheet& sheet, const Vertices& vertices, const Triangles& triangles,
+                 const std::vector<Index>& source, std::size_t outer, LiftResult& result)
+{
+    const Index faces = static_cast<Index>(result.triangles.rows()), own = static_cast<Index>(sheet.face.size());
+    const Index count = static_cast<Index>(source.size()), inner = static_cast<Index>(outer);
+    const auto vertex = [&](Index f, int k) {  // of the sheet; the inner side has the sheet's own
+        const Index v = result.triangles(f, k);
+        return v < count ? source[v] : v - count;
+    };
+    const auto foot = [&](Index f) { return edge_key(vertex(f, 0), vertex(f, 1)); };  // of a wall, over one edge
+    const auto is_wall = [&](Index f) { return f >= own && !(f >= inner && f < inner + own); };
+    std::map<EdgeKey, Index> feet;
+    for (Index f = 0; f < faces; ++f)
+        if (is_wall(f)) feet.emplace(foot(f), -1);
+    feet = faces_at(std::move(feet), sheet);
+    result.weights.resize(3 * static_cast<Eigen::Index>(faces), 3);
+    for (Index f = 0; f < faces; ++f) {
+        const Index below = is_wall(f) ? feet.at(foot(f)) : f < own ? f : f - inner;
+        result.face.push_back(sheet.face[below]);
+        Eigen::Matrix3d corners;
+        for (int k = 0; k < 3; ++k) corners.row(k) = vertices.row(triangles(result.face[f], k));
+        for (int k = 0; k < 3; ++k)
+            result.weights.row(3 * f + k) = weights_in_triangle(sheet.vertices.row(vertex(f, k)), corners);
+    }
 }
 
 }  // namespace koebe

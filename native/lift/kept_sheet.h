@@ -33,4 +33,10 @@ void finish_sheet(const KeptSheet& sheet, RaisedSheet raised, const LiftOptions&
 /// @throws InputError faces would turn over, or the pattern is sunk through the solid; SolverError it is not closed
 void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftOptions& options, LiftResult& result);
 
+/// Tells the result's `face` and `weights`.
+/// @param vertices, triangles of the surface as they came in @param source (V) vertex of the sheet for each vertex of
+/// the raised sheet @param outer number of its faces
+void tell_places(const KeptSheet& sheet, const Vertices& vertices, const Triangles& triangles,
+                 const std::vector<Index>& source, std::size_t outer, LiftResult& result);
+
 }  // namespace koebe

@@ -138,7 +138,7 @@ void cells_of_torus(Fit fit, const Lattice& lattice, LaidLattice& laid)
 long cells_round(const Lattice& lattice, double period, double size, int repeats)
 {
     const long columns = lattice.columns;
-    if (repeats == 0) return std::max(1L, std::lround(period / (size * static_cast<double>(columns))));
+    if (repeats == 0) return std::max(1L, std::lround(period / (size * lattice.a.real())));
     if (repeats % columns == 0) return repeats / columns;
     const long below = repeats / columns * columns;
     throw InputError("the pattern does not meet itself after " + std::to_string(repeats) +
@@ -148,7 +148,7 @@ long cells_round(const Lattice& lattice, double period, double size, int repeats
 
 }  // namespace
 
-Lattice lattice_of(const std::string& pattern, double bridge)
+Lattice lattice_of(const std::string& pattern, double bridge, bool along)
 {
     const double side = std::sqrt(0.75);
     if (pattern == "hexagons")
@@ -176,7 +176,10 @@ Lattice lattice_of(const std::string& pattern, double bridge)
                 1,
                 {quarter_ring(width, {1.0, -1.0}), quarter_ring(width, {-1.0, 1.0})}};
     }
-    return {2.0, {1.0, 2.0}, {slot(1.0 - bridge, 4.0 - bridge, 0.0)}, 2};
+    std::vector<Complex> stripe = slot(1.0 - bridge, 4.0 - bridge, 0.0);
+    if (!along) return {2.0, {1.0, 2.0}, {std::move(stripe)}, 2};
+    for (Complex& z : stripe) z *= Complex(0.0, 1.0);
+    return {4.0, {2.0, 1.0}, {std::move(stripe)}};
 }
 
 LaidLattice lay_lattice(const Lattice& lattice, const std::vector<Complex>& periods, double size, int repeats,
@@ -195,6 +198,7 @@ LaidLattice lay_lattice(const Lattice& lattice, const std::vector<Complex>& peri
             const long cells = cells_round(lattice, periods[0].real(), size, repeats);
             const Complex scale = periods[0] / (static_cast<double>(cells) * lattice.a);
             map = {scale, scale * Complex(0.0, 1.0)};
+            laid.unit = std::abs(scale);
             last = static_cast<double>(cells);
         }
         const double rise = map(lattice.b).imag(), run = map(lattice.a).real(), lean = map(lattice.b).real();

@@ -13,19 +13,21 @@ namespace koebe {
 struct Lattice {
     Complex a, b;
     std::vector<std::vector<Complex>> shapes;          ///< of one cell, counter-clockwise
-    int columns = 1;                                   ///< cells in the direction of the real axis along a
+    int columns = 1;                                   ///< repeats in the direction of the real axis along a
     std::vector<std::vector<Complex>> other_shapes{};  ///< if there are: of half of the cells, at random
 };
 
 /// The lattice of a built-in pattern: hexagons, triangles, diamonds, stripes, truchet, or circles in rows. Truchet's
 /// cells have two quarters of a ring about opposite corners [Truchet 1704; Smith 1987].
 /// @param bridge between shapes, for cells of size 1: from 0 to below 1
-Lattice lattice_of(const std::string& pattern, double bridge);
+/// @param along whether stripes run along the real axis, and not across it
+Lattice lattice_of(const std::string& pattern, double bridge, bool along = false);
 
 /// A lattice laid over a domain: the shapes around each place, and these places.
 struct LaidLattice {
     std::vector<std::vector<Complex>> shapes, other_shapes;
     std::vector<Complex> places;
+    double unit = 1.0;  ///< length of the middles' distance 1
     double bend = 1.0;  ///< longest over shortest image of a unit vector: above 1 the lattice is no longer regular
 };
 

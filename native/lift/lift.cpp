@@ -6,6 +6,7 @@
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
+#include "execution/thread_share.h"
 #include "lift/bent_mesh.h"
 #include "lift/flat_domain.h"
 #include "lift/image_relief.h"
@@ -67,6 +68,8 @@ PatternOptions pattern_options(const FlatDomain& domain, const LiftOptions& opti
     chosen.bridge = options.bridge.value_or(0.2 * chosen.size);
     chosen.repeats = options.repeats;
     chosen.seed = static_cast<std::uint64_t>(options.seed);
+    chosen.turn = options.turn;
+    chosen.rows = options.rows;
     chosen.hole = domain.hole;
     if (!(chosen.size > 0.0)) throw InputError("the surface has no area: no size for the pattern");
     return chosen;
@@ -188,7 +191,7 @@ void warn_of_crossings(const MeetingFaces& meeting, std::vector<Index> faces, Li
                                    std::move(faces), "Lower the thickness or the height there"});
 }
 
-void lift_outlines(const FlatDomain& domain, const PatternFile& file, const std::string& name,
+void lift_outlines(const FlatDomain& domain, const Triangles& given, const PatternFile& file, const std::string& name,
                    const LiftOptions& options, LiftResult& result, ExecutionContext& context)
 {
     KeptSheet sheet;
@@ -205,10 +208,12 @@ void lift_outlines(const FlatDomain& domain, const PatternFile& file, const std:
     context.checkpoint();
     require_foretold(domain.surface, sheet, options.perforate ? result.outlines : 0, result);
     const std::size_t outer = raised.patch.size();
+    const std::vector<Index> source = raised.source;
     if (options.thickness)
         finish_solid(sheet, raised, options, result);
     else
         finish_sheet(sheet, std::move(raised), options, result);
+    tell_places(sheet, domain.sheet().vertices, given, source, outer, result);
     warn_of_left_out(result);
     if (!options.thickness && !options.height) return;
     context.checkpoint();
@@ -261,6 +266,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
                      const LiftOptions& options, ExecutionContext& context)
 {
     const Stopwatch clock;
+    const ThreadShare threads(0);
     const PatternFile file = read_pattern(name, options);
     FlatDomain domain = flat_domain(vertices, triangles, options, context);
     context.checkpoint();
@@ -274,7 +280,7 @@ LiftResult lift_here(const Vertices& vertices, const Triangles& triangles, const
     if (file.mesh)
         lift_mesh(domain, *file.mesh, options, result, context);
     else
-        lift_outlines(domain, file, name, options, result, context);
+        lift_outlines(domain, triangles, file, name, options, result, context);
     result.vertex_count = static_cast<Index>(result.vertices.rows());
     result.face_count = static_cast<Index>(result.triangles.rows());
     result.peak_memory_mb = peak_memory_mb();

@@ -27,14 +27,16 @@ struct LiftOptions {
     std::optional<double> bridge = {};  ///< between two outlines; none: a fifth of the size
     int repeats = 0;                    ///< round a ring; 0: of a lattice as the size asks for, of a drawing 1
     int seed = 1;                       ///< of circles and Voronoi cells
-    double turn = 0.0;                  ///< of a drawing or mesh, degrees counter-clockwise
+    double turn = 0.0;                  ///< of a drawing, mesh or lattice, degrees counter-clockwise
     Index around = -1;                  ///< vertex of the hole of a disk that rows follow; of a sphere, the middle of
                                         ///< a drawing or mesh. -1: no hole; the top
+    int rows = 0;                       ///< around the hole, beginning there; 0: as many as fit
     bool perforate = false;             ///< cut the outlines out
     std::optional<double> height = {};  ///< raise them; below 0: sink them. Of a mesh a factor of its heights
     std::optional<double> thickness = {};  ///< of a closed solid; none: the surface stays a sheet
 
-    KOEBE_OPTIONS(LiftOptions, shape, even, size, bridge, repeats, seed, turn, around, perforate, height, thickness)
+    KOEBE_OPTIONS(LiftOptions, shape, even, size, bridge, repeats, seed, turn, around, rows, perforate, height,
+                  thickness)
 };
 
 /// `vertex_count` and `face_count` count the result. All figures of a map are for the map that the pattern is drawn in.
@@ -44,6 +46,8 @@ struct LiftResult : MapReport {
     PlanarPoints uv;              ///< (3F, 2) of corners; walls have no area, and a solid has none
     std::vector<Index> original;  ///< (V) the surface's vertex at the same place, to the last bit; -1: none
     std::vector<Index> patch;     ///< (F) solid: 0 outside, 1 inside, 2 walls; sheet: 0 ground, 1 raised, 2 walls
+    std::vector<Index> face;      ///< (F) the surface's face below each; of a wall one at its foot; of a mesh empty
+    Vertices weights;             ///< (3F, 3) of corners: where they lie in this face, before they are moved
     LiftShape shape = LiftShape::disk;
     std::string pattern;
     double size = 0.0, bridge = 0.0;  ///< as used

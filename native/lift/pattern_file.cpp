@@ -14,7 +14,7 @@ void require_fitting_options(const std::string& kind, const LiftOptions& options
     const bool placed = kind == ".svg" || kind == ".obj";
     if (kind != ".obj" && options.perforate == options.height.has_value())
         throw InputError("either perforate, or give a height");
-    if (options.turn != 0.0 && !placed) throw InputError("a turn is for drawings and meshes");
+    if (options.turn != 0.0 && kind == ".png") throw InputError("an image has no turn");
     if (options.bridge && !kind.empty()) throw InputError("a bridge is for the built-in patterns: a file has its own");
     if (kind == ".obj" && (options.perforate || options.thickness))
         throw InputError("a mesh is bent as it is: without perforate and thickness");
@@ -23,6 +23,7 @@ void require_fitting_options(const std::string& kind, const LiftOptions& options
     const bool on_sphere = options.shape == LiftShape::sphere;
     if (options.around >= 0 && !(on_sphere ? placed : kind.empty() && options.shape == LiftShape::disk))
         throw InputError("around is for built-in patterns on a disk, and for drawings and meshes on a sphere");
+    if (options.rows > 0 && (options.around < 0 || on_sphere)) throw InputError("rows are counted around a hole only");
     if (kind != ".png") return;
     if (!options.height) throw InputError("an image is a relief: give the height of white");
     if (options.shape == LiftShape::parts)

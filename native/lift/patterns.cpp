@@ -18,25 +18,30 @@
 namespace koebe {
 namespace {
 
-/// The plane that a lattice is laid in: the UVs, or the logarithm about a hole of a disk.
+constexpr double longest_piece = 0.05;  // of a side in the logarithm's plane, in radians: so that arcs look round
+
+/// The plane that a lattice is laid in: the UVs, turned, or the logarithm about a hole of a disk.
 struct LatticePlane {
     std::vector<Complex> periods;
     Complex low, high;
     double scale = 1.0;                  ///< length on the surface over length in the plane, in the mean
+    Complex turn = 1.0;                  ///< from the plane to the UVs
     std::optional<Complex> middle = {};  ///< of the hole, in the hyperbolic plane: it goes to 0 before the logarithm
 
     Complex in_uv(Complex w) const
     {
-        if (!middle) return w;
+        if (!middle) return turn * w;
         const Complex z = std::exp(Complex(0.0, 1.0) * w);
         return Complex(0.5, 0.5) + 0.5 * (z + *middle) / (1.0 + std::conj(*middle) * z);
     }
 };
 
-LatticePlane plane_of(const FlatSheet& sheet)
+LatticePlane plane_of(const FlatSheet& sheet, Complex turn)
 {
-    const PlaneBox box = box_around(sheet.uv);
-    return {sheet.periods, box.low, box.high, sheet.mean_scale};
+    std::vector<Complex> places = sheet.uv;
+    for (Complex& z : places) z *= std::conj(turn);
+    const PlaneBox box = box_around(places);
+    return {sheet.periods, box.low, box.high, sheet.mean_scale, turn};
 }
 
 /// Angles run along the real axis, and from the rim at 0 the imaginary part grows towards the hole.
@@ -63,7 +68,8 @@ std::vector<Complex> points_in_uv(const LatticePlane& plane, const std::vector<C
     std::vector<Complex> points;
     for (std::size_t i = 0; i < shape.size(); ++i) {
         const Complex a = shape[i], way = shape[(i + 1) % shape.size()] - a;
-        const int pieces = plane.middle ? std::max(1, static_cast<int>(std::ceil(10.0 * std::abs(way) / longest))) : 1;
+        const double piece = std::min(0.1 * longest, longest_piece);
+        const int pieces = plane.middle ? std::max(1, static_cast<int>(std::ceil(std::abs(way) / piece))) : 1;
         for (int k = 0; k < pieces; ++k)
             points.push_back(plane.in_uv(moved + a + way * (static_cast<double>(k) / pieces)));
     }
@@ -79,11 +85,42 @@ bool coin(std::uint64_t seed, std::uint64_t cell)
     return ((z >> 40) & 1) != 0;
 }
 
-DrawnPattern lattice_pattern(const FlatSheet& sheet, const LatticePlane& plane, const std::string& name,
-                             const PatternOptions& options)
+/// Whether stripes run along the real axis of a plane that repeats there. @throws InputError a turn that does not fit
+bool runs_along(const std::string& name, const PatternOptions& options)
 {
-    const LaidLattice laid = lay_lattice(lattice_of(name, options.bridge / options.size), plane.periods,
-                                         options.size / plane.scale, options.repeats, plane.low, plane.high);
+    if (std::fmod(options.turn, name == "stripes" ? 90.0 : 360.0) != 0.0)
+        throw InputError("on a ring and around a hole stripes turn by 90 degrees, and nothing else turns");
+    return options.hole.has_value() == (std::fmod(options.turn, 180.0) == 0.0);
+}
+
+/// Moves the rows, so that the first one lies a bridge away from the hole, and drops those at the rim and beyond
+/// `most`.
+void begin_at_hole(LaidLattice& laid, const LatticePlane& plane, double rise, double bridge, int most)
+{
+    double top = -INFINITY, bottom = INFINITY;
+    for (const auto* shapes : {&laid.shapes, &laid.other_shapes})
+        for (const auto& shape : *shapes)
+            for (const Complex z : shape) {
+                top = std::max(top, z.imag());
+                bottom = std::min(bottom, z.imag());
+            }
+    const double first = plane.high.imag() - bridge - top, near = 1e-6 * rise;
+    const double last = std::max(plane.low.imag() + bridge - bottom, most > 0 ? first - (most - 1) * rise : -INFINITY);
+    const Complex shift(0.0, std::fmod(first - laid.places.front().imag(), rise));
+    for (Complex& place : laid.places) place += shift;
+    std::erase_if(laid.places, [&](Complex z) { return z.imag() > first + near || z.imag() < last - near; });
+}
+
+DrawnPattern lattice_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
+{
+    const bool repeats = options.hole || sheet.periods.size() == 1, along = repeats && runs_along(name, options);
+    const LatticePlane plane = options.hole ? plane_about(sheet, *options.hole)
+                                            : plane_of(sheet, repeats ? Complex(1.0) : unit_turn(options.turn));
+    const double bridge = options.bridge / options.size;
+    const Lattice lattice = lattice_of(name, bridge, along);
+    LaidLattice laid =
+        lay_lattice(lattice, plane.periods, options.size / plane.scale, options.repeats, plane.low, plane.high);
+    if (options.hole) begin_at_hole(laid, plane, laid.unit * lattice.b.imag(), laid.unit * bridge, options.rows);
     DrawnPattern pattern;
     pattern.bend = laid.bend;
     for (std::size_t i = 0; i < laid.places.size(); ++i)
@@ -110,6 +147,8 @@ void require_pattern(const std::string& name, const PatternOptions& options)
                          ", or an SVG, PNG or OBJ file");
     }
     if (!(options.bridge < 0.5 * options.size)) throw InputError("the bridge must be less than half of the size");
+    if (options.turn != 0.0 && at_sites(name) && !options.hole)
+        throw InputError("circles and Voronoi cells have no turn");
 }
 
 }  // namespace
@@ -133,8 +172,9 @@ DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, c
     if (options.hole && name == "voronoi") throw InputError("Voronoi cells have no rows to lie around a hole");
     if (options.repeats > 0 && !options.hole && (at_sites(name) || sheet.periods.size() != 1))
         throw InputError("repeats are for hexagons, triangles, diamonds, stripes and truchet on a ring");
-    if (options.hole) return lattice_pattern(sheet, plane_about(sheet, *options.hole), name, options);
-    if (!at_sites(name)) return lattice_pattern(sheet, plane_of(sheet), name, options);
+    if (options.turn != 0.0 && sheet.periods.size() == 2)
+        throw InputError("a lattice on a torus is turned so that it meets itself: leave the turn out");
+    if (options.hole || !at_sites(name)) return lattice_pattern(sheet, name, options);
     return {site_outlines(sheet, even_sites(sheet, options.size, options.seed), shape_of(name), options.size,
                           options.bridge)};
 }

@@ -19,12 +19,16 @@ struct PatternOptions {
     double bridge = 0.0;  ///< between two outlines
     int repeats = 0;      ///< of a lattice round a ring or a hole; 0: it follows from the size
     std::uint64_t seed = 1;
+    double turn = 0.0;                ///< of a lattice, degrees counter-clockwise
     std::optional<Circle> hole = {};  ///< of the unit disk: a lattice's rows lie around it
+    int rows = 0;                     ///< around the hole, beginning there; 0: as many as fit
 };
 
 /// The patterns' names. Circles and Voronoi cells are even on the surface. Hexagons, triangles, diamonds, stripes and
 /// truchet lie in lattices that are even in the domain, and go on over the cut of a ring or a torus. Around a hole of a
-/// disk, lattices and circles lie in rows that are concentric in the domain.
+/// disk, lattices and circles lie in rows that are concentric in the domain, a bridge away from it and the rim. There
+/// stripes follow the circles, and turned by 90 degrees they are rays. On a ring they run from rim to rim, and turned
+/// by 90 degrees they go round.
 KOEBE_API const std::vector<std::string>& pattern_names();
 
 /// Whether a pattern is the name of a file: by its extension.
@@ -35,7 +39,7 @@ struct DrawnPattern {
     double bend = 1.0;  ///< of the lattice, so that it fits a torus (LaidLattice)
 };
 
-/// @throws InputError no such pattern; a size, bridge or repeats that do not fit the surface
+/// @throws InputError no such pattern; a size, bridge, turn or repeats that do not fit the surface
 DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options);
 
 /// On a sphere: circles and Voronoi cells only. @throws InputError as above, and for a lattice

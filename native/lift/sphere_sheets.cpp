@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <numbers>
 
 namespace koebe {
 namespace {
@@ -102,7 +104,8 @@ public:
             std::vector<std::pair<Index, VertexLoop>> rims = rims_of(side, part);
             std::vector<VertexLoop> all;
             for (const auto& [number, loop] : rims) all.push_back(loop);
-            bool bad = !crossing_boundary_edges(all, points, 1e-6).empty();
+            bool bad = !crossing_boundary_edges(all, points, 1e-6).empty() || any_nested(side, part, rims) ||
+                       any_sectors_overlap(side);
             while (!rims.empty() && !bad) {
                 const Index number = rims.front().first;
                 std::vector<VertexLoop> own;
@@ -172,6 +175,61 @@ private:
             rims.emplace_back(part[face_of(h)], std::move(loop));
         }
         return rims;
+    }
+
+    /// Whether a part of a half lies inside another one: their rims do not cross, and faces are covered twice.
+    bool any_nested(char side, const std::vector<Index>& part,
+                    const std::vector<std::pair<Index, VertexLoop>>& rims) const
+    {
+        const std::vector<Complex>& places = places_[side];
+        std::map<Index, Complex> middles;  // of a face of each part
+        for (Index f = 0; f < static_cast<Index>(south_.size()); ++f)
+            if (south_[f] == side)
+                middles.try_emplace(
+                    part[f], (places[triangles_(f, 0)] + places[triangles_(f, 1)] + places[triangles_(f, 2)]) / 3.0);
+        return std::ranges::any_of(middles, [&](const auto& own) {
+            int turns = 0;
+            for (const auto& [number, loop] : rims)
+                for (std::size_t i = 0; number != own.first && i < loop.size(); ++i) {
+                    const Complex a = places[loop[i]], b = places[loop[(i + 1) % loop.size()]], m = own.second;
+                    if ((a.imag() <= m.imag()) == (b.imag() <= m.imag())) continue;
+                    const bool up = b.imag() > m.imag();
+                    if ((cross(b - a, m - a) > 0.0) == up) turns += up ? 1 : -1;
+                }
+            return turns != 0;
+        });
+    }
+
+    /// Whether faces cover a place twice beside a vertex where a rim touches a rim: there they share it, and do not
+    /// cross.
+    bool any_sectors_overlap(char side) const
+    {
+        constexpr double whole = 2.0 * std::numbers::pi, near = 1e-9;
+        const auto previous = [](Index h) { return next_halfedge(next_halfedge(h)); };
+        std::map<Index, std::vector<std::array<double, 2>>> sectors;  // at a vertex: their begin and width
+        for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h) {
+            if (south_[face_of(h)] != side || !at_rim(h)) continue;
+            const Index v = origin(triangles_, h);
+            Index last = h;
+            bool upright = fits(face_of(h), side);
+            while (!at_rim(previous(last))) {
+                last = twin_[previous(last)];
+                upright &= fits(face_of(last), side);
+            }
+            const Complex from = places_[side][target(triangles_, h)] - places_[side][v];
+            const double width =
+                std::arg((places_[side][origin(triangles_, previous(last))] - places_[side][v]) / from);
+            if (upright) sectors[v].push_back({std::arg(from), width > 0.0 ? width : width + whole});
+        }
+        return std::ranges::any_of(sectors, [&](auto& at) {
+            auto& list = at.second;
+            std::ranges::sort(list);
+            for (std::size_t i = 0; list.size() > 1 && i < list.size(); ++i) {
+                const double next = i + 1 < list.size() ? list[i + 1][0] : list[0][0] + whole;
+                if (list[i][1] > next - list[i][0] + near) return true;
+            }
+            return false;
+        });
     }
 
     const Triangles& triangles_;

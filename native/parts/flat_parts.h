@@ -24,9 +24,10 @@ struct FlatParts {
     Flaws flaws;
 };
 
-/// Lays parts flat, several at a time. The parts of a piece that is its own mirror image are laid one after the other,
-/// as slits follow earlier slits. The splitting judged each part in 64 bits, with its flipped faces. A part that loses
-/// much area or overlaps as it is stored is now cut in two across its length, as often as such a cut helps.
+/// Lays parts flat, several at a time. The parts of a mirror-symmetric piece are laid flat one after the other, because
+/// each part takes the mirror images of earlier slits as its own slits. The splitting judged each part in 64 bits, with
+/// its flipped faces. A part that loses much area or overlaps as it is stored is now cut in two across its length, as
+/// often as such a cut helps.
 /// @param parts released one by one
 FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<PartPointer>& parts,
                      const FlatOptions& options, int threads, ExecutionContext& context, SplitEffort& effort);

@@ -10,7 +10,7 @@
 namespace koebe {
 
 /// A part's edges, to look for paths. Edges inside a polygon and on the boundary belong to no path.
-/// @param shown as in FlatPart: makes edges longer; empty: lengths on the surface
+/// @param shown (as in FlatPart) edges with weight count as longer. If empty, lengths are lengths on the surface
 SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {});
 
 /// The forces in a part relaxed for this E (even/even_forces.h), with the sizes that its faces should have.

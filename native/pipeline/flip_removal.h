@@ -14,9 +14,9 @@ namespace koebe {
 CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
 
 /// Turns flipped faces back (untangle). The surface's centre and point do not move. Circles shrink where the faces
-/// between them find no place to be upright, and then the search has its effort again. If up to 16 faces stay flipped,
-/// the search starts anew from the first map, with the circles at these faces smaller: tiny changes of the start decide
-/// whether a crowded place is untangled. Up to four starts; if all fail, the first one counts.
+/// between them find no place to be upright, and then the search starts again with its full effort. If up to 16 faces
+/// stay flipped, the search starts anew from the first map, with the circles at these faces smaller: tiny changes of
+/// the start decide whether a crowded place is untangled. Up to four starts; if all fail, the first one counts.
 /// @param map of the whole surface, changed in place
 UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionContext& context);
 

@@ -22,7 +22,8 @@ std::vector<Cdt::Vertex_handle> insert(Cdt& cdt, const std::vector<Complex>& pol
     for (const auto* points : {&polygon, &interior})
         for (const Complex z : *points) {
             const auto count = cdt.number_of_vertices();
-            const Cdt::Vertex_handle vertex = cdt.insert(detail::to_point(z));
+            const Cdt::Face_handle near = handles.empty() ? Cdt::Face_handle() : handles.back()->face();
+            const Cdt::Vertex_handle vertex = cdt.insert(detail::to_point(z), near);
             if (cdt.number_of_vertices() == count) return {};
             vertex->info() = static_cast<Index>(handles.size());
             handles.push_back(vertex);

@@ -29,6 +29,8 @@ void bind_lift(py::module_& m)
         .def_property_readonly("uv", [](const LiftResult& r) { return r.uv; })
         .def_property_readonly("original", [](const LiftResult& r) { return array_of(r.original); })
         .def_property_readonly("patch", [](const LiftResult& r) { return array_of(r.patch); })
+        .def_property_readonly("face", [](const LiftResult& r) { return array_of(r.face); })
+        .def_property_readonly("weights", [](const LiftResult& r) { return r.weights; })
         .def("report", [](const LiftResult& r) { return to_object(to_json(r)); });
     m.def("pattern_names", &pattern_names);
     m.def("lift", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,

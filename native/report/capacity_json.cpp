@@ -1,5 +1,9 @@
 #include "report/capacity_json.h"
 
+#include "core/warning.h"
+#include "report/json.h"
+#include "shape/conformal_module.h"
+
 namespace koebe {
 namespace {
 
@@ -22,7 +26,15 @@ nlohmann::ordered_json to_json(const CapacityReport& report)
                                 {"width", report.width},    {"faces", report.faces}, {"levels", report.levels},
                                 {"capacities", capacities}};
     if (report.modulus) json["modulus"] = enclosure_json(*report.modulus);
-    if (report.inner_radius) json["r_1"] = enclosure_json(*report.inner_radius);
+    if (!report.module.empty()) {
+        const std::vector<std::string> names = module_names(report.order.size());
+        for (std::size_t i = 0; i < names.size(); ++i) json[names[i]] = enclosure_json(report.module[i]);
+        json["loops"] = report.order;
+    }
+    std::vector<Warning> warnings;
+    if (!report.no_module.empty())
+        warnings.push_back({WarningKind::not_enclosed, "the circles have no proved bounds: " + report.no_module});
+    json["warnings"] = to_json(warnings);
     return json;
 }
 

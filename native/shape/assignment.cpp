@@ -90,7 +90,7 @@ Solution solve(const Prices& cost, const std::vector<std::vector<int>>& rows_of)
 
     lemon::NetworkSimplex<Graph, Price, Price> simplex(graph);
     if (simplex.costMap(price).supplyMap(supply).run() != simplex.OPTIMAL)
-        throw std::logic_error("an assignment without a solution");  // cannot happen: row j may go with column j
+        throw std::logic_error("the assignment problem has no solution");  // cannot happen: row j may go with column j
     Solution solution{std::vector<int>(n), {}, {}};
     solution.row_price.resize(n);
     solution.column_price.resize(n);

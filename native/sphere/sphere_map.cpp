@@ -243,7 +243,7 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
                                    counted(unused.size(), "vertex") + " without a face, put at (0, 0, 1)",
                                    std::move(unused)});
     if (domain.loops.empty() && !map.converged)
-        result.warnings.push_back({WarningKind::not_converged, "the iteration ended before its tolerance"});
+        result.warnings.push_back({WarningKind::not_converged, "the iteration ended before it reached its tolerance"});
     if (drawn)
         result.warnings.push_back(
             {WarningKind::coarse_mesh, "too few faces to spread them evenly over the sphere: they lie close together"});

@@ -56,6 +56,20 @@ VectorXd defect_sines(const Triangles& triangles, Index vertex_count, const Edge
     return sines;
 }
 
+/// (V) the areas of the circumcentric cells (Desbrun et al. 2005), from half_cotangents. The diagonal between two faces
+/// on one circle adds nothing to them, so they do not depend on which diagonal rounding has chosen.
+VectorXd circumcentric_areas(const IntrinsicMetric& metric, Index vertex_count, const EdgeLengths& half_cotangents)
+{
+    VectorXd areas = VectorXd::Zero(vertex_count);
+    for (Index h = 0; h < static_cast<Index>(metric.twin.size()); ++h) {
+        const double length = metric.lengths.data()[h];
+        const double share = 0.25 * half_cotangents.data()[h] * length * length;
+        areas[origin(metric.triangles, h)] += share;
+        areas[target(metric.triangles, h)] += share;
+    }
+    return areas;
+}
+
 /// A correction, which vanishes where it is not small: there the angle defects are noise or a crease.
 double faded(double correction)
 {
@@ -85,7 +99,7 @@ void correct_for_curvature(const IntrinsicMetric& metric, Index vertex_count, Ed
 {
     const std::vector<char> rim = rim_of(metric, vertex_count);
     VectorXd curvature = defect_sines(metric.triangles, vertex_count, weights);
-    const VectorXd areas = vertex_areas(metric.triangles, metric.lengths, vertex_count);
+    const VectorXd areas = circumcentric_areas(metric, vertex_count, weights);
     for (Index v = 0; v < vertex_count; ++v)
         curvature[v] = rim[v] == 0 && areas[v] > 0.0 ? curvature[v] / areas[v] : 0.0;
     continue_to_rim(metric, rim, curvature);

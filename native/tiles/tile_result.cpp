@@ -96,7 +96,7 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
 {
     warn_reoriented(domain.surface.reoriented, result.warnings);
     if (!map.converged)
-        result.warnings.push_back({WarningKind::not_converged, "the iteration ended before its tolerance"});
+        result.warnings.push_back({WarningKind::not_converged, "the iteration ended before it reached its tolerance"});
     if (!map.apart)
         result.warnings.push_back(
             {WarningKind::no_circles, "the circles of two holes meet: the mesh is too coarse between them"});
@@ -111,7 +111,7 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
     warn_not_one_to_one(faults.flipped, faults.below_resolution,
                         {faults.holes.empty() ? "" : counted(faults.holes.size(), "loop") + " out of shape",
                          faults.seams ? "the sides of the cut do not fit" : "",
-                         faults.covering ? "the tile does not cover its cell once" : ""},
+                         faults.covering ? "the tile does not cover its cell exactly once" : ""},
                         result.warnings);
 }
 

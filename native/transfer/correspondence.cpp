@@ -184,7 +184,7 @@ LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& 
     return map_with_landmarks(target, circles, aligned, found.uv, places.on_target, places.wanted, context);
 }
 
-/// The warning that names the source's holes that the target's miss.
+/// The warning that lists the holes of the source that the holes of the target do not reach.
 Warning not_fitted(const DomainAlignment& alignment, const std::vector<Circle>& circles)
 {
     char miss[32];

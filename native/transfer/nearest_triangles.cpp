@@ -133,6 +133,14 @@ PlacesInTriangles nearest(const Vertices& corners, const Triangles& triangles, c
 
 }  // namespace
 
+Eigen::RowVector3d weights_in_triangle(const Eigen::RowVector3d& point, const Eigen::Matrix3d& corners)
+{
+    const Eigen::RowVector3d inside = nearest_weights(point, corners, spatial_weights(point, corners));
+    const Eigen::RowVector3d at_side = nearest_weights(point, corners, Eigen::RowVector3d::Zero());
+    const auto away = [&](const Eigen::RowVector3d& weights) { return (weights * corners - point).squaredNorm(); };
+    return away(inside) <= away(at_side) ? inside : at_side;  // of a triangle without area the sides are truer
+}
+
 PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles& triangles, const PlanarPoints& points)
 {
     return nearest(in_space(corners), triangles, in_space(points), planar_weights);

@@ -11,6 +11,10 @@ struct PlacesInTriangles {
     VectorXd distance;           ///< (n) from the point to the triangle; 0 within rounding on the mesh
 };
 
+/// Barycentric coordinates of the point of a triangle in space that is nearest to a point: >= 0, sum 1. At a corner
+/// they are 1 and 0. @param corners a row each
+Eigen::RowVector3d weights_in_triangle(const Eigen::RowVector3d& point, const Eigen::Matrix3d& corners);
+
 /// Uses CGAL's tree of bounding boxes. Triangles without area count as segments or points.
 /// @param corners (V, 2) finite @param triangles (F, 3), F >= 1 @param points (n, 2) finite
 PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles& triangles,

@@ -73,7 +73,7 @@ ANY = {
 }
 WHY = {
     "cube": "it is closed", "sphere": "it is closed", "torus": "1 handle", "torus with a hole": "1 handle",
-    "klein": "changes its side", "moebius": "changes its side", "fin": "more than two faces",
+    "klein": "one-sided", "moebius": "one-sided", "fin": "more than two faces",
     "fan": "more than two faces", "bow tie": "", "turned": "", "doubled": "degenerate or double",
 }  # fmt: skip
 

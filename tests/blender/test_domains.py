@@ -42,8 +42,9 @@ WRONG = {
     "a pretzel": ("ring", two_handles, "this surface has 2 handles: a cylinder must have no handle", "schottky parts"),
     "a closed cube": ("ring", scenes.add_cube, "this surface has no boundary loop: a cylinder needs two", "parts"),
     "a cup": ("ring", lambda: scenes.add_cube(closed=False), "this surface has one boundary loop", "parts"),
-    "a torus, no sphere": ("sphere", add_torus, "this surface has 1 handle: a sphere has none", "torus"),
-    "a pretzel, no sphere": ("sphere", two_handles, "this surface has 2 handles: a sphere has none", "schottky parts"),
+    "a torus, no sphere": ("sphere", add_torus, "this surface has 1 handle, and a sphere has no handle", "torus"),
+    "a pretzel, no sphere":
+        ("sphere", two_handles, "this surface has 2 handles, and a sphere has no handle", "schottky parts"),
     "a ball": ("schottky", add_ball, "this surface has no handle: Unwrap Handles needs at least one", "sphere"),
     "a panel without handles": ("schottky", scenes.add_panel, "this surface has no handle", "uniformize"),
 }

@@ -193,6 +193,65 @@ def test_slots_and_shading_come_along():
     assert smooth.any() and not smooth.all()  # walls are flat
 
 
+@pytest.mark.parametrize("options", [{}, {"way": "raise"}, {"thickness": 0.02}, {"way": "raise", "thickness": 0.02}])
+def test_uvs_attributes_and_groups_come_along(options):
+    obj = scenes.add_panel(height=lambda x, y: 0 * x)
+    mesh, own = obj.data, points(obj)
+    linear = own @ [0.3, 0.2, 0.0] + 0.5
+    corner = scenes.read(mesh.loops, "vertex_index", np.int32)
+    layer = mesh.uv_layers.new(name="Own")
+    layer.data.foreach_set("uv", np.ascontiguousarray(own[corner, :2] * [1, -1]).ravel())
+    for name, kind, domain, values in (
+        ("Point", "FLOAT", "POINT", linear), ("Vector", "FLOAT_VECTOR", "CORNER", own[corner]),
+        ("Color", "BYTE_COLOR", "CORNER", np.tile(linear[corner][:, None], 4)),
+        ("Number", "INT", "FACE", np.arange(len(mesh.polygons))),
+    ):
+        made_one = mesh.attributes.new(name, kind, domain)
+        key = {"FLOAT_VECTOR": "vector", "BYTE_COLOR": "color"}.get(kind, "value")
+        made_one.data.foreach_set(key, np.ascontiguousarray(values).ravel())
+    mesh.color_attributes.active_color_name = "Color"
+    group = obj.vertex_groups.new(name="Weights")
+    for number, weight in enumerate(linear.tolist()):
+        group.add([number], weight, "REPLACE")
+    assert lift(**options) == {"FINISHED"}
+    found, at = made().data, points(made())
+    corner = scenes.read(found.loops, "vertex_index", np.int32)
+    uv = np.array([one.uv for one in found.uv_layers["Own"].data])
+    assert np.allclose(uv, at[corner, :2] * [1, -1], atol=1e-5)
+    expected = at @ [0.3, 0.2, 0.0] + 0.5
+    assert np.allclose(scenes.read(found.attributes["Point"].data, "value", np.float32), expected, atol=1e-5)
+    vector = scenes.read(found.attributes["Vector"].data, "vector", np.float32, 3)
+    assert np.allclose(vector[:, :2], at[corner, :2], atol=1e-5)
+    color = scenes.read(found.attributes["Color"].data, "color", np.float32, 4)
+    assert np.allclose(color[:, 0], expected[corner], atol=0.01) and found.attributes["Color"].data_type == "BYTE_COLOR"
+    assert found.color_attributes.active_color_name == "Color"
+    weights = np.array([vertex.groups[0].weight for vertex in found.vertices])
+    assert made().vertex_groups[0].name == "Weights" and np.allclose(weights, expected, atol=1e-5)
+    number = scenes.read(found.attributes["Number"].data, "value", np.int32)
+    faces = scenes.read(mesh.polygons, "center", np.float32, 3)[number]
+    middles = scenes.read(found.polygons, "center", np.float32, 3)
+    assert np.linalg.norm((faces - middles)[:, :2], axis=1).max() < 0.1
+    assert found.uv_layers.active.name == ("Own" if "thickness" in options else "Koebe")
+    assert not found.validate()
+
+
+def test_rows_follow_the_hole_at_the_cursor():
+    obj = scenes.add_panel(height=lambda x, y: 0 * x)
+    rims = [points(obj)[loop].mean(axis=0) for loop in scenes.boundary_loops(obj.data)]
+    sizes = [np.ptp(points(obj)[loop], axis=0).max() for loop in scenes.boundary_loops(obj.data)]
+    bpy.context.scene.cursor.location = rims[int(np.argmin(sizes))]
+    counts = []
+    for around in ("none", "cursor"):
+        scenes.select(obj)
+        assert lift(pattern="stripes", size=0.1, around=around, rows=1, repeats=5, hide=False) == {"FINISHED"}
+        counts.append(len(scenes.boundary_loops(made().data)) - len(rims))
+    assert counts[0] > 5 == counts[1]
+    bpy.context.scene.cursor.location = (50.0, 50.0, 0.0)
+    scenes.select(obj)
+    with pytest.raises(RuntimeError, match="is on no hole of the disk"):
+        lift(pattern="stripes", size=0.1, around="cursor")
+
+
 @pytest.mark.parametrize(("build", "options", "said"), [
     (scenes.add_cube, {}, "the surface is closed: set Shape to Sphere, Parts or Torus"),
     (lambda: scenes.add_object("Bare", [(0, 0, 0), (1, 0, 0)], []), {}, "Bare: it has no faces"),
@@ -272,7 +331,7 @@ def test_it_works_in_object_mode_only():
 def test_the_choices_are_the_solvers(addon, koebe):
     properties, table = addon("state.lift_properties"), addon("maps.lifting")
     rows = importlib.import_module("koebe._option_table").rows("lift")
-    assert [word for word, *_ in properties.SHAPES] == [*rows["shape"].words]
-    assert set(rows) - {"perforate", "around"} <= set(properties.LIFT_NAMES)  # "around" needs a vertex
+    assert properties.OWN["shape"].words == [*rows["shape"].words]
+    assert set(rows) - {"perforate"} <= set(properties.LIFT_NAMES)
     built_in = [word for word, *_ in properties.PATTERNS if word not in table.DRAWN]
     assert built_in == [*table.SPREAD, *table.LATTICES]

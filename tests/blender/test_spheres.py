@@ -164,7 +164,7 @@ def test_each_island_has_a_sphere_of_its_own():
 
 def test_nothing_is_added_where_nothing_is_mapped():
     add_torus()
-    with pytest.raises(RuntimeError, match="a sphere has none"):
+    with pytest.raises(RuntimeError, match="a sphere has no handle"):
         sphere(add_sphere=True)
     assert [obj.name for obj in bpy.data.objects] == ["Torus"] and len(bpy.data.meshes) == 1
 

@@ -110,9 +110,13 @@ class Window:
     # ---- what a hand does
 
     def move(self, x, y):
-        """Bring the pointer there, from beside it: Blender looks at movements, and a button wakes at the second one."""
+        """Bring the pointer there, from beside it: Blender looks at movements, and a button wakes at the second one.
+
+        Between two movements Blender answers once, or a busy machine makes one movement of them.
+        """
         for step in (6, 3, 0):
             xdotool("mousemove", x - step, y, "sleep", "0.07")
+            self.ask("True")
 
     def click(self, x, y, button=1):
         """Click there."""
@@ -249,10 +253,11 @@ class Window:
         """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it)."""
         x, top, width, height = self.region(area, "UI")
         x += int(width * fraction)
-        for y in range(top + step, top + height, step):
+        for y in 2 * [*range(top + step, top + height, step)]:  # twice, if a busy machine is late with an answer
             self.run("bpy.context.window_manager.clipboard = ''")
             self.move(x, y)
             xdotool("key", "ctrl+c", "sleep", "0.05")
+            self.ask("True")
             if text in self.ask("bpy.context.window_manager.clipboard"):
                 return x, y + step // 2
         raise AssertionError(f"no button {text!r} in the sidebar of {area}")

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+#include <random>
+
 using namespace koebe;
 using namespace koebe::test;
 
@@ -38,9 +41,37 @@ TEST(CurvatureWeights, a_unit_sphere_has_one_plus_a_twelfth_of_the_squared_edge)
     const Index count = static_cast<Index>(sphere.rows());
     const IntrinsicMetric metric = metric_of(sphere, domain.triangles);
     const EdgeLengths found = factors(metric, count), exact = 1.0 + metric.lengths.array().square() / 12.0;
-    // The defect over a third of the area is K only in the mean of neighbours.
+    // The defect over the area is K only in the mean of neighbours.
     EXPECT_NEAR((found.array() - 1.0).sum() / (exact.array() - 1.0).sum(), 1.0, 0.01);
     EXPECT_LT(((found - exact).array() / (exact.array() - 1.0)).abs().mean(), 0.1);
+}
+
+TEST(CurvatureWeights, do_not_depend_on_the_diagonals_of_quadrilaterals_on_circles)
+{
+    // A surface of revolution: the four corners between two meridians and two parallels lie on one circle.
+    constexpr Index rings = 12, meridians = 17, count = rings * meridians;
+    Vertices vase(count, 3);
+    for (Index v = 0; v < count; ++v) {
+        const Index ring = v / meridians;
+        const double angle = 2.0 * std::numbers::pi * (v % meridians) / meridians, radius = 2.0 + std::sin(0.6 * ring);
+        vase.row(v) << radius * std::cos(angle), radius * std::sin(angle), 0.5 * ring;
+    }
+    const auto laplacian = [&](const unsigned seed) {
+        std::mt19937 random(seed);
+        Triangles faces(2 * (rings - 1) * meridians, 3);
+        for (Index i = 0, f = 0; i + 1 < rings; ++i)
+            for (Index j = 0; j < meridians; ++j, f += 2) {
+                const Index a = i * meridians + j, b = i * meridians + (j + 1) % meridians;
+                const Index c = b + meridians, d = a + meridians;
+                if (random() % 2)
+                    faces.block<2, 3>(f, 0) << a, b, c, a, c, d;
+                else
+                    faces.block<2, 3>(f, 0) << a, b, d, b, c, d;
+            }
+        const IntrinsicMetric metric = metric_of(vase, faces);
+        return Eigen::MatrixXd(cotan_laplacian(metric.triangles, curvature_weights(metric, count), count));
+    };
+    EXPECT_LT((laplacian(1) - laplacian(2)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(CurvatureWeights, do_not_depend_on_the_unit_and_vanish_on_rough_surfaces)

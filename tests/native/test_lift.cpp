@@ -137,6 +137,15 @@ TEST(Lattice, StaggeredRowsNeedAnEvenNumber)
     }
 }
 
+TEST(Lattice, StripesAlongAreStripesAcrossTurned)
+{
+    const Lattice across = lattice_of("stripes", 0.2), along = lattice_of("stripes", 0.2, true);
+    EXPECT_DOUBLE_EQ((std::conj(across.a) * across.b).imag(), (std::conj(along.a) * along.b).imag());
+    for (std::size_t i = 0; i < along.shapes[0].size(); ++i)
+        EXPECT_EQ(along.shapes[0][i], across.shapes[0][i] * Complex(0.0, 1.0));
+    EXPECT_EQ(lay_lattice(along, {1.0}, 0.1, 7, 0.0, {1.0, 0.01}).places.size() % 7, 0U) << "any number fits";
+}
+
 TEST(Lattice, CoversATorusOnce)
 {
     const std::vector<Complex> periods{0.9, {0.2, 0.7}};

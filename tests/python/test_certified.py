@@ -136,7 +136,7 @@ def test_a_square_in_a_square():
     assert found.converged and found.width <= 1e-6 and found.condensers == [([1], [0])]
     assert holds(found.capacities[0], exact)
     assert holds(found.modulus, 1 / exact)
-    assert holds(found.inner_radius, math.exp(-2 * math.pi / exact))
+    assert holds(found.module["r_1"], math.exp(-2 * math.pi / exact)) and not found.warnings
     coarse = koebe.certified_moduli(*ring())
     assert coarse.converged and coarse.faces == 24 and coarse.levels == 1 and coarse.width > 0.1
     assert holds(coarse.capacities[0], exact)
@@ -231,11 +231,35 @@ def test_the_capacities_of_more_loops():
     points, faces = grid(12, lambda i, j: (i, j) not in {(2, 2), (8, 3), (5, 8)})
     found = koebe.certified_moduli(folded(points, np.random.default_rng(5)), faces, width=1e-3)
     assert [high for _, high in found.condensers] == [[0], [1], [2], [3], [0, 1], [0, 2], [0, 3]]
-    assert found.modulus is None and found.inner_radius is None
+    assert found.modulus is None
     low, high = found.capacities.T
     # C(0,1) + C(0,2) + C(0,3) = the sum of all single loops', as the rows of the fluxes sum to 0.
     assert low[4:].sum() <= high[:4].sum() and low[:4].sum() <= high[4:].sum()
     assert high.max() - low.min() > 1
+
+
+@pytest.mark.parametrize("holes", [{(2, 2), (8, 3), (8, 4)}, {(3, 3), (7, 2), (7, 3), (5, 7), (6, 7)}])
+def test_the_circles_of_three_and_four_loops(holes):
+    """Folded at random and numbered anew, it is the same surface; the iteration's circles are near to these."""
+    rng = np.random.default_rng(len(holes))
+    points, faces = grid(12, lambda i, j: (i, j) not in holes)
+    vertices = folded(points, rng)
+    wide, found = (koebe.certified_moduli(vertices, faces, width=width) for width in (1e-2, 1e-3))
+    assert found.converged and not found.warnings and list(found.module) == koebe.module_names(len(found.module_loops))
+    order = rng.permutation(len(vertices))
+    again = koebe.certified_moduli(folded(points, rng)[np.argsort(order)], order[faces], width=1e-3)
+    near = koebe.conformal_module(koebe.uniformize(vertices, faces))
+    for (name, pair), value in zip(found.module.items(), near, strict=True):
+        assert 0 < pair[1] - pair[0] <= 1e-3 and abs(pair[0] - value) < 0.05
+        for other in (wide, again):
+            assert max(pair[0], other.module[name][0]) <= min(pair[1], other.module[name][1])
+
+
+def test_more_loops_have_bounds_of_their_capacities_alone():
+    points, faces = grid(12, lambda i, j: (i, j) not in {(2, 2), (8, 3), (4, 8), (9, 9)})
+    found = koebe.certified_moduli(folded(points, None), faces)
+    assert [one.kind for one in found.warnings] == ["not_enclosed"] and found.module == {} and found.module_loops == []
+    assert len(found.capacities) == 15
 
 
 def test_a_disk_has_no_capacity():
@@ -302,7 +326,7 @@ def test_the_command(tmp_path):
     python = koebe.certified_moduli(vertices, faces, width=1e-4).to_dict()
     assert python.pop("options") == {"width": 1e-4, "max_faces": 300000}
     assert report == {**python, "input": "ring.obj", "warnings": []}
-    assert set(report["modulus"]) == set(report["r_1"]) == {"lower", "upper"}
+    assert set(report["modulus"]) == set(report["r_1"]) == {"lower", "upper"} and report["loops"] == [0, 1]
     stopped = command("module", path, "--certified", "--width", "1e-6", "--max-faces", "100")
     assert stopped.returncode == NOT_CONVERGED and not json.loads(stopped.stdout)["converged"]
     exchanged = json.loads(command("module", path, "--certified", "--between", "0/1").stdout)["capacities"]

@@ -63,7 +63,8 @@ def test_fill_of_chosen_loops_leaves_the_others_open(mesh):
     assert koebe("uniformize", mesh / "out.obj", mesh / "map.obj").stdout.count("2 loops") == 1
     outside = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--loops", "4")
     assert outside.returncode == USAGE
-    assert outside.stderr == "WrongUsage: --loops: there is no boundary loop 4 among 4, counted from 0\n"
+    said = "WrongUsage: --loops: there is no boundary loop 4: the surface has 4 loops, numbered from 0\n"
+    assert outside.stderr == said
 
 
 def test_fill_turns_polygons_that_lie_the_wrong_way_round(mesh):

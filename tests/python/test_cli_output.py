@@ -379,7 +379,7 @@ def test_what_another_format_does_not_hold_is_named(rich):
     off += ["4 {} {} {} {}".format(*quad) + " 0 1 0" * (k == 3) for k, quad in enumerate(quads.tolist())]
     (rich / "in.off").write_text("\n".join(off))
     said = warnings(koebe("uniformize", "in.off", "out.obj", "--json", "r.json", cwd=rich), rich / "r.json")
-    assert said == {"not_kept": "not kept of the file: vertex colours and face colours"}
+    assert said == {"not_kept": "the written file does not have: vertex colours and face colours"}
 
 
 def test_a_ply_keeps_all_but_its_texture_coordinates(rich):
@@ -401,7 +401,7 @@ def test_a_ply_keeps_all_but_its_texture_coordinates(rich):
         assert [row[5] for row in lines[len(vertices) :]] == [str(-k) for k in range(len(quads))]
     assert {(row[6], len(row)) for row in lines[len(vertices) :]} == {("8", 15)}  # texcoord, of parts
     said = warnings(koebe("uniformize", "in.ply", "out.obj", "--json", "r.json", cwd=rich), rich / "r.json")
-    assert said["not_kept"] == "not kept of the file: vertex colours, normals and face property part"
+    assert said["not_kept"] == "the written file does not have: vertex colours, normals and face property part"
 
 
 # ---------------------------------------------------------------- warnings

@@ -131,12 +131,91 @@ def test_rows_follow_a_hole(pattern):
     in_a_row = 24 if pattern == "truchet" else 12
     assert result.outlines >= in_a_row and result.outlines % in_a_row == 0  # whole rows, or none of a row
     assert len(loops_of(result.triangles)) == 2 + result.outlines
+    one = koebe.lift(vertices, faces, pattern, around=vertex, repeats=12, rows=1, perforate=True)
+    assert one.outlines == in_a_row < result.outlines
+    with pytest.raises(koebe.InputError, match="rows are counted around a hole only"):
+        koebe.lift(vertices, faces, pattern, rows=1, perforate=True)
     with pytest.raises(koebe.InputError, match="on no hole"):
         koebe.lift(vertices, faces, pattern, around=0, perforate=True)
     with pytest.raises(koebe.InputError, match="no rows"):
         koebe.lift(vertices, faces, "voronoi", around=vertex, perforate=True)
     with pytest.raises(koebe.InputError, match="around is for"):
         koebe.lift(*tube(), pattern, shape="ring", around=0, perforate=True)
+
+
+def flat_ring(inner=0.3):
+    """A flat ring between two circles about 0, cut in rows."""
+    points, faces = tube()
+    radius = inner ** (1.0 - points[:, 2] / 2.0)
+    return np.column_stack([radius * points[:, 0], radius * points[:, 1], 0 * radius]), faces
+
+
+def directions(result):
+    """The middle (n,) of each new hole in the UVs as a complex number, and its longer axis (n,) as a unit number."""
+    middles, axes = [], []
+    places = np.zeros(len(result.vertices), complex)
+    places[result.triangles] = (2 * result.uv - 1) @ [1, 1j]
+    for loop in loops_of(result.triangles):
+        if (result.original[loop] >= 0).all():
+            continue  # a loop of the surface
+        z = places[loop]
+        middles.append(z.mean())
+        values, vectors = np.linalg.eigh(np.cov(np.stack([z.real, z.imag])))
+        assert values[1] > 2 * values[0]
+        axes.append(complex(*vectors[:, 1]))
+    return np.array(middles), np.array(axes)
+
+
+@pytest.mark.parametrize(("turn", "along"), [(0, True), (180, True), (90, False), (-90, False)])
+def test_stripes_follow_the_circles_of_a_hole_or_are_rays(turn, along):
+    vertices, faces = flat_ring()
+    result = koebe.lift(vertices, faces, "stripes", around=0, turn=turn, repeats=8 if along else 48, perforate=True)
+    middles, axes = directions(result)
+    assert result.outlines % (8 if along else 24) == 0 and len(axes) == result.outlines > 8
+    radial = abs((axes * middles.conj() / abs(middles)).real)
+    rows = 1 + (np.diff(np.sort(abs(middles))) > 0.02).sum()
+    assert rows == result.outlines // (8 if along else 24) > 1
+    assert (radial < 0.1).all() if along else (radial > 0.99).all()
+
+
+@pytest.mark.parametrize("turn", [0, 30, 90, -45])
+def test_a_lattice_turns_in_a_disk(turn):
+    vertices, faces = flat_ring()
+    result = koebe.lift(vertices, faces, "stripes", size=0.08, turn=turn, perforate=True)
+    _, axes = directions(result)
+    assert len(axes) > 8 and (abs((axes / (1j * np.exp(1j * np.radians(turn)))).real) > 0.99).all()
+
+
+def test_a_turn_that_does_not_fit_is_refused():
+    vertices, faces = flat_ring()
+    for pattern, options, said in (
+        ("stripes", {"around": 0, "turn": 45}, "stripes turn by 90 degrees"),
+        ("hexagons", {"shape": "ring", "turn": 90}, "nothing else turns"),
+        ("circles", {"turn": 90}, "have no turn"),
+    ):
+        with pytest.raises(koebe.InputError, match=said):
+            koebe.lift(vertices, faces, pattern, perforate=True, **options)
+
+
+@pytest.mark.parametrize("options", [
+    {"perforate": True}, {"height": 0.05}, {"height": 0.05, "thickness": 0.02}, {"perforate": True, "thickness": 0.1},
+], ids=str)  # fmt: skip
+@pytest.mark.parametrize("shape", ["ring", "disk"])
+def test_it_is_told_where_each_corner_lies_on_the_surface(shape, options):
+    vertices, faces = tube()
+    faces[::3] = faces[::3, [1, 2, 0]]
+    result = koebe.lift(vertices, faces, "circles", shape=shape, size=0.4, **options)
+    assert abs(result.weights.sum(axis=2) - 1).max() < 1e-12 and result.weights.min() >= 0
+    places = np.einsum("fck,fkd->fcd", result.weights, vertices[faces[result.face]])
+    moved = np.linalg.norm(places - result.vertices[result.triangles], axis=2)
+    most = options.get("height", 0) + options.get("thickness", 0) / 2
+    assert moved.max() < most + 1e-6
+    if not result.closed:
+        assert (moved[result.patch == 0] < 1e-6).all()
+        one = result.weights.max(axis=2) == 1.0
+        corner = faces[result.face[:, None], result.weights.argmax(axis=2)]
+        own = result.original[result.triangles]
+        assert (own >= 0).any() and (one & (corner == own))[own >= 0].all()
 
 
 def test_holes_stay_as_they_are():

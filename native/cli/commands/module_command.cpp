@@ -14,6 +14,7 @@
 #include "cli/process/standard_streams.h"
 
 #include "certified/capacities.h"
+#include "core/counted.h"
 #include "report/capacity_json.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
@@ -44,8 +45,8 @@ std::vector<int> order_of_ranks(const ShapeInput& shape, const std::vector<std::
     for (const std::string& word : words) {
         const auto found = std::ranges::find(shape.ranks, std::stoi(word));
         if (found == shape.ranks.end())
-            throw WrongUsage("--loops: there is no boundary loop " + word + " among " +
-                             std::to_string(shape.ranks.size()) + ", counted from 0");
+            throw WrongUsage("--loops: there is no boundary loop " + word + ": the surface has " +
+                             counted(shape.ranks.size(), "loop") + ", numbered from 0");
         order.push_back(static_cast<int>(found - shape.ranks.begin()));
     }
     return order;
@@ -106,7 +107,9 @@ int run_certified(const ModuleRequest& request, const CancelToken& token)
     json["input"] = std::filesystem::path(request.input).filename().string();
     std::vector<Warning> warnings;
     add_input_warnings(input, warnings);
-    json["warnings"] = to_json(warnings);
+    nlohmann::ordered_json all = to_json(warnings);
+    for (const nlohmann::ordered_json& warning : json["warnings"]) all.push_back(warning);
+    json["warnings"] = all;
     print(json_text(json));
     return report.converged ? done : not_converged;
 }
@@ -143,8 +146,8 @@ void add_certified_options(CLI::App& app, ModuleRequest& request)
 {
     std::vector<CLI::Option*> of_map = app.get_options();
     CLI::Option* certified = app.add_flag("--certified", request.certified,
-                                          "proved bounds for the capacities between loops, and for a ring's "
-                                          "modulus and r_1");
+                                          "proved bounds for the capacities between loops, for a ring's "
+                                          "modulus, and for the module of up to four loops");
     for (CLI::Option* option : of_map)
         if (const std::string name = option->get_name(); name != "IN" && name != "--help" && name != "--threads")
             certified->excludes(option);

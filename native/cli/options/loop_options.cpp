@@ -1,6 +1,7 @@
 #include "cli/options/loop_options.h"
 
 #include "cli/options/wrong_usage.h"
+#include "core/counted.h"
 #include "pipeline/map_input.h"
 #include "surface/loop_edges.h"
 
@@ -14,8 +15,8 @@ namespace {
 void require_vertex(const Surface& surface, Index vertex, const std::string& option)
 {
     if (vertex >= surface.vertex_count)
-        throw WrongUsage(option + ": there is no vertex " + std::to_string(vertex) + " among " +
-                         std::to_string(surface.vertex_count) + ", counted from 0");
+        throw WrongUsage(option + ": there is no vertex " + std::to_string(vertex) + ": the mesh has " +
+                         counted(surface.vertex_count, "vertex") + ", numbered from 0");
 }
 
 /// The rank of the loop with a vertex; -1 without such a loop.
@@ -72,8 +73,8 @@ void require_ranks(const std::vector<Index>& ranks, std::size_t loop_count)
 {
     for (const Index rank : ranks)
         if (rank >= static_cast<Index>(loop_count))
-            throw WrongUsage("--loops: there is no boundary loop " + std::to_string(rank) + " among " +
-                             std::to_string(loop_count) + ", counted from 0");
+            throw WrongUsage("--loops: there is no boundary loop " + std::to_string(rank) + ": the surface has " +
+                             counted(loop_count, "loop") + ", numbered from 0");
 }
 
 }  // namespace koebe::cli

@@ -1,4 +1,4 @@
-// Shows progress on stderr, if a person is looking.
+// Shows progress on stderr, if stderr is a terminal.
 #pragma once
 
 #include "core/not_copied.h"
@@ -8,7 +8,7 @@
 
 namespace koebe::cli {
 
-/// One line that is redrawn, and erased with the object. Shows nothing if stderr is not a terminal.
+/// One line that is redrawn, and erased with the object.
 class ProgressLine : NotCopied {
 public:
     explicit ProgressLine(bool quiet);

@@ -153,7 +153,7 @@ def fill_holes(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fill boundary loops.
 
-    loops   ranks in the list of boundary_loops; None for all of them
+    loops   indices in the list that boundary_loops returns; None for all loops
     fair    False: fans around the means of the loops' vertices (paper, section 4.4). True: triangles as long as those
             around the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
     Returns vertices (V + K, 3), triangles (F', 3) and a label per face: -1 in the input, k in the patch of loop k.

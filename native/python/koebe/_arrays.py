@@ -116,7 +116,10 @@ def _is_empty(values: Any) -> bool:
 
 
 def _refuse(bad: np.ndarray, message: str, of: str) -> None:
-    """Raises InputError if any are bad, with their numbers; `of` is their kind."""
+    """Raises InputError if an element is bad, with the numbers of the bad elements.
+
+    of  what the elements are: "vertices", "faces" ...
+    """
     elements = np.flatnonzero(bad)
     if elements.size:
         raise InputError(f"{elements.size} {message}", elements.tolist(), of)

@@ -94,7 +94,8 @@ def _words(options: dict[str, Any]) -> list[str]:
 
 
 def _run(words: list[str]) -> str:
-    """The output of `koebe batch` with these words. The command ends with this process, even if that is killed."""
+    """The output of `koebe batch` with these words. The command ends when this Python process
+    ends, even if the process is killed."""
     process = subprocess.Popen(
         [str(_command.path()), "batch", "--end-with-input", *words],
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", errors="replace",

@@ -9,6 +9,7 @@ from ._arrays import as_indices
 from ._input import surface_of
 from ._native import _koebe
 from ._options import callback, filled, takes, token
+from ._result import Warning
 from ._signatures import CertifiedOptions
 from .errors import InputError
 
@@ -24,7 +25,10 @@ class CertifiedModuli:
     condensers      list of N pairs: the loops at 0 and the loops at 1, numbered as in boundary_loops
     modulus         pair, or None if the surface has not two loops: 1 / capacity, the conformal cylinder's height over
                     its girth
-    inner_radius    pair, or None: of the round ring in the unit disk, r_1 of conformal_module
+    module          dict: name -> pair, the numbers of conformal_module by their names (r_1, y_2, r_2, x_3, ...). With
+                    four loops the sign of x_3 is not proved. Empty if it is not enclosed: `warnings` says why
+    module_loops    the module's loops in their order, the outer one first, numbered as in boundary_loops
+    warnings        list of Warning
     width           of the widest enclosure
     converged       whether no enclosure is wider than wanted. If not, they still hold
     faces, levels   of the finest triangulation; number of triangulations
@@ -37,7 +41,10 @@ class CertifiedModuli:
         self.capacities.flags.writeable = False
         self.condensers: list[tuple[list[int], list[int]]] = [(one["low"], one["high"]) for one in entries]
         self.modulus = self._pair("modulus")
-        self.inner_radius = self._pair("r_1")
+        self.module_loops: list[int] = report.get("loops", [])
+        names = _koebe.module_names(len(self.module_loops)) if self.module_loops else []
+        self.module = {name: (report[name]["lower"], report[name]["upper"]) for name in names}
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
         self.width: float = report["width"]
         self.converged: bool = report["converged"]
         self.faces: int = report["faces"]

@@ -60,9 +60,9 @@ class CutResult(MapReport):
         return self._source.vertices, self._source.triangles
 
     def to_mesh(self) -> Any:
-        """The mesh that was given, of the same kind, with fields as of UniformizeResult.to_mesh; there the scale is UV
-        lengths per surface length. Its faces are the same, in their order. Its vertices are doubled along the cuts:
-        koebe_vertex is the number of each in the mesh that was given. Raises InputError if arrays were given."""
+        """The input mesh, of the same kind, with the fields of UniformizeResult.to_mesh. The scale is UV length per
+        surface length. The faces are the same, in their order. Vertices are doubled along the cuts: koebe_vertex is the
+        number of each vertex in the input mesh. Raises InputError if the input was arrays."""
         return mesh_with_corner_uv(self._source, self.uv, self.piece >= 0)
 
     def to_dict(self) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from .errors import OptionError
 
 
 class DomainMap(MapReport):
-    """Cut UVs and a report. TileMap, SphereMap and SchottkyMap describe the fields."""
+    """UVs with cuts, and a report. TileMap, SphereMap and SchottkyMap describe the fields."""
 
     uv: np.ndarray
     loops: list[dict[str, Any]]

@@ -68,8 +68,8 @@ def flatten(vertices: Any, triangles: Any = None, **given: "Unpack[FlattenOption
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
     {options}
-    polygon      (F,) integers: triangles of one number are one polygon and stay together. None: each by itself, or as
-                 in the mesh
+    polygon      (F,) integers: triangles of one number are one polygon and stay together. None: the polygons of the
+                 mesh, or with arrays each triangle by itself
     progress, cancel    as for `uniformize`
     Each piece is as true to size as it can be, as with even=1 and loops='free' of `parts`; no piece overlaps itself or
     another. Write the drawing with, for example, Path('pattern.svg').write_text(result.svg[0], 'utf-8').

@@ -13,9 +13,9 @@ from .errors import InputError
 def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -> np.ndarray | None:
     """The vertex (V,) that is the mirror image of each, int32, or None if the surface is not symmetric.
 
-    Tries planes across x, y and z, then across the main axes, through the middle of the surface. Every polygon must
-    have a mirror image, another one or itself, corner by corner, to 1e-4 of the bounding box's diagonal. A plane that
-    holds most of the surface does not count. The image of an unused vertex is -1.
+    Tries planes through the middle of the surface: perpendicular to x, y and z, then perpendicular to the principal
+    axes. Every polygon must have a mirror image, another polygon or itself, corner by corner, within 1e-4 of the
+    bounding box's diagonal. A plane that holds most of the surface does not count. The image of an unused vertex is -1.
 
     polygon      (F,) integers: triangles of one number are one polygon, and their diagonals do not count
     """

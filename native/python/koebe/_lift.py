@@ -24,6 +24,9 @@ class LiftResult:
     uv           (F, 3, 2) float64 of corners in [0, 1]^2, the map's; walls have no area in it; of a solid (0, 3, 2)
     original     (V,) int32: the vertex of the surface that lies there, to the last bit; -1: there is none
     patch        (F,) int32: of a sheet 0, and 1 raised, 2 walls; of a solid 0 outside, 1 inside, 2 walls
+    face         (F,) int32: the surface's triangle below each; of a wall one at its foot; of a bent mesh (0,)
+    weights      (F, 3, 3) float64: where the corners lie in that triangle, in barycentric coordinates; before they are
+                 raised or made thick
     shape, pattern, size, bridge    as asked for or chosen; lengths in the unit of the vertices
     bend         above 1: a lattice is stretched by this much, so that it fits a torus
     outlines     on the surface
@@ -55,7 +58,9 @@ class LiftResult:
         self.uv: np.ndarray = native.uv.reshape(-1, 3, 2)
         self.original: np.ndarray = native.original
         self.patch: np.ndarray = native.patch
-        for array in (self.vertices, self.triangles, self.uv, self.original, self.patch):
+        self.face: np.ndarray = native.face
+        self.weights: np.ndarray = native.weights.reshape(-1, 3, 3)
+        for array in (self.vertices, self.triangles, self.uv, self.original, self.patch, self.face, self.weights):
             array.flags.writeable = False
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 

@@ -1,5 +1,5 @@
-"""Meshes of other packages, and back: PyVista, trimesh, meshio, nibabel's GIfTI. They are recognized by their classes,
-so that no package is imported here.
+"""Converts meshes of other packages to arrays and back: PyVista, trimesh, meshio, nibabel's GIfTI. The meshes are
+recognized by their classes, so that no package is imported here.
 
 Each holds vertices and cells, some of which are faces. Other cells (points, lines) are kept and carry no values.
 """

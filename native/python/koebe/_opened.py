@@ -76,7 +76,8 @@ def open_surface(
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both; its polygons stay whole;
                            triangles may name a vertex twice
-    polygon   (F,) integers: triangles of one number are one polygon and are not cut apart. None: each by itself
+    polygon   (F,) integers: triangles of one number are one polygon and are not cut apart. None: each triangle by
+              itself
     progress, cancel    as for `uniformize`
     Handles are cut along short loops of a greedy homology basis [Erickson and Whittlesey 2005], a closed surface is
     opened along a shortest path between vertices far apart. Raises InputError, Cancelled, or MemoryError.

@@ -155,7 +155,7 @@ def flag(value: Any, option: str) -> bool:
 
 
 def page(value: Any, option: str) -> str:
-    """The name of a page."""
+    """A valid name of a page size, for example A4."""
     _require(value, option, str, "a text")
     if problem := _koebe.page_problem(value):
         raise OptionError(f"{option} {problem}")

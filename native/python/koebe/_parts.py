@@ -93,8 +93,8 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
     {options}
-    polygon      (F,) integers: triangles of one number are one polygon and stay together. None: each by itself, or as
-                 in the mesh
+    polygon      (F,) integers: triangles of one number are one polygon and stay together. None: the polygons of the
+                 mesh, or with arrays each triangle by itself
     slits        (E, 2) vertices of edges along which a tube is opened if they lead from one of its loops to the other.
                  None: along a short, straight path
     progress, cancel    as for `uniformize`

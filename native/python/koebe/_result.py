@@ -44,7 +44,7 @@ class Warning(dict[str, Any]):
         return WARNING_ELEMENTS[self["kind"]]
 
     def renumbered(self, number: Any) -> "Warning":
-        """The warning with number[e] for each element e, for a part of a larger mesh. Ascending, each once."""
+        """A copy of the warning for a larger mesh: each element e becomes number[e]. Ascending, each number once."""
         elements = np.unique(np.asarray(number)[self["elements"]]).tolist() if self["elements"] else []
         text = self["text"]
         if elements:

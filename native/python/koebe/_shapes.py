@@ -158,10 +158,11 @@ class DomainAlignment:
 
 
 def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = None) -> DomainAlignment:
-    """The automorphism of the unit disk that takes the target's circles nearest to the source's, by least squares.
+    """The automorphism of the unit disk that moves the target's circles as close as possible to the source's circles.
 
     match    the target's loop for each of the source's, 0 for 0; None: by match_loops
-    With one hole the circles leave the rotation free, without holes everything: the free part is the identity's.
+    With one hole the circles do not determine the rotation, and it is 0. Without holes they determine nothing, and
+    the map is the identity.
     Lengths are in the unit disk.
     """
     a, b = as_circles(source), as_circles(target)

@@ -129,6 +129,7 @@ class LiftOptions(RunOptions, total=False):
     seed: int
     turn: float
     around: int | None
+    rows: int
     perforate: bool
     height: float | None
     thickness: float | None

@@ -51,8 +51,8 @@ def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOption
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     {options}
-    polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: each by itself, or
-                 as in the mesh
+    polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: the polygons of
+                 the mesh, or with arrays each triangle by itself
     progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning tells why.

@@ -38,7 +38,7 @@ class SolverError(KoebeError):
 
 
 class FileError(KoebeError, OSError):
-    """A file cannot be read, or is not of its kind."""
+    """A file cannot be read, or is not a file of the expected type."""
 
 
 class Cancelled(KoebeError):

@@ -1,0 +1,406 @@
+#include "certified/circle_capacities.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace koebe {
+namespace {
+
+constexpr int fewest_terms = 12;
+constexpr Eigen::Index most_unknowns = 800;
+constexpr Eigen::Index samples_per_term = 6;
+constexpr double most_stretch = 16.0;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double unit_roundoff = 0x1p-53;
+constexpr double rounded_up = 1.0 + 1e-9;  // covers the rounding of sums of numbers above 0
+
+/// A number of the module moves one circle.
+struct Step {
+    int circle;
+    Complex center;
+    double radius;
+};
+
+Step step_of(Eigen::Index number)
+{
+    if (number == 0) return {1, 0.0, 1.0};
+    if (number < 3) return number == 1 ? Step{2, {0.0, 1.0}, 0.0} : Step{2, 0.0, 1.0};
+    const int circle = static_cast<int>(number / 3) + 2;
+    const Step steps[3] = {{circle, 1.0, 0.0}, {circle, {0.0, 1.0}, 0.0}, {circle, 0.0, 1.0}};
+    return steps[number % 3];
+}
+
+/// Bounds of the absolute values of a function of one variable and of its first two derivatives.
+struct Bound {
+    double value = 0.0, first = 0.0, second = 0.0;
+};
+
+Bound operator+(const Bound& a, const Bound& b) { return {a.value + b.value, a.first + b.first, a.second + b.second}; }
+
+Bound operator*(const Bound& a, const Bound& b)
+{
+    return {a.value * b.value, a.first * b.value + a.value * b.first,
+            a.second * b.value + 2.0 * a.first * b.first + a.value * b.second};
+}
+
+/// How far circles may be from their places, or how fast they move.
+struct Motion {
+    explicit Motion(const VectorXd& numbers) : of_centers((numbers.size() + 6) / 3, 0.0), of_radii(of_centers)
+    {
+        std::vector<double> squares(of_centers.size(), 0.0);
+        for (Eigen::Index l = 0; l < numbers.size(); ++l) {
+            const Step step = step_of(l);
+            squares[step.circle] += std::norm(step.center) * numbers[l] * numbers[l];
+            of_radii[step.circle] += step.radius * numbers[l];
+        }
+        for (std::size_t k = 0; k < squares.size(); ++k) of_centers[k] = std::sqrt(squares[k]) * rounded_up;
+    }
+
+    std::vector<double> of_centers, of_radii;
+};
+
+/// What the functions 1 / (z - c), r / (z - c) and log |z - c| of one circle, or z, are at most on another.
+struct OnCircle {
+    std::vector<Bound> ratio, logarithm;  // of each circle; ratio[0] is z
+    double nearest = infinite;            // to a centre
+};
+
+/// A part of circle b: all of it, or a point of it and the neighbourhood of so many radii. If stretch > 1, where the
+/// angle is complex, too: in the annulus between r / stretch and r * stretch, to which each function of the angle
+/// continues analytically.
+struct CirclePart {
+    std::size_t circle;
+    double stretch = 1.0;
+    std::optional<Complex> point = {};
+    double neighbourhood = 0.0;
+};
+
+OnCircle bounds_on(const std::vector<Circle>& circles, const CirclePart& part, const Motion& slack, const Motion& speed)
+{
+    OnCircle on;
+    const std::size_t count = circles.size(), b = part.circle;
+    const double stretch = part.stretch;
+    on.ratio.resize(count);
+    on.logarithm.resize(count);
+    const double radius = circles[b].radius + slack.of_radii[b];
+    const double moved = speed.of_centers[b] + stretch * speed.of_radii[b];
+    on.ratio[0] = b == 0 ? Bound{stretch}
+                         : Bound{std::abs(circles[b].center) + slack.of_centers[b] + stretch * radius, moved, 0.0};
+    for (std::size_t k = 1; k < count; ++k) {
+        const double slack_k = slack.of_radii[k], speed_k = speed.of_radii[k];
+        if (k == b) {
+            const double least = circles[k].radius - slack_k;
+            if (!(least > 0.0)) return {};
+            on.ratio[k] = {stretch};  // exp(-i angle), wherever the circle is
+            on.logarithm[k] = {std::abs(std::log(least)) + 1e-12, speed_k / least, speed_k * speed_k / (least * least)};
+            continue;
+        }
+        const double apart = std::abs(circles[b].center - circles[k].center);
+        const double loose = slack.of_centers[b] + slack.of_centers[k] + 1e-15;
+        double least = b == 0 ? 1.0 / stretch - apart - loose : apart - loose - stretch * radius;
+        if (part.point)
+            least = std::abs(*part.point - circles[k].center) - loose - slack.of_radii[b] - part.neighbourhood * radius;
+        const double most = b == 0 ? 1.0 + stretch * (apart + loose) : apart + loose + stretch * radius;
+        if (!(least > 0.0)) return {};
+        on.nearest = std::min(on.nearest, least);
+        const double relative = (moved + speed.of_centers[k]) / least;
+        // On the unit circle |z - c| is |1 - c / z|, whose logarithm has one value outside |c|.
+        const double lowest = b == 0 ? 1.0 - stretch * (apart + loose) : least;
+        const double angle = stretch > 1.0 ? std::numbers::pi : 0.0;
+        on.logarithm[k] = {std::max(std::abs(std::log(lowest)), std::abs(std::log(most))) + angle, relative,
+                           relative * relative};
+        on.ratio[k] = Bound{circles[k].radius + slack_k, speed_k, 0.0} *
+                      Bound{1.0 / least, relative / least, 2.0 * relative * relative / least};
+    }
+    return on;
+}
+
+/// Of the two sides of a condenser that holds all circles, the one without the unit circle.
+const std::vector<int>& inner_side(const Condenser& condenser)
+{
+    return std::ranges::find(condenser.high, 0) == condenser.high.end() ? condenser.high : condenser.low;
+}
+
+}  // namespace
+
+std::vector<Circle> circles_of_module(const VectorXd& module)
+{
+    std::vector<Circle> circles(static_cast<std::size_t>(module.size() + 6) / 3);
+    for (std::size_t k = 1; k < circles.size(); ++k) circles[k].radius = 0.0;
+    for (Eigen::Index l = 0; l < module.size(); ++l) {
+        const Step step = step_of(l);
+        circles[step.circle].center += step.center * module[l];
+        circles[step.circle].radius += step.radius * module[l];
+    }
+    return circles;
+}
+
+/// Values of the functions on the circles, at equal angles.
+struct CircleCapacities::Samples {
+    Samples(const CircleCapacities& of)
+        : count(of.samples_), matrix(count * static_cast<Eigen::Index>(of.circles_.size()), of.size())
+    {
+        for (std::size_t b = 0; b < of.circles_.size(); ++b)
+            for (Eigen::Index j = 0; j < count; ++j) {
+                const Complex turn = std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(j) / count);
+                turns.push_back(turn);
+                points.push_back(of.circles_[b].center + of.circles_[b].radius * turn);
+                fill(of, b, static_cast<Eigen::Index>(points.size()) - 1);
+            }
+    }
+
+    /// The derivative of each sample of a potential, coefficients fixed, in a number of the module.
+    MatrixXd derivatives(const CircleCapacities& of, const VectorXd& coefficients) const
+    {
+        MatrixXd all = MatrixXd::Zero(matrix.rows(), of.module_.size());
+        const auto complex = [&](Eigen::Index i) { return Complex(coefficients[i], coefficients[i + 1]); };
+        for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+            const int b = static_cast<int>(row / count);
+            const Complex z = points[row];
+            Complex slope = 0.0, power = 1.0;  // of what is not the circle's own
+            for (int s = 1; s <= of.terms_; ++s, power *= z)
+                slope += static_cast<double>(s) * complex(of.power() + 2 * (s - 1)) * power;
+            std::vector<Complex> in_center(of.circles_.size()), in_radius(of.circles_.size());
+            for (int k = 1; k <= of.inner(); ++k) {
+                if (k == b) continue;
+                const Complex inverse = 1.0 / (z - of.circles_[k].center), w = of.circles_[k].radius * inverse;
+                Complex sum = 0.0, w_power = w;
+                for (int s = 1; s <= of.terms_; ++s, w_power *= w)
+                    sum += static_cast<double>(s) * complex(of.pole_of(k) + 2 * (s - 1)) * w_power;
+                in_center[k] = sum * inverse - coefficients[of.log_of(k)] * inverse;
+                in_radius[k] = sum / of.circles_[k].radius;
+                slope -= in_center[k];
+            }
+            for (Eigen::Index l = 0; l < of.module_.size(); ++l) {
+                const Step step = step_of(l);
+                if (step.circle != b)
+                    all(row, l) = (in_center[step.circle] * step.center + in_radius[step.circle] * step.radius).real();
+                else
+                    all(row, l) = coefficients[of.log_of(b)] * step.radius / of.circles_[b].radius +
+                                  (slope * (step.center + step.radius * turns[row])).real();
+            }
+        }
+        return all;
+    }
+
+    /// (circles, columns) a bound of the largest absolute value of trigonometric polynomials with fewer than `count`
+    /// terms: by Cauchy and Schwarz the sum of its Fourier coefficients is at most sqrt(count) times their root mean
+    /// square, which the samples have too (Parseval).
+    MatrixXd largest(const MatrixXd& values) const
+    {
+        MatrixXd most(values.rows() / count, values.cols());
+        for (Eigen::Index b = 0; b < most.rows(); ++b)
+            most.row(b) = values.middleRows(b * count, count).colwise().norm() * rounded_up;
+        return most;
+    }
+
+    Eigen::Index count;
+    std::vector<Complex> turns, points;
+    MatrixXd matrix;
+
+private:
+    void fill(const CircleCapacities& of, std::size_t b, Eigen::Index row)
+    {
+        const auto powers = [&](Eigen::Index first, Complex base) {
+            Complex power = base;
+            for (int s = 0; s < of.terms_; ++s, power *= base) {
+                matrix(row, first + 2 * s) = power.real();
+                matrix(row, first + 2 * s + 1) = -power.imag();
+            }
+        };
+        for (int k = 1; k <= of.inner(); ++k) {
+            const Circle& circle = of.circles_[k];
+            const bool own = static_cast<std::size_t>(k) == b;
+            matrix(row, of.log_of(k)) = std::log(own ? circle.radius : std::abs(points[row] - circle.center));
+            powers(of.pole_of(k), own ? std::conj(turns[row]) : circle.radius / (points[row] - circle.center));
+        }
+        powers(of.power(), points[row]);
+        matrix(row, of.size() - 1) = 1.0;
+    }
+};
+
+/// The numbers of a potential: how large they are for all modules near by, and how fast they change.
+struct CircleCapacities::Coefficients {
+    Coefficients(const CircleCapacities& of, int i, const VectorXd& reach, const VectorXd& speed)
+        : poles(of.circles_.size(), std::vector<Bound>(of.terms_))
+    {
+        const auto bound = [&](Eigen::Index first, Eigen::Index count) {
+            Bound result{of.coefficients_.col(i).segment(first, count).norm()};
+            for (Eigen::Index l = 0; l < reach.size(); ++l) {
+                const double slope = of.derivatives_[l].col(i).segment(first, count).norm();
+                result.value += slope * reach[l];
+                result.first += slope * speed[l];
+            }
+            return result;
+        };
+        for (int k = 1; k <= of.inner(); ++k) logarithms.push_back(bound(of.log_of(k), 1));
+        for (int s = 0; s < of.terms_; ++s) {
+            for (int k = 1; k <= of.inner(); ++k) poles[k][s] = bound(of.pole_of(k) + 2 * s, 2);
+            poles[0][s] = bound(of.power() + 2 * s, 2);
+        }
+        constant = bound(of.size() - 1, 1);
+    }
+
+    /// Of the potential on a circle.
+    Bound sum(const OnCircle& on) const
+    {
+        if (on.ratio.empty()) return {infinite, infinite, infinite};
+        Bound sum = constant;
+        for (std::size_t k = 0; k < logarithms.size(); ++k) sum = sum + logarithms[k] * on.logarithm[k + 1];
+        for (std::size_t k = 0; k < poles.size(); ++k) {
+            Bound power = on.ratio[k];
+            for (const Bound& pole : poles[k]) {
+                sum = sum + pole * power;
+                power = power * on.ratio[k];
+            }
+        }
+        return {sum.value * rounded_up, sum.first * rounded_up, sum.second * rounded_up};
+    }
+
+    std::vector<Bound> logarithms;          // of the inner circles
+    std::vector<std::vector<Bound>> poles;  // of circle k; [0] are the powers of z
+    Bound constant;
+};
+
+CircleCapacities::CircleCapacities(VectorXd module, double wanted_error, ExecutionContext& context)
+    : module_(std::move(module)), circles_(circles_of_module(module_))
+{
+    // Twice as many terms square the series' error, until rounding is what is left.
+    for (terms_ = fewest_terms; terms_ == fewest_terms || size() <= most_unknowns; terms_ *= 2) {
+        context.checkpoint();
+        solve();
+        if (errors_.maxCoeff() < wanted_error) return;
+    }
+    terms_ = static_cast<int>(samples_ / samples_per_term);  // of the last solution
+}
+
+void CircleCapacities::solve()
+{
+    samples_ = samples_per_term * terms_;
+    const Samples samples(*this);
+    MatrixXd wanted = MatrixXd::Zero(samples.matrix.rows(), inner());
+    for (int i = 0; i < inner(); ++i) wanted.col(i).segment((i + 1) * samples_, samples_).setOnes();
+    const Eigen::HouseholderQR<MatrixXd> factored(samples.matrix);
+    coefficients_ = factored.solve(wanted);
+    errors_ = samples.largest(samples.matrix * coefficients_ - wanted);
+    derivatives_.assign(module_.size(), MatrixXd(size(), inner()));
+    errors_of_derivatives_.assign(module_.size(), MatrixXd(inner() + 1, inner()));
+    for (int i = 0; i < inner(); ++i) {
+        const MatrixXd slopes = samples.derivatives(*this, coefficients_.col(i));
+        const MatrixXd found = factored.solve(-slopes);
+        const MatrixXd errors = samples.largest(samples.matrix * found + slopes);
+        for (Eigen::Index l = 0; l < module_.size(); ++l) {
+            derivatives_[l].col(i) = found.col(l);
+            errors_of_derivatives_[l].col(i) = errors.col(l);
+        }
+    }
+    for (int b = 0; b <= inner(); ++b) add_what_samples_miss(b);
+}
+
+void CircleCapacities::add_what_samples_miss(int b)
+{
+    const VectorXd zero = VectorXd::Zero(module_.size());
+    const auto circle = static_cast<std::size_t>(b);
+    double most = most_stretch;
+    for (int k = 1; k <= inner(); ++k) {
+        const double apart = std::abs(circles_[b].center - circles_[k].center);
+        if (k != b && apart > 0.0) most = std::min(most, b == 0 ? 1.0 / apart : apart / circles_[b].radius);
+    }
+    const double stretch = std::pow(most, 0.75);
+    // Coefficient m is at most the bound in the annulus times stretch^-|m|, and samples show it in another's place.
+    const double tail = 4.0 * std::pow(stretch, -0.5 * static_cast<double>(samples_)) / (1.0 - 1.0 / stretch);
+    const OnCircle real = bounds_on(circles_, {circle}, Motion(zero), Motion(zero));
+    const double rounding =
+        unit_roundoff * (static_cast<double>(size()) + 64.0 * terms_ + 64.0) * (1.0 + 1.0 / real.nearest);
+    for (int i = 0; i < inner(); ++i) {
+        const Coefficients still(*this, i, zero, zero);
+        errors_(b, i) += tail * still.sum(bounds_on(circles_, {circle, stretch}, Motion(zero), Motion(zero))).value +
+                         rounding * still.sum(real).value;
+        for (Eigen::Index l = 0; l < module_.size(); ++l) {
+            const VectorXd step = VectorXd::Unit(module_.size(), l);
+            const Coefficients moving(*this, i, zero, step);
+            const auto speed_on = [&](double factor) {
+                return moving.sum(bounds_on(circles_, {circle, factor}, Motion(zero), Motion(step))).first;
+            };
+            errors_of_derivatives_[l](b, i) += tail * speed_on(stretch) + rounding * speed_on(1.0);
+        }
+    }
+}
+
+VectorXd CircleCapacities::potential_errors(const VectorXd& reach) const
+{
+    const Motion motion(reach);
+    const double step = 2.0 * std::numbers::pi / static_cast<double>(samples_);
+    VectorXd worst = VectorXd::Zero(inner());
+    std::vector<Coefficients> coefficients;
+    for (int i = 0; i < inner(); ++i) coefficients.emplace_back(*this, i, reach, reach);
+    for (int b = 0; b <= inner(); ++b) {
+        VectorXd second = VectorXd::Zero(inner());
+        for (Eigen::Index j = 0; j < samples_; ++j) {
+            const Complex point = circles_[b].center + std::polar(circles_[b].radius, step * static_cast<double>(j));
+            const OnCircle on =
+                bounds_on(circles_, {static_cast<std::size_t>(b), 1.0, point, 0.51 * step}, motion, motion);
+            for (int i = 0; i < inner(); ++i) second[i] = std::max(second[i], coefficients[i].sum(on).second);
+        }
+        for (int i = 0; i < inner(); ++i) {
+            double error = errors_(b, i) + 0.5 * second[i];
+            for (Eigen::Index l = 0; l < reach.size(); ++l) error += errors_of_derivatives_[l](b, i) * reach[l];
+            worst[i] = std::isfinite(error) ? std::max(worst[i], error * rounded_up) : infinite;
+        }
+    }
+    return worst;
+}
+
+VectorXd CircleCapacities::values(const std::vector<Condenser>& condensers) const
+{
+    return sums_of_fluxes(condensers, coefficients_);
+}
+
+MatrixXd CircleCapacities::gradients(const std::vector<Condenser>& condensers) const
+{
+    MatrixXd all(static_cast<Eigen::Index>(condensers.size()), module_.size());
+    for (Eigen::Index l = 0; l < module_.size(); ++l) all.col(l) = sums_of_fluxes(condensers, derivatives_[l]);
+    return all;
+}
+
+VectorXd CircleCapacities::sums_of_fluxes(const std::vector<Condenser>& condensers, const MatrixXd& coefficients) const
+{
+    VectorXd sums = VectorXd::Zero(static_cast<Eigen::Index>(condensers.size()));
+    for (std::size_t c = 0; c < condensers.size(); ++c)
+        for (const int i : inner_side(condensers[c]))
+            for (const int j : inner_side(condensers[c]))
+                sums[static_cast<Eigen::Index>(c)] -= 2.0 * std::numbers::pi * coefficients(log_of(j), i - 1);
+    return sums;
+}
+
+VectorXd CircleCapacities::errors(const std::vector<Condenser>& condensers, const VectorXd& reach) const
+{
+    const VectorXd of_potential = potential_errors(reach);
+    VectorXd largest(inner()), flux = VectorXd::Zero(inner());  // C_jj at most; the fluxes' absolute sum
+    for (int j = 0; j < inner(); ++j) {
+        double capacity = 0.0;
+        for (int i = 0; i < inner(); ++i) {
+            double size = std::abs(coefficients_(j, i));
+            for (Eigen::Index l = 0; l < reach.size(); ++l) size += std::abs(derivatives_[l](j, i)) * reach[l];
+            flux[j] += 2.0 * std::numbers::pi * size;
+            if (i == j) capacity = 2.0 * std::numbers::pi * size;
+        }
+        largest[j] = of_potential[j] < 0.25 ? capacity * rounded_up / (1.0 - 2.0 * of_potential[j]) : infinite;
+    }
+    VectorXd errors = VectorXd::Zero(static_cast<Eigen::Index>(condensers.size()));
+    for (std::size_t c = 0; c < condensers.size(); ++c)
+        for (const int j : inner_side(condensers[c])) {
+            double of_potentials = 0.0;
+            for (const int i : inner_side(condensers[c])) of_potentials += of_potential[i - 1];
+            errors[static_cast<Eigen::Index>(c)] +=
+                rounded_up * (2.0 * of_potentials * largest[j - 1] + 16.0 * inner() * unit_roundoff * flux[j - 1]);
+        }
+    return errors;
+}
+
+}  // namespace koebe

@@ -1,0 +1,181 @@
+#include "certified/module_enclosure.h"
+
+#include "certified/circle_capacities.h"
+#include "core/errors.h"
+#include "pipeline/uniformize.h"
+#include "shape/conformal_module.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace koebe {
+namespace {
+
+constexpr int newton_steps = 20;
+constexpr double newton_share = 0.02, error_share = 1e-3;  // of the widest bounds of a capacity
+constexpr double least_error = 1e-12;                      // of harmonic measures
+constexpr int tried_boxes = 40;
+constexpr double box_growth = 1.5;
+constexpr double narrower = 0.9;  // a box that gains less is the last
+
+using Box = std::vector<Interval>;
+
+/// Condensers of circles from those of loops.
+std::vector<Condenser> renumbered(std::vector<Condenser> condensers, const std::vector<int>& order)
+{
+    std::vector<int> circle_of(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) circle_of[order[k]] = static_cast<int>(k);
+    for (Condenser& condenser : condensers)
+        for (std::vector<int>* loops : {&condenser.low, &condenser.high})
+            for (int& loop : *loops) loop = circle_of[loop];
+    return condensers;
+}
+
+/// The numbers of a box, farthest from 0.
+VectorXd largest_in(const Box& box)
+{
+    VectorXd largest(static_cast<Eigen::Index>(box.size()));
+    for (std::size_t l = 0; l < box.size(); ++l)
+        largest[static_cast<Eigen::Index>(l)] = std::max(std::abs(box[l].lower), std::abs(box[l].upper));
+    return largest;
+}
+
+VectorXd middle_of(const Box& box)
+{
+    VectorXd middle(static_cast<Eigen::Index>(box.size()));
+    for (std::size_t l = 0; l < box.size(); ++l)
+        middle[static_cast<Eigen::Index>(l)] = 0.5 * (box[l].lower + box[l].upper);
+    return middle;
+}
+
+/// The linear function near one module, solved for the module.
+class LinearStep {
+public:
+    LinearStep(const CircleCapacities& circles, const std::vector<Condenser>& condensers)
+        : circles_(circles),
+          condensers_(condensers),
+          values_(circles.values(condensers)),
+          gradients_(circles.gradients(condensers)),
+          inverse_(gradients_.partialPivLu().inverse())
+    {
+        if (!inverse_.allFinite()) throw SolverError("the capacities do not determine the circles, to first order");
+    }
+
+    /// Holds M (C - C(m_c)) for these capacities, up to what errors() tells.
+    Box change(const Box& known) const
+    {
+        Box sums(known.size());
+        for (Eigen::Index l = 0; l < inverse_.rows(); ++l)
+            for (Eigen::Index c = 0; c < inverse_.cols(); ++c)
+                sums[l] = sums[l] + Interval(inverse_(l, c)) * (known[c] - Interval(values_[c]));
+        return sums;
+    }
+
+    /// How far m - m_c is from M (C(m) - values), at most, for all modules m in a box. @param reach half of its sides
+    VectorXd errors(const VectorXd& reach) const
+    {
+        const VectorXd of_capacities = circles_.errors(condensers_, reach);
+        VectorXd errors(inverse_.rows());
+        for (Eigen::Index l = 0; l < inverse_.rows(); ++l) {
+            Interval sum;
+            for (Eigen::Index c = 0; c < inverse_.cols(); ++c)
+                sum = sum + Interval(std::abs(inverse_(l, c))) * Interval(of_capacities[c]);
+            for (Eigen::Index m = 0; m < inverse_.rows(); ++m) {
+                Interval entry(l == m ? -1.0 : 0.0);
+                for (Eigen::Index c = 0; c < inverse_.cols(); ++c)
+                    entry = entry + Interval(inverse_(l, c)) * Interval(gradients_(c, m));
+                sum = sum + Interval(std::max(std::abs(entry.lower), std::abs(entry.upper))) * Interval(reach[m]);
+            }
+            errors[l] = std::isfinite(sum.upper) ? sum.upper : std::numeric_limits<double>::infinity();
+        }
+        return errors;
+    }
+
+private:
+    const CircleCapacities& circles_;
+    const std::vector<Condenser>& condensers_;
+    VectorXd values_;
+    MatrixXd gradients_, inverse_;
+};
+
+/// Newton's method, until what is left is far below the widths of the capacities.
+void approach(VectorXd& module, const std::vector<Condenser>& condensers, const Box& known, double width,
+              ExecutionContext& context)
+{
+    for (int i = 0; i < newton_steps; ++i) {
+        const CircleCapacities circles(module, width, context);
+        const VectorXd change = middle_of(LinearStep(circles, condensers).change(known));
+        module += change;
+        require_circle_domain(circles_of_module(module));
+        if (change.cwiseAbs().maxCoeff() < width) return;
+    }
+}
+
+/// Half of the sides of a box that the step takes into itself. @param change largest, in each number
+VectorXd closed_box(const LinearStep& step, const VectorXd& change)
+{
+    VectorXd reach = box_growth * (change + step.errors(VectorXd::Zero(change.size())));
+    for (int i = 0; i < tried_boxes; ++i) {
+        const VectorXd needed = change + step.errors(reach);
+        if (!needed.allFinite()) break;
+        if ((needed.array() < reach.array()).all()) return reach;
+        reach = reach.cwiseMax(box_growth * needed);
+    }
+    throw SolverError("the bounds of the capacities are too wide for it: a smaller width, or a finer mesh, may help");
+}
+
+}  // namespace
+
+NearModule near_module(const Vertices& vertices, const Surface& surface, int threads, ExecutionContext& context)
+{
+    UniformizeOptions options;
+    options.threads = threads;
+    const UniformizeResult result = uniformize_here(vertices, surface.triangles, options, context);
+    NearModule near;
+    std::vector<Circle> circles;
+    for (const LoopReport& loop : result.loops) {
+        const auto has = [&](const VertexLoop& one) { return std::ranges::find(one, loop.vertices[0]) != one.end(); };
+        const auto found = std::ranges::find_if(surface.loops, has);
+        near.order.push_back(static_cast<int>(found - surface.loops.begin()));
+        circles.push_back(loop.circle);
+    }
+    near.numbers = conformal_module(circles);
+    return near;
+}
+
+std::vector<Interval> enclose_module(NearModule& near, const std::vector<Capacity>& capacities,
+                                     ExecutionContext& context)
+{
+    std::vector<Condenser> of_loops;
+    Box known;
+    for (const Capacity& capacity : capacities) {  // the last one of four loops follows from the others
+        if (static_cast<Eigen::Index>(known.size()) == near.numbers.size()) break;
+        of_loops.push_back(capacity.condenser);
+        known.push_back(capacity.value);
+    }
+    const std::vector<Condenser> condensers = renumbered(std::move(of_loops), near.order);
+    const double widest = std::ranges::max_element(known, {}, &Interval::width)->width();
+    approach(near.numbers, condensers, known, newton_share * widest, context);
+
+    const CircleCapacities circles(near.numbers, std::max(error_share * widest, least_error), context);
+    const LinearStep step(circles, condensers);
+    const Box change = step.change(known);
+    VectorXd reach = closed_box(step, largest_in(change));
+    while (true) {
+        const VectorXd errors = step.errors(reach);
+        Box box;
+        VectorXd now(reach.size());
+        for (Eigen::Index l = 0; l < reach.size(); ++l) {
+            const Interval offset = change[l] + Interval(-errors[l], errors[l]);
+            box.push_back(Interval(near.numbers[l]) + offset);
+            now[l] = std::min(reach[l], std::max(std::abs(offset.lower), std::abs(offset.upper)));
+        }
+        if (!(now.maxCoeff() < narrower * reach.maxCoeff())) return box;
+        reach = now;
+    }
+}
+
+}  // namespace koebe
