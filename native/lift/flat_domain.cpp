@@ -18,7 +18,7 @@
 namespace koebe {
 namespace {
 
-const char* const no_map = "the map is not one to one at these faces: take --shape parts";
+const char* const no_map = "the map is not one to one: take --shape parts";
 
 PlanarPoints disk_corners(const Surface& surface, const PlanarPoints& disk)
 {

@@ -136,8 +136,6 @@ def test_what_is_not_drawn_is_told(lifted):
         lifted(svg("<text>a</text>"), perforate=True)
     with pytest.raises(koebe.InputError, match="a bridge is for the built-in"):
         lifted(svg(path(SQUARE)), bridge=0.1, perforate=True)
-    with pytest.raises(koebe.InputError, match="a turn is for drawings"):
-        koebe.lift(*tube(), "circles", perforate=True, turn=10)
 
 
 DAMAGED = {
