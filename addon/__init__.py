@@ -5,7 +5,7 @@ from types import ModuleType
 
 bl_info = {
     "name": "Koebe UV",
-    "description": "Conformal UV maps with every hole a perfect circle",
+    "description": "Unwraps any model, and every hole becomes a perfect circle",
     "author": "The Koebe UV developers",
     "version": (0, 2, 0),
     "blender": (3, 4, 0),

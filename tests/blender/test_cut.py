@@ -72,7 +72,7 @@ ANY = {
     "doubled": lambda: scenes.add_object("Bad", *doubled()),
 }
 WHY = {
-    "cube": "it is closed", "sphere": "it is closed", "torus": "1 handle", "torus with a hole": "1 handle",
+    "cube": "is closed", "sphere": "is closed", "torus": "1 handle", "torus with a hole": "1 handle",
     "klein": "one-sided", "moebius": "one-sided", "fin": "more than two faces",
     "fan": "more than two faces", "bow tie": "", "turned": "", "doubled": "degenerate or double",
 }  # fmt: skip

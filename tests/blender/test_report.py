@@ -196,7 +196,7 @@ def test_a_warning_is_one_sentence_and_selects_what_it_speaks_of():
     assert "% of its area is lost" in lost.text and lost.of == "faces"
     assert "below the resolution" in entry.message and "Shape: Parts" in warning.text
     faces = json.loads(warning.elements)
-    assert warning.of == "faces" and f": {len(faces)} faces. " in warning.text
+    assert warning.of == "faces" and warning.text.startswith(f"{len(faces)} faces are too small ")
     assert bpy.ops.uv.koebe_select_warning(warning=1) == {"FINISHED"}
     assert sorted(selected(bpy.data.objects["Long"])[2]) == faces
     with pytest.raises(RuntimeError, match="no warning 2"):

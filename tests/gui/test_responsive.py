@@ -126,5 +126,5 @@ def test_escape_and_no_stall(window, dense):
     print(f"Esc after {', '.join(f'{wait:.3f}' for wait in waits)} s; {len(silences)} beats in {sum(silences):.1f} s, "
           f"longest silences {', '.join(f'{s:.3f}' for s in sorted(silences)[:-4:-1])} s, drawing the window "
           f"{drawing:.3f} s; a process that only sleeps overslept {overslept:.3f} s", file=sys.stderr)  # fmt: skip
-    assert max(waits) <= ESCAPE + drawing  # Esc is looked at between two pictures
+    assert max(waits) <= ESCAPE + 2 * drawing  # Esc is looked at between two pictures, and the click's own comes first
     assert max(silences) <= STALL + drawing

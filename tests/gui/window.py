@@ -169,6 +169,7 @@ class Window:
         self.picture(name)
         refused, offer = self.ask(f"[not {ENTRY}.mapped, {ENTRY}.offer]")
         assert refused
+        self.key("Escape")  # closes the error's popup, which covers buttons
         self.click(*self.find_button("VIEW_3D", f"shape='{shape}'"))
         self.wait(f"{DONE} and {ENTRY}.domain == {taking!r}", 240.0)
         return offer
@@ -198,8 +199,11 @@ class Window:
         return x, HEIGHT - y - height, width, height
 
     def middle(self, area):
-        """The middle of an area's main region."""
+        """The middle of an area's main region, as far as the sidebar does not cover it."""
         x, y, width, height = self.region(area, "WINDOW")
+        sidebar, _, covered, _ = self.region(area, "UI")
+        if covered > 1:
+            width = sidebar - x
         return x + width // 2, y + height // 2
 
     def open_tab(self, area):
