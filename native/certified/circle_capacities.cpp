@@ -17,7 +17,8 @@ constexpr Eigen::Index samples_per_term = 6;
 constexpr double most_stretch = 16.0;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double unit_roundoff = 0x1p-53;
-constexpr double rounded_up = 1.0 + 1e-9;  // covers the rounding of sums of numbers above 0
+constexpr double room_for_rounding = 1e-12;  // in the unit disk
+constexpr double rounded_up = 1.0 + 1e-9;    // covers the rounding of sums of numbers above 0
 
 /// A number of the module moves one circle.
 struct Step {
@@ -118,6 +119,20 @@ OnCircle bounds_on(const std::vector<Circle>& circles, const CirclePart& part, c
                       Bound{1.0 / least, relative / least, 2.0 * relative * relative / least};
     }
     return on;
+}
+
+/// Whether no two circles meet, wherever they are in the box.
+bool stay_apart(const std::vector<Circle>& circles, const Motion& slack)
+{
+    for (std::size_t i = 1; i < circles.size(); ++i) {
+        const double reach = circles[i].radius + slack.of_radii[i] + slack.of_centers[i] + room_for_rounding;
+        if (!(std::abs(circles[i].center) + reach < 1.0)) return false;
+        for (std::size_t j = 1; j < i; ++j)
+            if (!(std::abs(circles[i].center - circles[j].center) >
+                  reach + circles[j].radius + slack.of_radii[j] + slack.of_centers[j]))
+                return false;
+    }
+    return true;
 }
 
 /// Of the two sides of a condenser that holds all circles, the one without the unit circle.
@@ -335,6 +350,7 @@ void CircleCapacities::add_what_samples_miss(int b)
 VectorXd CircleCapacities::potential_errors(const VectorXd& reach) const
 {
     const Motion motion(reach);
+    if (!stay_apart(circles_, motion)) return VectorXd::Constant(inner(), infinite);
     const double step = 2.0 * std::numbers::pi / static_cast<double>(samples_);
     VectorXd worst = VectorXd::Zero(inner());
     std::vector<Coefficients> coefficients;

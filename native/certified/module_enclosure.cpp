@@ -19,6 +19,7 @@ constexpr double newton_share = 0.02, error_share = 1e-3;  // of the widest boun
 constexpr double least_error = 1e-12;                      // of harmonic measures
 constexpr int tried_boxes = 40;
 constexpr double box_growth = 1.5;
+constexpr double sum_rounded_up = 1.0 + 0x1p-50;
 constexpr double narrower = 0.9;  // a box that gains less is the last
 
 using Box = std::vector<Interval>;
@@ -121,7 +122,7 @@ VectorXd closed_box(const LinearStep& step, const VectorXd& change)
     for (int i = 0; i < tried_boxes; ++i) {
         const VectorXd needed = change + step.errors(reach);
         if (!needed.allFinite()) break;
-        if ((needed.array() < reach.array()).all()) return reach;
+        if ((needed.array() * sum_rounded_up < reach.array()).all()) return reach;
         reach = reach.cwiseMax(box_growth * needed);
     }
     throw SolverError("the bounds of the capacities are too wide for it: a smaller width, or a finer mesh, may help");
