@@ -18,6 +18,8 @@ struct Interval {
     Interval(double from, double to) : lower(from), upper(to) {}
 
     double width() const { return upper - lower; }
+    /// The largest absolute value.
+    double magnitude() const { return std::max(std::abs(lower), std::abs(upper)); }
 };
 
 /// A number below the real number that was rounded to x.

@@ -39,8 +39,7 @@ std::vector<Condenser> renumbered(std::vector<Condenser> condensers, const std::
 VectorXd largest_in(const Box& box)
 {
     VectorXd largest(static_cast<Eigen::Index>(box.size()));
-    for (std::size_t l = 0; l < box.size(); ++l)
-        largest[static_cast<Eigen::Index>(l)] = std::max(std::abs(box[l].lower), std::abs(box[l].upper));
+    for (std::size_t l = 0; l < box.size(); ++l) largest[static_cast<Eigen::Index>(l)] = box[l].magnitude();
     return largest;
 }
 
@@ -88,7 +87,7 @@ public:
                 Interval entry(l == m ? -1.0 : 0.0);
                 for (Eigen::Index c = 0; c < inverse_.cols(); ++c)
                     entry = entry + Interval(inverse_(l, c)) * Interval(gradients_(c, m));
-                sum = sum + Interval(std::max(std::abs(entry.lower), std::abs(entry.upper))) * Interval(reach[m]);
+                sum = sum + Interval(entry.magnitude()) * Interval(reach[m]);
             }
             errors[l] = std::isfinite(sum.upper) ? sum.upper : std::numeric_limits<double>::infinity();
         }
@@ -172,7 +171,7 @@ std::vector<Interval> enclose_module(NearModule& near, const std::vector<Capacit
         for (Eigen::Index l = 0; l < reach.size(); ++l) {
             const Interval offset = change[l] + Interval(-errors[l], errors[l]);
             box.push_back(Interval(near.numbers[l]) + offset);
-            now[l] = std::min(reach[l], std::max(std::abs(offset.lower), std::abs(offset.upper)));
+            now[l] = std::min(reach[l], offset.magnitude());
         }
         if (!(now.maxCoeff() < narrower * reach.maxCoeff())) return box;
         reach = now;

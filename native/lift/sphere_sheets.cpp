@@ -178,7 +178,7 @@ private:
     }
 
     /// Whether a part of a half lies inside another one: their rims do not cross, and faces are covered twice.
-    bool any_nested(char side, const std::vector<Index>& part,
+    bool any_nested(int side, const std::vector<Index>& part,
                     const std::vector<std::pair<Index, VertexLoop>>& rims) const
     {
         const std::vector<Complex>& places = places_[side];
@@ -202,23 +202,22 @@ private:
 
     /// Whether faces cover a place twice beside a vertex where a rim touches a rim: there they share it, and do not
     /// cross.
-    bool any_sectors_overlap(char side) const
+    bool any_sectors_overlap(int side) const
     {
         constexpr double whole = 2.0 * std::numbers::pi, near = 1e-9;
-        const auto previous = [](Index h) { return next_halfedge(next_halfedge(h)); };
         std::map<Index, std::vector<std::array<double, 2>>> sectors;  // at a vertex: their begin and width
         for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h) {
             if (south_[face_of(h)] != side || !at_rim(h)) continue;
             const Index v = origin(triangles_, h);
             Index last = h;
             bool upright = fits(face_of(h), side);
-            while (!at_rim(previous(last))) {
-                last = twin_[previous(last)];
+            while (!at_rim(previous_halfedge(last))) {
+                last = twin_[previous_halfedge(last)];
                 upright &= fits(face_of(last), side);
             }
             const Complex from = places_[side][target(triangles_, h)] - places_[side][v];
             const double width =
-                std::arg((places_[side][origin(triangles_, previous(last))] - places_[side][v]) / from);
+                std::arg((places_[side][origin(triangles_, previous_halfedge(last))] - places_[side][v]) / from);
             if (upright) sectors[v].push_back({std::arg(from), width > 0.0 ? width : width + whole});
         }
         return std::ranges::any_of(sectors, [&](auto& at) {
