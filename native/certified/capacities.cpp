@@ -1,6 +1,7 @@
 #include "certified/capacities.h"
 
 #include "certified/bisected_surface.h"
+#include "certified/capacity_bounds.h"
 #include "certified/module_enclosure.h"
 #include "certified/quadratic_functions.h"
 #include "core/errors.h"
@@ -8,9 +9,6 @@
 #include "execution/memory_limit.h"
 #include "execution/thread_share.h"
 #include "linear/dense_spd.h"
-#include "linear/sparse_cholesky.h"
-#include "mesh/connectivity.h"
-#include "surface/one_form.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +20,6 @@ namespace koebe {
 namespace {
 
 constexpr Eigen::Index at_once = 8;            // condensers
-constexpr std::size_t summands = 1024;         // short sums round less
 constexpr double share_to_cut = 0.6;           // of the gap (Doerfler 1996)
 constexpr double least_progress = 0.02;        // of the width; below it rounding is all that is left
 constexpr double width_for_circles = 0.01;     // of the wanted width; capacities are refined to it, to find the circles
@@ -49,192 +46,6 @@ void require_condenser(const Condenser& condenser, int loop_count)
     if (const auto twice = std::ranges::adjacent_find(held); twice != held.end())
         throw InputError("a condenser names a loop twice", ElementKind::loops, {*twice});
 }
-
-/// Fluxes that enter at the loops and run along a tree of faces.
-class FluxTree {
-public:
-    explicit FluxTree(const BisectedSurface& surface)
-        : surface_(surface), gate_(surface.loop_count(), no_twin), towards_root_(surface.face_count(), no_twin)
-    {
-        for (Index h = 0; h < static_cast<Index>(surface.twin().size()); ++h)
-            if (surface.twin()[h] == no_twin) gate_[surface.loop_of()[origin(surface.triangles(), h)]] = h;
-        std::vector<char> met(surface.face_count(), 0);
-        order_.push_back(0);
-        met[0] = 1;
-        for (std::size_t head = 0; head < order_.size(); ++head)
-            for (Index h = 3 * order_[head]; h < 3 * order_[head] + 3; ++h) {
-                const Index twin = surface.twin()[h];
-                if (twin == no_twin || met[face_of(twin)]) continue;
-                met[face_of(twin)] = 1;
-                towards_root_[face_of(twin)] = twin;
-                order_.push_back(face_of(twin));
-            }
-    }
-
-    /// The flux out of each face through its sides, for these fluxes out of the loops. They are multiples of one number
-    /// with the sum 0, so that every sum here is exact, and each face's is 0.
-    OneForm carry(const VectorXd& out_of_loop) const
-    {
-        OneForm flux = OneForm::Zero(static_cast<Eigen::Index>(surface_.twin().size()));
-        for (std::size_t k = 0; k < gate_.size(); ++k) flux[gate_[k]] = out_of_loop[static_cast<Eigen::Index>(k)];
-        for (std::size_t i = order_.size(); i-- > 1;) {
-            const Index h = towards_root_[order_[i]];
-            flux[h] = -(flux[next_halfedge(h)] + flux[previous_halfedge(h)]);
-            flux[surface_.twin()[h]] = -flux[h];
-        }
-        return flux;
-    }
-
-private:
-    const BisectedSurface& surface_;
-    std::vector<Index> gate_;          // a half-edge of each loop
-    std::vector<Index> towards_root_;  // the half-edge of each face through which its flux goes on
-    std::vector<Index> order_;         // faces, the root first
-};
-
-/// The fluxes out of the held loops in multiples of one power of two, with the sum 0.
-VectorXd rounded_fluxes(VectorXd flux, const std::vector<int>& held)
-{
-    const double largest = flux.cwiseAbs().maxCoeff();
-    if (!(largest > 0.0 && std::isfinite(largest))) throw SolverError("no flux runs between the loops of a condenser");
-    const double unit = std::ldexp(1.0, std::ilogb(largest) - 40);
-    double sum = 0.0;
-    for (const int k : held) sum += flux[k] = std::nearbyint(flux[k] / unit) * unit;
-    flux[held.back()] -= sum;
-    return flux;
-}
-
-/// Both bounds on one triangulation, for condensers that hold the same loops.
-class Level {
-public:
-    Level(const BisectedSurface& surface, const QuadraticFunctions& functions, const EdgeLengths& weights,
-          const SparseMatrix& energy, std::vector<int> held)
-        : surface_(surface),
-          functions_(functions),
-          weights_(weights),
-          energy_(energy),
-          held_(std::move(held)),
-          fixed_(functions.size(), 0),
-          tree_(surface),
-          collapse_(make_collapse()),
-          potential_(energy, fixed_),
-          conjugate_(pinned(collapse_.transpose() * energy * collapse_))
-    {
-    }
-
-    /// Adds to each triangle's gap. @param all of at most `at_once` condensers
-    std::vector<Interval> enclose(const std::vector<Condenser>& all, VectorXd& gap) const
-    {
-        const MatrixXd values = loop_values(all);
-        MatrixXd u = potential_.solve(values);
-        for (Index i = 0; i < functions_.size(); ++i)
-            if (fixed_[i]) u.row(i) = values.row(i);
-        const MatrixXd source = energy_ * u;
-        MatrixXd load(functions_.size(), u.cols());
-        std::vector<OneForm> carried;
-        std::vector<double> total;
-        for (Eigen::Index c = 0; c < u.cols(); ++c) {
-            VectorXd flux = VectorXd::Zero(surface_.loop_count());
-            for (Index v = 0; v < surface_.vertex_count(); ++v)
-                if (fixed_[v]) flux[surface_.loop_of()[v]] += source(v, c);
-            flux = rounded_fluxes(std::move(flux), held_);
-            total.push_back(0.0);
-            for (const int k : all[c].high) total.back() += flux[k];
-            carried.push_back(tree_.carry(flux));
-            load.col(c) = functions_.load(weights_, carried.back());
-        }
-        const MatrixXd g = collapse_ * conjugate_.solve(collapse_.transpose() * load);
-        std::vector<Interval> bounds;
-        for (Eigen::Index c = 0; c < u.cols(); ++c) {
-            const auto [upper, per_square] = energies(u.col(c), g.col(c), carried[c], gap);
-            bounds.push_back({(squared(total[c]) / per_square).lower, upper.upper});
-        }
-        return bounds;
-    }
-
-private:
-    /// A function that is constant on each loop through which nothing flows, from one number for such a loop and the
-    /// coefficients elsewhere. Marks the coefficients on loops that are held.
-    SparseMatrix make_collapse()
-    {
-        std::vector<Index> of_loop(surface_.loop_count(), -1);
-        std::vector<Eigen::Triplet<double, Index>> entries;
-        Index count = 0;
-        std::vector<char> vanishes(functions_.size(), 0);
-        for (Index h = 0; h < static_cast<Index>(surface_.twin().size()); ++h) {
-            if (surface_.twin()[h] != no_twin) continue;
-            const bool held = is_held(surface_.loop_of()[origin(surface_.triangles(), h)]);
-            (held ? fixed_ : vanishes)[functions_.edge(h)] = 1;
-        }
-        for (Index i = 0; i < functions_.size(); ++i) {
-            const int loop = i < surface_.vertex_count() ? surface_.loop_of()[i] : -1;
-            if (vanishes[i]) continue;
-            if (loop >= 0 && is_held(loop)) fixed_[i] = 1;
-            const bool shared = loop >= 0 && !fixed_[i];
-            if (!shared || of_loop[loop] < 0) ++count;
-            if (shared && of_loop[loop] < 0) of_loop[loop] = count - 1;
-            entries.emplace_back(i, shared ? of_loop[loop] : count - 1, 1.0);
-        }
-        SparseMatrix collapse(functions_.size(), count);
-        collapse.setFromTriplets(entries.begin(), entries.end());
-        return collapse;
-    }
-
-    bool is_held(int loop) const { return std::ranges::binary_search(held_, loop); }
-
-    /// Loads sum to 0 over the vertices, so that a diagonal added at one changes nothing but the constant.
-    static SparseMatrix pinned(SparseMatrix matrix)
-    {
-        matrix.coeffRef(0, 0) *= 2.0;
-        return matrix;
-    }
-
-    MatrixXd loop_values(const std::vector<Condenser>& all) const
-    {
-        MatrixXd values = MatrixXd::Zero(functions_.size(), static_cast<Eigen::Index>(all.size()));
-        for (std::size_t c = 0; c < all.size(); ++c)
-            for (Index v = 0; v < surface_.vertex_count(); ++v)
-                if (std::ranges::find(all[c].high, surface_.loop_of()[v]) != all[c].high.end())
-                    values(v, static_cast<Eigen::Index>(c)) = 1.0;
-        return values;
-    }
-
-    /// The energies of u and of the flux dg + carried.
-    std::pair<Interval, Interval> energies(const VectorXd& u, const VectorXd& g, const OneForm& carried,
-                                           VectorXd& gap) const
-    {
-        const std::size_t count = static_cast<std::size_t>(surface_.face_count());
-        std::vector<std::pair<Interval, Interval>> sums((count + summands - 1) / summands);
-        in_pieces(count, summands, [&](std::size_t begin, std::size_t end) {
-            std::pair<Interval, Interval> sum;
-            for (Index f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f)
-                for (int m = 0; m < 3; ++m) {
-                    const auto [u1, u2] = functions_.covector(u, nullptr, f, m);
-                    const auto [g1, g2] = functions_.covector(g, &carried, f, m);
-                    const Interval of_u = surface_.energy(f, u1, u2), of_flux = surface_.energy(f, g1, g2);
-                    sum.first = sum.first + of_u;
-                    sum.second = sum.second + of_flux;
-                    // |grad u - flux|^2; the flux is dg + carried, turned by 90 degrees.
-                    gap[f] += std::max(of_u.upper + of_flux.upper - (u1.upper * g2.upper - u2.upper * g1.upper), 0.0);
-                }
-            sums[begin / summands] = sum;
-        });
-        std::pair<Interval, Interval> sum;
-        for (const auto& [of_u, of_flux] : sums) sum = {sum.first + of_u, sum.second + of_flux};
-        return {sum.first / 3.0, sum.second / 3.0};
-    }
-
-    const BisectedSurface& surface_;
-    const QuadraticFunctions& functions_;
-    const EdgeLengths& weights_;
-    const SparseMatrix& energy_;
-    std::vector<int> held_;
-    std::vector<char> fixed_;
-    FluxTree tree_;
-    SparseMatrix collapse_;
-    DirichletSolver potential_;
-    SparseCholesky conjugate_;
-};
 
 /// exp, known to some units in the last place.
 Interval exponential(const Interval& x)
@@ -322,7 +133,7 @@ VectorXd enclose_all(const BisectedSurface& surface, const std::vector<Condenser
     VectorXd gap = VectorXd::Zero(surface.face_count());
     for (const auto& [held, numbers] : alike) {
         context.checkpoint();
-        const Level level(surface, functions, weights, energy, held);
+        const CapacityBounds level(surface, functions, weights, energy, held);
         for (std::size_t begin = 0; begin < numbers.size(); begin += at_once) {
             context.checkpoint();
             std::vector<Condenser> some;

@@ -1,12 +1,13 @@
 #include "certified/circle_capacities.h"
 
+#include "certified/circle_bounds.h"
+
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 namespace koebe {
 namespace {
@@ -17,123 +18,6 @@ constexpr Eigen::Index samples_per_term = 6;
 constexpr double most_stretch = 16.0;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double unit_roundoff = 0x1p-53;
-constexpr double room_for_rounding = 1e-12;  // in the unit disk
-constexpr double rounded_up = 1.0 + 1e-9;    // covers the rounding of sums of numbers above 0
-
-/// A number of the module moves one circle.
-struct Step {
-    int circle;
-    Complex center;
-    double radius;
-};
-
-Step step_of(Eigen::Index number)
-{
-    if (number == 0) return {1, 0.0, 1.0};
-    if (number < 3) return number == 1 ? Step{2, {0.0, 1.0}, 0.0} : Step{2, 0.0, 1.0};
-    const int circle = static_cast<int>(number / 3) + 2;
-    const Step steps[3] = {{circle, 1.0, 0.0}, {circle, {0.0, 1.0}, 0.0}, {circle, 0.0, 1.0}};
-    return steps[number % 3];
-}
-
-/// Bounds of the absolute values of a function of one variable and of its first two derivatives.
-struct Bound {
-    double value = 0.0, first = 0.0, second = 0.0;
-};
-
-Bound operator+(const Bound& a, const Bound& b) { return {a.value + b.value, a.first + b.first, a.second + b.second}; }
-
-Bound operator*(const Bound& a, const Bound& b)
-{
-    return {a.value * b.value, a.first * b.value + a.value * b.first,
-            a.second * b.value + 2.0 * a.first * b.first + a.value * b.second};
-}
-
-/// How far circles may be from their places, or how fast they move.
-struct Motion {
-    explicit Motion(const VectorXd& numbers) : of_centers((numbers.size() + 6) / 3, 0.0), of_radii(of_centers)
-    {
-        std::vector<double> squares(of_centers.size(), 0.0);
-        for (Eigen::Index l = 0; l < numbers.size(); ++l) {
-            const Step step = step_of(l);
-            squares[step.circle] += std::norm(step.center) * numbers[l] * numbers[l];
-            of_radii[step.circle] += step.radius * numbers[l];
-        }
-        for (std::size_t k = 0; k < squares.size(); ++k) of_centers[k] = std::sqrt(squares[k]) * rounded_up;
-    }
-
-    std::vector<double> of_centers, of_radii;
-};
-
-/// What the functions 1 / (z - c), r / (z - c) and log |z - c| of one circle, or z, are at most on another.
-struct OnCircle {
-    std::vector<Bound> ratio, logarithm;  // of each circle; ratio[0] is z
-    double nearest = infinite;            // to a centre
-};
-
-/// A part of circle b: all of it, or a point of it and the neighbourhood of so many radii. If stretch > 1, where the
-/// angle is complex, too: in the annulus between r / stretch and r * stretch, to which each function of the angle
-/// continues analytically.
-struct CirclePart {
-    std::size_t circle;
-    double stretch = 1.0;
-    std::optional<Complex> point = {};
-    double neighbourhood = 0.0;
-};
-
-OnCircle bounds_on(const std::vector<Circle>& circles, const CirclePart& part, const Motion& slack, const Motion& speed)
-{
-    OnCircle on;
-    const std::size_t count = circles.size(), b = part.circle;
-    const double stretch = part.stretch;
-    on.ratio.resize(count);
-    on.logarithm.resize(count);
-    const double radius = circles[b].radius + slack.of_radii[b];
-    const double moved = speed.of_centers[b] + stretch * speed.of_radii[b];
-    on.ratio[0] = b == 0 ? Bound{stretch}
-                         : Bound{std::abs(circles[b].center) + slack.of_centers[b] + stretch * radius, moved, 0.0};
-    for (std::size_t k = 1; k < count; ++k) {
-        const double slack_k = slack.of_radii[k], speed_k = speed.of_radii[k];
-        if (k == b) {
-            const double least = circles[k].radius - slack_k;
-            if (!(least > 0.0)) return {};
-            on.ratio[k] = {stretch};  // exp(-i angle), wherever the circle is
-            on.logarithm[k] = {std::abs(std::log(least)) + 1e-12, speed_k / least, speed_k * speed_k / (least * least)};
-            continue;
-        }
-        const double apart = std::abs(circles[b].center - circles[k].center);
-        const double loose = slack.of_centers[b] + slack.of_centers[k] + 1e-15;
-        double least = b == 0 ? 1.0 / stretch - apart - loose : apart - loose - stretch * radius;
-        if (part.point)
-            least = std::abs(*part.point - circles[k].center) - loose - slack.of_radii[b] - part.neighbourhood * radius;
-        const double most = b == 0 ? 1.0 + stretch * (apart + loose) : apart + loose + stretch * radius;
-        if (!(least > 0.0)) return {};
-        on.nearest = std::min(on.nearest, least);
-        const double relative = (moved + speed.of_centers[k]) / least;
-        // On the unit circle |z - c| is |1 - c / z|, whose logarithm has one value outside |c|.
-        const double lowest = b == 0 ? 1.0 - stretch * (apart + loose) : least;
-        const double angle = stretch > 1.0 ? std::numbers::pi : 0.0;
-        on.logarithm[k] = {std::max(std::abs(std::log(lowest)), std::abs(std::log(most))) + angle, relative,
-                           relative * relative};
-        on.ratio[k] = Bound{circles[k].radius + slack_k, speed_k, 0.0} *
-                      Bound{1.0 / least, relative / least, 2.0 * relative * relative / least};
-    }
-    return on;
-}
-
-/// Whether no two circles meet, wherever they are in the box.
-bool stay_apart(const std::vector<Circle>& circles, const Motion& slack)
-{
-    for (std::size_t i = 1; i < circles.size(); ++i) {
-        const double reach = circles[i].radius + slack.of_radii[i] + slack.of_centers[i] + room_for_rounding;
-        if (!(std::abs(circles[i].center) + reach < 1.0)) return false;
-        for (std::size_t j = 1; j < i; ++j)
-            if (!(std::abs(circles[i].center - circles[j].center) >
-                  reach + circles[j].radius + slack.of_radii[j] + slack.of_centers[j]))
-                return false;
-    }
-    return true;
-}
 
 /// Of the two sides of a condenser that holds all circles, the one without the unit circle.
 const std::vector<int>& inner_side(const Condenser& condenser)
@@ -142,18 +26,6 @@ const std::vector<int>& inner_side(const Condenser& condenser)
 }
 
 }  // namespace
-
-std::vector<Circle> circles_of_module(const VectorXd& module)
-{
-    std::vector<Circle> circles(static_cast<std::size_t>(module.size() + 6) / 3);
-    for (std::size_t k = 1; k < circles.size(); ++k) circles[k].radius = 0.0;
-    for (Eigen::Index l = 0; l < module.size(); ++l) {
-        const Step step = step_of(l);
-        circles[step.circle].center += step.center * module[l];
-        circles[step.circle].radius += step.radius * module[l];
-    }
-    return circles;
-}
 
 /// Values of the functions on the circles, at equal angles.
 struct CircleCapacities::Samples {
@@ -192,7 +64,7 @@ struct CircleCapacities::Samples {
                 slope -= in_center[k];
             }
             for (Eigen::Index l = 0; l < of.module_.size(); ++l) {
-                const Step step = step_of(l);
+                const CircleStep step = step_of(l);
                 if (step.circle != b)
                     all(row, l) = (in_center[step.circle] * step.center + in_radius[step.circle] * step.radius).real();
                 else
@@ -242,10 +114,10 @@ private:
 /// The numbers of a potential: how large they are for all modules near by, and how fast they change.
 struct CircleCapacities::Coefficients {
     Coefficients(const CircleCapacities& of, int i, const VectorXd& reach, const VectorXd& speed)
-        : poles(of.circles_.size(), std::vector<Bound>(of.terms_))
+        : poles(of.circles_.size(), std::vector<BoundedFunction>(of.terms_))
     {
         const auto bound = [&](Eigen::Index first, Eigen::Index count) {
-            Bound result{of.coefficients_.col(i).segment(first, count).norm()};
+            BoundedFunction result{of.coefficients_.col(i).segment(first, count).norm()};
             for (Eigen::Index l = 0; l < reach.size(); ++l) {
                 const double slope = of.derivatives_[l].col(i).segment(first, count).norm();
                 result.value += slope * reach[l];
@@ -262,14 +134,14 @@ struct CircleCapacities::Coefficients {
     }
 
     /// Of the potential on a circle.
-    Bound sum(const OnCircle& on) const
+    BoundedFunction sum(const OnCircle& on) const
     {
         if (on.ratio.empty()) return {infinite, infinite, infinite};
-        Bound sum = constant;
+        BoundedFunction sum = constant;
         for (std::size_t k = 0; k < logarithms.size(); ++k) sum = sum + logarithms[k] * on.logarithm[k + 1];
         for (std::size_t k = 0; k < poles.size(); ++k) {
-            Bound power = on.ratio[k];
-            for (const Bound& pole : poles[k]) {
+            BoundedFunction power = on.ratio[k];
+            for (const BoundedFunction& pole : poles[k]) {
                 sum = sum + pole * power;
                 power = power * on.ratio[k];
             }
@@ -277,9 +149,9 @@ struct CircleCapacities::Coefficients {
         return {sum.value * rounded_up, sum.first * rounded_up, sum.second * rounded_up};
     }
 
-    std::vector<Bound> logarithms;          // of the inner circles
-    std::vector<std::vector<Bound>> poles;  // of circle k; [0] are the powers of z
-    Bound constant;
+    std::vector<BoundedFunction> logarithms;          // of the inner circles
+    std::vector<std::vector<BoundedFunction>> poles;  // of circle k; [0] are the powers of z
+    BoundedFunction constant;
 };
 
 CircleCapacities::CircleCapacities(VectorXd module, double wanted_error, ExecutionContext& context)
@@ -329,18 +201,19 @@ void CircleCapacities::add_what_samples_miss(int b)
     const double stretch = std::pow(most, 0.75);
     // Coefficient m is at most the bound in the annulus times stretch^-|m|, and samples show it in another's place.
     const double tail = 4.0 * std::pow(stretch, -0.5 * static_cast<double>(samples_)) / (1.0 - 1.0 / stretch);
-    const OnCircle real = bounds_on(circles_, {circle}, Motion(zero), Motion(zero));
+    const OnCircle real = bounds_on(circles_, {circle}, CircleMotion(zero), CircleMotion(zero));
     const double rounding =
         unit_roundoff * (static_cast<double>(size()) + 64.0 * terms_ + 64.0) * (1.0 + 1.0 / real.nearest);
     for (int i = 0; i < inner(); ++i) {
         const Coefficients still(*this, i, zero, zero);
-        errors_(b, i) += tail * still.sum(bounds_on(circles_, {circle, stretch}, Motion(zero), Motion(zero))).value +
-                         rounding * still.sum(real).value;
+        errors_(b, i) +=
+            tail * still.sum(bounds_on(circles_, {circle, stretch}, CircleMotion(zero), CircleMotion(zero))).value +
+            rounding * still.sum(real).value;
         for (Eigen::Index l = 0; l < module_.size(); ++l) {
             const VectorXd step = VectorXd::Unit(module_.size(), l);
             const Coefficients moving(*this, i, zero, step);
             const auto speed_on = [&](double factor) {
-                return moving.sum(bounds_on(circles_, {circle, factor}, Motion(zero), Motion(step))).first;
+                return moving.sum(bounds_on(circles_, {circle, factor}, CircleMotion(zero), CircleMotion(step))).first;
             };
             errors_of_derivatives_[l](b, i) += tail * speed_on(stretch) + rounding * speed_on(1.0);
         }
@@ -349,7 +222,7 @@ void CircleCapacities::add_what_samples_miss(int b)
 
 VectorXd CircleCapacities::potential_errors(const VectorXd& reach) const
 {
-    const Motion motion(reach);
+    const CircleMotion motion(reach);
     if (!stay_apart(circles_, motion)) return VectorXd::Constant(inner(), infinite);
     const double step = 2.0 * std::numbers::pi / static_cast<double>(samples_);
     VectorXd worst = VectorXd::Zero(inner());

@@ -10,10 +10,6 @@
 
 namespace koebe {
 
-/// The circles with this module (shape/conformal_module.h): the unit circle, a circle round 0, a circle with its centre
-/// on the positive y axis, the rest. @param module (3 n - 6) for n >= 3 circles
-std::vector<Circle> circles_of_module(const VectorXd& module);
-
 /// Capacities near one circle domain, as linear functions of its module m.
 ///
 /// The harmonic measure u_i of inner circle i is approximated by

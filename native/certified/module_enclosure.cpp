@@ -1,7 +1,9 @@
 #include "certified/module_enclosure.h"
 
+#include "certified/circle_bounds.h"
 #include "certified/circle_capacities.h"
 #include "core/errors.h"
+#include "mesh/loop_with.h"
 #include "pipeline/uniformize.h"
 #include "shape/conformal_module.h"
 
@@ -137,9 +139,7 @@ NearModule near_module(const Vertices& vertices, const Surface& surface, int thr
     NearModule near;
     std::vector<Circle> circles;
     for (const LoopReport& loop : result.loops) {
-        const auto has = [&](const VertexLoop& one) { return std::ranges::find(one, loop.vertices[0]) != one.end(); };
-        const auto found = std::ranges::find_if(surface.loops, has);
-        near.order.push_back(static_cast<int>(found - surface.loops.begin()));
+        near.order.push_back(loop_with(surface.loops, loop.vertices.front()));
         circles.push_back(loop.circle);
     }
     near.numbers = conformal_module(circles);

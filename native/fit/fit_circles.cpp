@@ -8,6 +8,7 @@
 #include "fit/circle_path.h"
 #include "fit/template_start.h"
 #include "foldover/untangle.h"
+#include "mesh/loop_with.h"
 #include "pipeline/final_check.h"
 #include "pipeline/map_input.h"
 #include "pipeline/map_report.h"
@@ -254,11 +255,9 @@ void require_faultless(const MapInput& whole, const std::vector<int>& match, Cir
     }
     if (!faults.any()) return;
     std::vector<Index> loops(faults.bad_circles.begin(), faults.bad_circles.end());
-    for (std::size_t k = 0; k < whole.loops.size(); ++k)
-        for (const Index f : faults.flipped)
-            for (const Index v : whole.surface.triangles.row(f))
-                if (std::ranges::find(whole.loops[k], v) != whole.loops[k].end())
-                    loops.push_back(static_cast<Index>(k));
+    for (const Index f : faults.flipped)
+        for (const Index v : whole.surface.triangles.row(f))
+            if (const int k = loop_with(whole.loops, v); k >= 0) loops.push_back(k);
     refuse(faults.flipped.empty() ? "rims cross"
                                   : counted(faults.flipped.size(), "face") + " would be flipped as stored",
            template_circles(loops, match));

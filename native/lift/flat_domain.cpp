@@ -2,6 +2,7 @@
 
 #include "core/counted.h"
 #include "mesh/corner_order.h"
+#include "mesh/loop_with.h"
 #include "parts/parts.h"
 #include "pipeline/uniformize.h"
 #include "quality/take_verdict.h"
@@ -30,8 +31,8 @@ PlanarPoints disk_corners(const Surface& surface, const PlanarPoints& disk)
 
 Circle hole_with(const std::vector<LoopReport>& loops, Index vertex)
 {
-    for (std::size_t k = 1; k < loops.size(); ++k)  // the first one is the outer loop
-        if (std::ranges::find(loops[k].vertices, vertex) != loops[k].vertices.end()) return loops[k].circle;
+    const int k = loop_with(loops, vertex, &LoopReport::vertices);
+    if (k > 0) return loops[k].circle;  // the first one is the outer loop
     throw InputError("vertex " + std::to_string(vertex) + " is on no hole of the disk", ElementKind::vertices,
                      {vertex});
 }

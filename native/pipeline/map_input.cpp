@@ -4,6 +4,7 @@
 #include "canonical/canonical_position.h"
 #include "core/errors.h"
 #include "core/vertex_weights.h"
+#include "mesh/loop_with.h"
 #include "surface/importance.h"
 #include "surface/loop_edges.h"
 
@@ -21,32 +22,23 @@ InputError no_place_for(Index vertex, const std::string& place, const std::strin
                       ElementKind::vertices, {vertex});
 }
 
-/// The number of the loop with a vertex of the input, in the surface's own order.
-std::size_t loop_with(const MapInput& input, Index vertex)
-{
-    const auto& loops = input.surface.loops;
-    for (std::size_t k = 0; k < loops.size(); ++k)
-        for (const Index v : loops[k])
-            if (input.original[v] == vertex) return k;
-    throw InputError("vertex " + std::to_string(vertex) + " lies on no boundary loop", ElementKind::vertices, {vertex});
-}
-
 /// The number of the loop that the options name, in the surface's own order.
 std::size_t choose_outer_loop(const MapInput& input, const UniformizeOptions& options)
 {
     const auto& loops = input.surface.loops;
     if (options.point >= 0) {
-        const std::size_t own = loop_with(input, options.point);
+        const std::size_t own = loop_with_original(loops, input.original, options.point);
         const auto length = [&](std::size_t k) { return loop_edges(input.vertices, loops[k]).sum(); };
         for (std::size_t k = 0; k < loops.size(); ++k)
             if (options.outer == OuterLoop::longest && length(k) > (1.0 + same_length) * length(own))
                 throw no_place_for(options.point, "1", "it does not lie on the longest loop");
-        if (options.outer == OuterLoop::vertex && loop_with(input, options.outer_vertex) != own)
+        if (options.outer == OuterLoop::vertex &&
+            loop_with_original(loops, input.original, options.outer_vertex) != own)
             throw no_place_for(options.point, "1",
                                "it does not lie on the loop of vertex " + std::to_string(options.outer_vertex));
         return own;
     }
-    if (options.outer == OuterLoop::vertex) return loop_with(input, options.outer_vertex);
+    if (options.outer == OuterLoop::vertex) return loop_with_original(loops, input.original, options.outer_vertex);
     std::size_t longest = 0;
     double length = 0.0;
     for (std::size_t k = 0; k < loops.size(); ++k)
@@ -67,9 +59,8 @@ Index find_center(const MapInput& input, const UniformizeOptions& options, Index
     const auto found = std::ranges::find(input.original, options.center);
     if (found == input.original.end()) throw no_place_for(options.center, "0", "it belongs to no face");
     const Index center = static_cast<Index>(found - input.original.begin());
-    for (const VertexLoop& loop : input.surface.loops)
-        if (std::ranges::find(loop, center) != loop.end())
-            throw no_place_for(options.center, "0", "it lies on a boundary loop");
+    if (loop_with(input.surface.loops, center) >= 0)
+        throw no_place_for(options.center, "0", "it lies on a boundary loop");
     return center;
 }
 

@@ -1,10 +1,10 @@
 #include "shape/module_error.h"
 
+#include "mesh/loop_with.h"
 #include "pipeline/uniformize.h"
 #include "shape/conformal_module.h"
 #include "surface/smooth_refinement.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace koebe {
@@ -21,10 +21,8 @@ std::vector<Circle> refined_circles(const Vertices& vertices, const Triangles& t
     require_own_circles(result.loops);
     std::vector<Circle> circles;
     for (const LoopReport& loop : loops) {
-        const auto same = std::ranges::find_if(result.loops, [&](const LoopReport& other) {
-            return std::ranges::find(other.vertices, loop.vertices.front()) != other.vertices.end();
-        });
-        circles.push_back(same->circle);
+        const int same = loop_with(result.loops, loop.vertices.front(), &LoopReport::vertices);
+        circles.push_back(result.loops.at(same).circle);
     }
     return circles;
 }

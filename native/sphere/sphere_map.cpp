@@ -6,6 +6,7 @@
 #include "core/sort_unique.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
+#include "mesh/loop_with.h"
 #include "pipeline/loop_numbers.h"
 #include "pipeline/uniformize.h"
 #include "quality/map_clock.h"
@@ -66,16 +67,15 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
         map.z[v] = {disk.uv(domain.original[v], 0), disk.uv(domain.original[v], 1)};
     }
     std::vector<const LoopReport*> report;
-    for (std::size_t k = 0; k < domain.loops.size(); ++k)
-        for (const LoopReport& loop : disk.loops) {
-            if (std::ranges::find(loop.vertices, domain.original[domain.loops[k].front()]) == loop.vertices.end())
-                continue;
-            if (&loop == &disk.loops.front()) map.outer = k;
-            report.push_back(&loop);
-            map.circles.push_back(loop.circle);
-            map.roundness.push_back(loop.roundness);
-            for (const Index v : loop.off_circle) map.off_circle.push_back(number[v]);
-        }
+    for (std::size_t k = 0; k < domain.loops.size(); ++k) {
+        const int found = loop_with(disk.loops, domain.original[domain.loops[k].front()], &LoopReport::vertices);
+        const LoopReport& loop = disk.loops.at(found);
+        if (found == 0) map.outer = k;
+        report.push_back(&loop);
+        map.circles.push_back(loop.circle);
+        map.roundness.push_back(loop.roundness);
+        for (const Index v : loop.off_circle) map.off_circle.push_back(number[v]);
+    }
     std::ranges::sort(map.off_circle);
     for (Flap& flap : cut_flaps(domain.vertices, domain.surface, domain.loops).flaps)
         if (flap.loop == static_cast<int>(map.outer)) map.flaps.push_back(std::move(flap));

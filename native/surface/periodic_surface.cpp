@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "execution/memory_limit.h"
 #include "mesh/connectivity.h"
+#include "mesh/loop_with.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
@@ -187,22 +188,18 @@ void take_metric(PeriodicSurface& domain)
 }
 
 /// The loop with a vertex of the input. For vertex -1 the longest loop other than `taken`.
-std::size_t loop_with(const PeriodicSurface& domain, Index vertex, std::size_t taken)
+std::size_t rim_with(const PeriodicSurface& domain, Index vertex, std::size_t taken)
 {
     const auto& loops = domain.surface.loops;
-    std::size_t best = loops.size();
+    if (vertex >= 0) return loop_with_original(loops, domain.original, vertex);
+    std::size_t best = 0;
     double length = -1.0;
-    for (std::size_t k = 0; k < loops.size(); ++k) {
-        if (vertex >= 0) {
-            for (const Index v : loops[k])
-                if (domain.original[v] == vertex) return k;
-        } else if (const double own = loop_edges(domain.vertices, loops[k]).sum(); k != taken && own > length) {
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        if (const double own = loop_edges(domain.vertices, loops[k]).sum(); k != taken && own > length) {
             length = own;
             best = k;
         }
-    }
-    if (best < loops.size()) return best;
-    throw InputError("the vertex of a rim lies on no boundary loop", ElementKind::vertices, {vertex});
+    return best;
 }
 
 }  // namespace
@@ -277,9 +274,9 @@ PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangl
         throw TopologyError(TopologyKind::closed,
                             "a ring needs two boundary loops, the surface has " + std::to_string(surface.loops.size()));
     const std::size_t none = surface.loops.size();
-    std::size_t first = outer >= 0 || inner < 0 ? loop_with(domain, outer, none) : none;
-    const std::size_t second = loop_with(domain, inner, first);
-    if (first == none) first = loop_with(domain, outer, second);
+    std::size_t first = outer >= 0 || inner < 0 ? rim_with(domain, outer, none) : none;
+    const std::size_t second = rim_with(domain, inner, first);
+    if (first == none) first = rim_with(domain, outer, second);
     if (first == second)
         throw InputError("the vertices of both rims lie on one loop: a ring needs two different rims",
                          ElementKind::vertices, {outer, inner});

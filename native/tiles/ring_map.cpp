@@ -2,6 +2,7 @@
 #include "core/errors.h"
 #include "linear/dense_spd.h"
 #include "mesh/connectivity.h"
+#include "mesh/loop_with.h"
 #include "pipeline/loop_numbers.h"
 #include "pipeline/uniformize.h"
 #include "quality/map_clock.h"
@@ -49,9 +50,7 @@ RoundRing round_ring(const Vertices& vertices, const Triangles& triangles, const
     const UniformizeResult disk = uniformize_here(vertices, triangles, map_options, context);
     std::vector<const LoopReport*> report;
     for (const VertexLoop& loop : domain.loops)
-        for (const LoopReport& candidate : disk.loops)
-            if (std::ranges::find(candidate.vertices, domain.original[loop.front()]) != candidate.vertices.end())
-                report.push_back(&candidate);
+        report.push_back(&disk.loops.at(loop_with(disk.loops, domain.original[loop.front()], &LoopReport::vertices)));
     const Moebius move = center_circle(report.at(1)->circle);
     RoundRing ring;
     ring.points.resize(static_cast<Eigen::Index>(domain.original.size()));

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "core/sort_unique.h"
+#include "mesh/loop_with.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,13 +37,6 @@ bool lies_on_rim_edge(const SurfacePoint& point, const Triangles& triangles, con
     return std::ranges::any_of(loops, [&](const LoopReport& loop) { return is_edge(loop.vertices); });
 }
 
-int loop_with(const std::vector<LoopReport>& loops, Index vertex)
-{
-    for (std::size_t k = 0; k < loops.size(); ++k)
-        if (std::ranges::find(loops[k].vertices, vertex) != loops[k].vertices.end()) return static_cast<int>(k);
-    return -1;
-}
-
 }  // namespace
 
 std::string landmark_numbers(const std::vector<Index>& landmarks)
@@ -63,7 +57,7 @@ std::vector<Pin> landmark_pins(const CutMesh& mesh, const Triangles& triangles, 
     for (std::size_t i = 0; i < mesh.vertex.size(); ++i) {
         const Index number = static_cast<Index>(i), v = mesh.vertex[i];
         if (v >= count && lies_on_rim_edge(mesh.added[v - count], triangles, loops)) on_edges.push_back(number);
-        const int k = v < count ? loop_with(loops, v) : -1;
+        const int k = v < count ? loop_with(loops, v, &LoopReport::vertices) : -1;
         Complex place = places[number];
         bool fits = k < 0 || !std::ranges::binary_search(loops[k].off_circle, v);
         for (std::size_t other = 0; other < circles.size(); ++other) {

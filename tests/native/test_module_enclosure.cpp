@@ -1,4 +1,5 @@
 #include "certified/capacities.h"
+#include "certified/circle_bounds.h"
 #include "certified/circle_capacities.h"
 #include "circle_domain.h"
 #include "shape/conformal_module.h"

@@ -2,13 +2,13 @@
 
 #include "cli/files/mesh_input.h"
 #include "cli/process/progress_line.h"
+#include "mesh/loop_with.h"
 #include "mesh/topology.h"
 #include "pipeline/uniformize.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
 #include "shape/module_error.h"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace koebe::cli {
@@ -30,10 +30,7 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
     for (const LoopReport& loop : result.loops) {
         shape.circles.push_back(loop.circle);
-        const auto holds = [&](const VertexLoop& filed) {
-            return std::ranges::find(filed, loop.vertices.front()) != filed.end();
-        };
-        shape.ranks.push_back(static_cast<Index>(std::ranges::find_if(loops, holds) - loops.begin()));
+        shape.ranks.push_back(loop_with(loops, loop.vertices.front()));
     }
     if (with_refined)
         shape.refined = refined_circles(input.polygons.vertices, triangles, result.loops, options, context);

@@ -2,6 +2,7 @@
 
 #include "cli/options/wrong_usage.h"
 #include "core/counted.h"
+#include "mesh/loop_with.h"
 #include "pipeline/map_input.h"
 #include "surface/loop_edges.h"
 
@@ -19,18 +20,10 @@ void require_vertex(const Surface& surface, Index vertex, const std::string& opt
                          counted(surface.vertex_count, "vertex") + ", numbered from 0");
 }
 
-/// The rank of the loop with a vertex; -1 without such a loop.
-Index find_loop(const Surface& surface, Index vertex)
-{
-    const auto holds = [vertex](const VertexLoop& loop) { return std::ranges::find(loop, vertex) != loop.end(); };
-    const auto found = std::ranges::find_if(surface.loops, holds);
-    return found == surface.loops.end() ? -1 : static_cast<Index>(found - surface.loops.begin());
-}
-
 void require_inside(const Surface& surface, Index vertex)
 {
     const std::string beginning = "--center: vertex " + std::to_string(vertex);
-    if (find_loop(surface, vertex) >= 0) throw WrongUsage(beginning + " lies on a boundary loop");
+    if (loop_with(surface.loops, vertex) >= 0) throw WrongUsage(beginning + " lies on a boundary loop");
     if (std::ranges::find(surface.unused, vertex) != surface.unused.end())
         throw WrongUsage(beginning + " belongs to no face");
 }
@@ -40,7 +33,7 @@ void require_inside(const Surface& surface, Index vertex)
 Index loop_of(const Surface& surface, Index vertex, const std::string& option)
 {
     require_vertex(surface, vertex, option);
-    const Index loop = find_loop(surface, vertex);
+    const Index loop = loop_with(surface.loops, vertex);
     if (loop < 0) throw WrongUsage(option + ": vertex " + std::to_string(vertex) + " lies on no boundary loop");
     return loop;
 }

@@ -1,0 +1,74 @@
+// Circles whose places are known up to a box, and bounds of simple functions on them.
+#pragma once
+
+#include "circles/circle.h"
+#include "core/types.h"
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace koebe {
+
+constexpr double rounded_up = 1.0 + 1e-9;  // covers the rounding of sums of numbers above 0
+
+/// A number of the module moves one circle.
+struct CircleStep {
+    int circle;
+    Complex center;
+    double radius;
+};
+
+CircleStep step_of(Eigen::Index number);
+
+/// The circles with this module (shape/conformal_module.h): the unit circle, a circle round 0, a circle with its centre
+/// on the positive y axis, the rest. @param module (3 n - 6) for n >= 3 circles
+std::vector<Circle> circles_of_module(const VectorXd& module);
+
+/// Bounds of the absolute values of a function of one variable and of its first two derivatives.
+struct BoundedFunction {
+    double value = 0.0, first = 0.0, second = 0.0;
+};
+
+inline BoundedFunction operator+(const BoundedFunction& a, const BoundedFunction& b)
+{
+    return {a.value + b.value, a.first + b.first, a.second + b.second};
+}
+
+inline BoundedFunction operator*(const BoundedFunction& a, const BoundedFunction& b)
+{
+    return {a.value * b.value, a.first * b.value + a.value * b.first,
+            a.second * b.value + 2.0 * a.first * b.first + a.value * b.second};
+}
+
+/// How far circles may be from their places, or how fast they move.
+struct CircleMotion {
+    explicit CircleMotion(const VectorXd& numbers);
+
+    std::vector<double> of_centers, of_radii;
+};
+
+/// What the functions 1 / (z - c), r / (z - c) and log |z - c| of one circle, or z, are at most on another.
+struct OnCircle {
+    std::vector<BoundedFunction> ratio, logarithm;             // of each circle; ratio[0] is z
+    double nearest = std::numeric_limits<double>::infinity();  // to a centre
+};
+
+/// A part of circle b: all of it, or a point of it and the neighbourhood of so many radii. If stretch > 1, where the
+/// angle is complex, too: in the annulus between r / stretch and r * stretch, to which each function of the angle
+/// continues analytically.
+struct CirclePart {
+    std::size_t circle;
+    double stretch = 1.0;
+    std::optional<Complex> point = {};
+    double neighbourhood = 0.0;
+};
+
+/// Nothing where a centre may lie on the part.
+OnCircle bounds_on(const std::vector<Circle>& circles, const CirclePart& part, const CircleMotion& slack,
+                   const CircleMotion& speed);
+
+/// Whether no two circles meet, wherever they are in the box.
+bool stay_apart(const std::vector<Circle>& circles, const CircleMotion& slack);
+
+}  // namespace koebe
