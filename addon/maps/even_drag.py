@@ -13,8 +13,8 @@ from .uv_islands import uv_islands, vertex_uv
 
 WIDTH = 400.0  # pixels of a drag from 0 to 1
 FINE = 0.1  # of a drag's speed, with Shift
-STEPS = 2  # Newton steps at a time
-ENOUGH = 40  # times STEPS at one E: then the map has settled, as far as one sees
+STEPS = 1  # Newton steps at a time
+ENOUGH = 80  # times STEPS at one E: then the map has settled, as far as one sees
 STILL = 1e-4  # largest way of a UV, in the UV square: below it nothing is seen to move
 
 

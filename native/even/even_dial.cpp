@@ -2,6 +2,7 @@
 
 #include "circles/circle_fit.h"
 #include "core/errors.h"
+#include "foldover/newton_system.h"
 #include "mesh/topology.h"
 #include "planar/planar_predicates.h"
 
@@ -44,7 +45,7 @@ std::optional<RoundLoop> on_one_circle(const VertexLoop& loop, const PlanarPoint
 }  // namespace
 
 EvenDial::EvenDial(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points, bool round)
-    : vertices_(vertices), points_(points)
+    : vertices_(vertices), points_(points), pattern_(std::make_shared<NewtonPattern>())
 {
     validate_arrays(vertices, triangles);
     if (points.rows() != vertices.rows() || !points.allFinite())
@@ -80,7 +81,7 @@ bool EvenDial::move(double even, int most_steps, ExecutionContext& context)
     PlanarPoints points = points_;
     std::vector<RoundLoop> round = round_;
     const EvenMap moved = make_even({vertices_, triangles_, loops_, points, round}, std::max(even, least_even), extent_,
-                                    context, {most_steps, 0, most_steps});
+                                    context, {most_steps, 0, most_steps}, pattern_.get());
     if (!moved.moved) return false;
     points_ = std::move(points);
     round_ = std::move(round);

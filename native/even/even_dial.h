@@ -6,11 +6,12 @@
 #include "even/even_map.h"
 #include "execution/execution.h"
 
+#include <memory>
 #include <vector>
 
 namespace koebe {
 
-/// Keeps the surface, its loops, and the map as the last call left it.
+/// Keeps the surface, its loops, the map as the last call left it, and the analysis of Newton's equations.
 class KOEBE_API EvenDial {
 public:
     /// @param vertices (V, 3) @param triangles (F, 3) with at least one boundary loop @param points (V, 2) one to one
@@ -31,6 +32,7 @@ private:
     std::vector<VertexLoop> loops_;
     PlanarPoints points_;  // in the unit of the vertices
     std::vector<RoundLoop> round_;
+    std::shared_ptr<NewtonPattern> pattern_;  // of the last call
     double scale_ = 1.0, extent_ = 1.0;
 };
 

@@ -52,8 +52,13 @@ double longest_edge(const CornerPlaces& at)
 class EvenProblem {
 public:
     EvenProblem(const FlatSurface& flat, double even, double extent, const EvenEffort& effort,
-                ExecutionContext& context)
-        : flat_(flat), weight_(area_weight(even)), extent_(extent), effort_(effort), context_(context)
+                ExecutionContext& context, NewtonPattern& pattern)
+        : flat_(flat),
+          weight_(area_weight(even)),
+          extent_(extent),
+          effort_(effort),
+          context_(context),
+          pattern_(pattern)
     {
         ride();
         mobility_.assign(static_cast<std::size_t>(flat.points.rows()), Mobility::free);
@@ -94,7 +99,7 @@ public:
             if (!(far < nearer * before) && !(now < nearer * energy_before)) break;
             before = far;
             energy_before = now;
-            if (relax_once(result, steps_an_approach)) return true;
+            if (relax_once(result, std::min(steps_an_approach, effort_.most_in_all - result.iterations))) return true;
         }
         for (double before = energy_before; true; before = energy()) {  // again while a face is still on its way
             if (relax_once(result, effort_.most_steps)) return true;
@@ -313,7 +318,7 @@ private:
     PatchShapes shapes_;
     std::vector<Mobility> mobility_;
     std::vector<int> track_of_;
-    NewtonPattern pattern_;            // of the surface without the void
+    NewtonPattern& pattern_;           // of the surface without the void
     const std::vector<Complex> none_;  // for maps without periods
 };
 
@@ -336,10 +341,11 @@ double scale_to_size(const Vertices& vertices, const Triangles& triangles, doubl
 double area_weight(double even) { return even / (1.1 - even); }
 
 EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context,
-                  const EvenEffort& effort)
+                  const EvenEffort& effort, NewtonPattern* pattern)
 {
     EvenMap result;
-    EvenProblem problem(surface, even, extent, effort, context);
+    NewtonPattern own;
+    EvenProblem problem(surface, even, extent, effort, context, pattern ? *pattern : own);
     if (!(even > 0.0) || !problem.one_to_one()) return result;
     if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result);
     return result;

@@ -64,8 +64,9 @@ struct EvenMap {
 /// Faces that are not upright are turned back first (foldover/turn_upright.h). A map that is not one to one even then
 /// is not relaxed.
 /// @param extent side of the square in which the points are stored as 32-bit floats, in the unit of the points
+/// @param pattern kept from the last call with the same triangles and lifts, or an empty one (foldover/newton_system.h)
 /// @throws Cancelled
 EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context,
-                  const EvenEffort& effort = {});
+                  const EvenEffort& effort = {}, NewtonPattern* pattern = nullptr);
 
 }  // namespace koebe

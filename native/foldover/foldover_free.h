@@ -19,8 +19,8 @@ struct FoldoverOptions {
     bool strict = false;               ///< no step crosses a floor: a foldover-free map stays foldover-free
     double power = 1.0;                ///< s >= 1: see below
     double slack = 0.0;                ///< delta: see below
-    /// The pattern of the last problem with the same triangles, mobility, tracks and lifts, or an empty one; it holds
-    /// the pattern of this problem afterwards. Null: the pattern is made anew.
+    /// The pattern of the last problem with the same triangles and lifts, or an empty one; it holds the pattern of this
+    /// problem afterwards. Null: the pattern is made anew.
     NewtonPattern* pattern = nullptr;
     /// The last test of a step: it can refuse points, and then the step is shortened. Empty: no test.
     std::function<bool(const FoldoverPlaces&)> refuses = {};

@@ -36,7 +36,8 @@ NewtonSystem::NewtonSystem(const FoldoverProblem& problem, NewtonPattern* kept)
     }
     if (kept_) pattern_ = std::exchange(*kept_, {});
     const bool fits = pattern_.hessian.rows() == unknowns_ &&
-                      pattern_.places.size() == static_cast<std::size_t>(problem.triangles.rows());
+                      pattern_.places.size() == static_cast<std::size_t>(problem.triangles.rows()) &&
+                      pattern_.first_unknown == first_unknown_ && pattern_.track_of == problem.track_of;
     if (!fits) pattern_ = {};
     if (!fits && unknowns_ > 0) set_pattern();
 }
@@ -130,6 +131,8 @@ void NewtonSystem::set_pattern()
             outer.push_back(static_cast<Index>(rows.size()));
         }
     }
+    pattern_.first_unknown = first_unknown_;
+    pattern_.track_of = problem_.track_of;
     pattern_.hessian.resize(unknowns_, unknowns_);
     pattern_.hessian.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
     std::ranges::copy(outer, pattern_.hessian.outerIndexPtr());

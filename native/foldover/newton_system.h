@@ -16,6 +16,8 @@ namespace koebe {
 
 /// The pattern of the Hessian and its analysis. They follow from triangles, mobility, tracks and lifts of a problem.
 struct NewtonPattern {
+    std::vector<Index> first_unknown;  ///< (V) that it was made for,
+    std::vector<int> track_of;         ///< (V) and the tracks
     SparseMatrix hessian;
     std::vector<std::array<Index, 3>> places;  ///< per face and corner: set by NewtonSystem::set_pattern
     std::optional<SparseCholesky> solver;
@@ -26,8 +28,8 @@ struct NewtonPattern {
 class NewtonSystem {
 public:
     /// @param problem must not change while the system is in use, except for its places
-    /// @param kept pattern of an earlier system that differs in places, references and weights only, or an empty one;
-    /// it must outlive the system, which leaves its pattern there. Null: the pattern is not kept
+    /// @param kept pattern of an earlier system of the same triangles and lifts, or an empty one; it must outlive the
+    /// system, which leaves its pattern there. It is made anew if mobility or tracks differ. Null: it is not kept
     explicit NewtonSystem(const FoldoverProblem& problem, NewtonPattern* kept = nullptr);
     ~NewtonSystem();
     NewtonSystem(const NewtonSystem&) = delete;
