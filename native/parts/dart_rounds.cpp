@@ -17,6 +17,7 @@ namespace {
 
 constexpr int most_dart_rounds = 8;
 constexpr EvenEffort trial_effort{4, 2};
+constexpr EvenEffort warm_effort{2, 2};  // after some of the darts were closed again
 constexpr double least_surplus = 0.02;   // of a part's energy: the least promise of one round's darts
 constexpr double reach_of_darts = 0.25;  // radius of a dart's effect on the surface, in roots of its area
 constexpr double refused_around = 0.06;  // radius round the tip of a dart that did not pay: no new tips there
@@ -71,6 +72,7 @@ private:
         std::vector<std::pair<std::size_t, std::size_t>>
             image;                       ///< part and place of each dart's image; empty: no mirror
         std::optional<HeldPart> opened;  ///< empty if the darts cannot be opened
+        std::vector<Index> source;       ///< (V) the vertex that each vertex of `opened` was
         std::vector<double> gain;
     };
 
@@ -82,7 +84,8 @@ private:
 
     EvenForces forces_of(const FlatPart& flat) const { return forces_in(flat, even_); }
 
-    void open(std::size_t k, ExecutionContext& context)
+    /// @param before the same part, relaxed with more darts, if there is one
+    void open(std::size_t k, ExecutionContext& context, const Trial* before = nullptr)
     {
         Trial& trial = trials_[k];
         if (trial.darts.empty()) return;
@@ -92,13 +95,43 @@ private:
         if (!source) return;
         FlatPart& flat = part.flat;
         hold_both_ends(part.round, *source, parts_[k].flat.points.rows());
-        if (!make_even(flat_surface(flat, part.round), even_, packed_side, context, trial_effort).moved) return;
+        bool is_warm = false;
+        if (before && part.round.empty()) {
+            const PlanarPoints points = with_fewer_darts(*before, *source, parts_[k].flat.points.rows());
+            is_warm = lies_one_to_one(flat, points);
+            if (is_warm) flat.points = points;
+        }
+        const EvenEffort& effort = is_warm ? warm_effort : trial_effort;
+        if (!make_even(flat_surface(flat, part.round), even_, packed_side, context, effort).moved) return;
         if (!survives_storing(flat)) return;
         const VectorXd released = energy_[k] - forces_of(flat).energy;
         trial.gain.assign(trial.darts.size(), 0.0);
         for (std::size_t f = 0; f < nearest.size(); ++f)
             if (nearest[f] >= 0) trial.gain[nearest[f]] += released[static_cast<Eigen::Index>(f)];
         trial.opened = std::move(part);
+        trial.source = *source;
+    }
+
+    /// The points of a relaxed part after some of its darts were closed: both sides of these meet in the middle.
+    /// @param source (V) of the part with fewer darts, as in Trial @param count of vertices without darts
+    static PlanarPoints with_fewer_darts(const Trial& before, const std::vector<Index>& source, Eigen::Index count)
+    {
+        const PlanarPoints& points = before.opened->flat.points;
+        std::vector<Index> second(static_cast<std::size_t>(count), -1);
+        for (std::size_t v = second.size(); v < before.source.size(); ++v)
+            second[before.source[v]] = static_cast<Index>(v);
+        PlanarPoints found(static_cast<Eigen::Index>(source.size()), 2);
+        found.topRows(count) = points.topRows(count);
+        std::vector<char> is_open(second.size(), 0);
+        for (std::size_t v = second.size(); v < source.size(); ++v) {
+            is_open[source[v]] = 1;
+            found.row(static_cast<Eigen::Index>(v)) = points.row(second[source[v]]);
+        }
+        for (std::size_t v = 0; v < second.size(); ++v)
+            if (second[v] >= 0 && !is_open[v])
+                found.row(static_cast<Eigen::Index>(v)) =
+                    0.5 * (points.row(static_cast<Eigen::Index>(v)) + points.row(second[v]));
+        return found;
     }
 
     /// Both ends of a dart that begins at a round loop stay on the loop's circle or line.
@@ -147,9 +180,8 @@ private:
         }
         if (kept.empty()) return;
         if (kept.size() < trial.darts.size()) {
-            trial.darts = std::move(kept);
-            trial.opened.reset();
-            open(k, context);
+            const Trial before = std::exchange(trial, {std::move(kept), {}, {}, {}, {}});
+            open(k, context, before.opened ? &before : nullptr);
         }
         if (trial.opened) parts_[k] = std::move(*trial.opened);
     }

@@ -257,10 +257,13 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     } catch (const SolverError&) {
         return {};
     }
+    const auto error_of_one = [&] { return summed_angle_error(one.vertices, one.surface.triangles, one.points); };
+    const double most = worth_repairing * error * static_cast<double>(one.faces.size());
+    if (!parts.flaws.broken() && error < large_error && error_of_one() > most) return {};
     const Flaws flaws = repair(one, whole.areas, context);
     parts.flaws.spoilt = 0.0;
     if (flaws.broken() && !fewer(flaws, parts.flaws)) return {};
-    const double own = summed_angle_error(one.vertices, one.surface.triangles, one.points);
+    const double own = error_of_one();
     if (parts.flaws.broken()) return one;
     if (own >= error * static_cast<double>(one.faces.size())) return {};
     for (FlatPart& part : parts.parts) polish(part, context);

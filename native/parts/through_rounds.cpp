@@ -90,6 +90,7 @@ private:
     {
         std::optional<Trial> best;
         for (const ThroughCut& cut : promising_through_cuts(pieces_[k].flat, even_, price_)) {
+            if (best && best->surplus >= cut.forecast - cut.cost) break;  // the cuts come by falling forecasts
             std::optional<Trial> trial = tried(named_cuts(pieces_[k].flat, cut));
             if (trial && trial->surplus > (best ? best->surplus : 0.0)) best = std::move(trial);
         }
