@@ -11,6 +11,8 @@ from . import compat
 from .mesh_object import MeshObject
 from .transaction import Transaction
 
+CAPITALS = 0.7  # height of Blender's own font over its size
+
 
 class Copied(Protocol):
     """Faces of a mesh at other places: a `FlatLayout` or a `SphereCopy`.
@@ -64,6 +66,23 @@ def add_copied_object(
     return obj
 
 
+def add_text(
+    parent: bpy.types.Object, text: str, at: tuple[float, float], height: float, angle: float
+) -> None:
+    """A text object that moves with its parent, in the parent's plane. Call it in a transaction that notes new objects.
+
+    at      the middle of the text
+    height  of capitals
+    angle   radians, counter-clockwise
+    """
+    curve = bpy.data.curves.new(f"{parent.name} {text}", "FONT")
+    curve.body, curve.size, curve.align_x, curve.align_y = text, height / CAPITALS, "CENTER", "CENTER"
+    obj = bpy.data.objects.new(curve.name, curve)
+    obj.location, obj.rotation_euler, obj.parent = (*at, 0.0), (0.0, 0.0, angle), parent
+    for collection in parent.users_collection:
+        collection.objects.link(obj)
+
+
 def _material_numbers(mesh: bpy.types.Mesh) -> np.ndarray:
     """The slot (P,) of each face."""
     if mesh.is_editmode:
@@ -72,8 +91,8 @@ def _material_numbers(mesh: bpy.types.Mesh) -> np.ndarray:
 
 
 def note_new_objects(run: Transaction) -> None:
-    """Note the objects and meshes that are there, before others are added."""
-    for collection in (bpy.data.meshes, bpy.data.objects):
+    """Note the objects, meshes and texts that are there, before others are added."""
+    for collection in (bpy.data.meshes, bpy.data.curves, bpy.data.objects):
         run.before_write(_keep_only, collection, set(collection.keys()))
 
 

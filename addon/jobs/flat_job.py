@@ -12,7 +12,7 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import GONE, check_readable, reason
 from ..maps.flat_layout import FlatLayout, flat_layout
-from ..maps.flat_pattern import FlatPattern, flat_pattern, pattern_layout
+from ..maps.flat_pattern import FlatPattern, Label, flat_pattern, pattern_layout
 from ..maps.mapping import failing_alone
 from ..maps.outcomes import Progress, share_of
 from ..maps.surface import Surface
@@ -24,13 +24,15 @@ NEW_LAYER = "Koebe"  # of a copy whose source has no UVs
 
 @dataclasses.dataclass(frozen=True)
 class Flat:
-    """An object's layout, and the UVs (C, 2) of its layer. `pattern`: what is said of pieces that were cut anew."""
+    """An object's layout, and the UVs (C, 2) of its layer. `pattern`: what is said of pieces that were cut anew, and
+    `labels`: their numbers."""
 
     obj: MeshObject
     layer: str
     uv: np.ndarray
     layout: FlatLayout
     pattern: str = ""
+    labels: tuple[Label, ...] = ()
 
     def describe(self) -> str:
         """How true to scale it is, and which faces were left out."""
@@ -95,7 +97,8 @@ class FlattenJob:
                 if len(uv) != len(pattern.uv):
                     raise TransferError(f"{name}: its mesh has changed during the run")
                 layout = pattern_layout(surface, pattern)
-                found.append(Flat(obj, layer, uv.astype(np.float32), layout, pattern.describe()))
+                labels = tuple(pattern.labels())
+                found.append(Flat(obj, layer, uv.astype(np.float32), layout, pattern.describe(), labels))
             except Exception as error:
                 self.problems.append(reason(name, error))
         return found

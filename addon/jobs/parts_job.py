@@ -10,6 +10,7 @@ from ..blender import map_writing, mesh_reading, seams
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.transaction import Transaction
+from ..maps.atlas import one_atlas
 from ..maps.options import PartsChoice
 from ..maps.outcomes import Progress, Task
 from ..maps.parts import PartsOutcome, cut_into_parts
@@ -44,6 +45,13 @@ class PartsJob(ChoiceJob):
         if not density > 0.0:
             raise TransferError(f"{obj.name}: the UV layer {layer!r} has no area: choose another layer")
         return density
+
+    def compute(self, progress: Progress | None = None) -> None:
+        """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
+        if self.choice.atlas and len(self.tasks) > 1:
+            self.outcomes = one_atlas(self.koebe, self.tasks, self.choice, progress, self.cancel_token)
+        else:
+            super().compute(progress)
 
     def _map(self, task: Task, progress: Progress | None) -> PartsOutcome:
         return cut_into_parts(self.koebe, task, self.choice, progress, self.cancel_token)

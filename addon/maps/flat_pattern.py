@@ -2,6 +2,7 @@
 """Cuts a surface anew and lays it flat, as true to size as it can be: for a flat mesh, and for patterns to cut out."""
 
 import dataclasses
+import math
 from types import ModuleType
 from typing import Any
 
@@ -15,7 +16,22 @@ from .surface import Surface
 from .triangles import areas
 from .wording import counted
 
-METRE = 1000.0  # mm, the root of the area of a surface that is laid flat at no real size
+PATTERN_SIDE = 300.0  # mm, the root of the area of a surface that is laid flat at no real size
+
+
+@dataclasses.dataclass(frozen=True)
+class Label:
+    """The number of a seam, on a side of it, or "P" and the number of a piece.
+
+    at      (2,) the middle of the text, from the layout's lower left corner
+    height  of capitals
+    angle   radians, counter-clockwise
+    """
+
+    text: str
+    at: np.ndarray
+    height: float
+    angle: float
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,12 +40,24 @@ class FlatPattern:
 
     uv       (C, 2) of the surface's corners in its own unit of length; 0 at corners of faces that were left out
     faces    (P,) bool, the faces that were laid flat
+    low      (2,) least coordinates of these faces' UVs
+    size     the surface's unit of length, in millimetres of the pattern
     result   of `koebe.flatten`
     """
 
     uv: np.ndarray
     faces: np.ndarray
+    low: np.ndarray
+    size: float
     result: Any
+
+    def labels(self) -> list[Label]:
+        """Of a pattern on one sheet, in the surface's unit of length."""
+        return [
+            Label(one["text"], np.array(one["at_mm"]) / self.size - self.low, one["height_mm"] / self.size,
+                  math.radians(one["angle_deg"]))
+            for one in self.result.sheets[0]["labels"]
+        ]  # fmt: skip
 
     def describe(self) -> str:
         """Pieces, and how far lengths are off, in words."""
@@ -67,7 +95,7 @@ def flat_pattern(
         root = float(np.sqrt(areas(positions, triangles).sum()))
         if not root > 0.0:
             raise FlatError("all faces have area 0")
-        millimetres, options = METRE / root, {"page": "none"}
+        millimetres, options = PATTERN_SIDE / root, {"page": "none"}
     result = koebe.flatten(
         positions * millimetres, triangles, polygon=surface.triangle_face[chosen], units="mm",
         progress=progress, cancel=cancel, **options,
@@ -79,8 +107,10 @@ def flat_pattern(
     laid[corners[flat]] = True
     # A face with a corner at degenerate triangles only has no place for this corner.
     whole = np.logical_and.reduceat(laid, surface.face_start) if len(uv) else np.zeros(0, dtype=bool)
-    uv[~np.repeat(whole, surface.face_size)] = 0.0
-    return FlatPattern(uv, whole, result)
+    kept = np.repeat(whole, surface.face_size)
+    uv[~kept] = 0.0
+    low = uv[kept].min(axis=0, initial=np.inf) if kept.any() else np.zeros(2)
+    return FlatPattern(uv, whole, low, millimetres, result)
 
 
 def pattern_layout(surface: Surface, pattern: FlatPattern) -> FlatLayout:

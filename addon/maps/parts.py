@@ -20,6 +20,7 @@ from .wording import counted, density_text, in_mesh
 HIGHEST, LOWEST = 0.03, 0.0003
 # More than any unevenness costs: only necessary cuts are made.
 NO_CUTS = 1e3
+OTHERS = -1  # the number of a face of another surface in the same atlas
 
 
 def price_of(evenness: float) -> float:
@@ -54,7 +55,8 @@ class PartsIsland:
     @property
     def flipped_faces(self) -> np.ndarray:
         """Faces of the surface with triangles that are turned over in the UVs."""
-        return np.unique(self.numbers.triangle_face[self.result.flipped_faces])
+        faces = np.unique(self.numbers.triangle_face[self.result.flipped_faces])
+        return faces[faces != OTHERS]
 
 
 class PartsOutcome(Outcome):

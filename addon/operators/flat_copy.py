@@ -10,7 +10,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 from mathutils import Vector
 
-from ..blender.copied_object import add_copied_object
+from ..blender.copied_object import add_copied_object, add_text
 from ..blender.selection import select_objects
 from ..blender.targets import attempt, target_objects
 from ..blender.transaction import transaction
@@ -95,6 +95,10 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
 
     pieces: pieces_option()
     layer: StringProperty(name="UV Layer", description=LAYER)
+    numbers: BoolProperty(
+        name="Numbers", default=True,
+        description="Add text objects: the number of each piece, and at both sides of each cut its number",
+    )
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return self.execute(context) if self.pieces == "UVS" else super().invoke(context, event)
@@ -102,8 +106,7 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.use_property_split = True
         self.layout.prop(self, "pieces")
-        if self.pieces == "UVS":
-            self.layout.prop(self, "layer")
+        self.layout.prop(self, "layer" if self.pieces == "UVS" else "numbers")
 
     def _job(self, context: bpy.types.Context) -> FlattenJob | None:
         return self._flatten(context)
@@ -128,6 +131,8 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
                     place = (x, y, z)
                     copy = add_copied_object(run, context, flat.obj, flat.layout, flat.layer, flat.uv, place, "Flat")
                     made.append(copy)
+                    for label in flat.labels if self.numbers else ():
+                        add_text(copy, label.text, tuple(label.at.tolist()), label.height, label.angle)
                     done.append(flat)
                     x += (1.0 + GAP) * float(flat.layout.points[:, 0].max())
             if made:

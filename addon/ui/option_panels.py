@@ -122,7 +122,7 @@ class LayerPanel(ClosedPanel):
         column.prop(settings, "texels")
         for name in {"number": ("density", "pixels"), "layer": ("like",)}.get(settings.texels, ()):
             draw_option(column, settings, name, context)
-        for name in ("tiles", "stack"):
+        for name in ("tiles", "stack", "atlas"):
             draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)

@@ -26,8 +26,19 @@ nlohmann::ordered_json to_json(const FlattenResult& result)
                          {"length_mm", seam.length},
                          {"lengths_mm", seam.lengths},
                          {"closed", seam.closed}});
-    for (const PatternSheet& sheet : result.pattern.sheets)
-        sheets.push_back({{"size_mm", {sheet.width, sheet.height}}, {"columns", sheet.columns}, {"rows", sheet.rows}});
+    for (const PatternSheet& sheet : result.pattern.sheets) {
+        Json labels = Json::array();
+        for (const PatternLabel& label : sheet.labels)
+            labels.push_back({{"text", label.text},
+                              {"piece", label.piece},
+                              {"at_mm", {label.at[0], label.at[1]}},
+                              {"height_mm", label.height},
+                              {"angle_deg", label.angle_deg}});
+        sheets.push_back({{"size_mm", {sheet.width, sheet.height}},
+                          {"columns", sheet.columns},
+                          {"rows", sheet.rows},
+                          {"labels", std::move(labels)}});
+    }
     Json report = report_json(result, {{"pieces", std::move(pieces)},
                                        {"seams", std::move(seams)},
                                        {"stretch_percent", stretch_json(result.stretch)},

@@ -182,6 +182,28 @@ def test_what_has_no_uvs_is_cut_true_to_size_and_undone():
     assert sorted(bpy.data.objects.keys()) == ["Bare"]
 
 
+def test_seams_and_pieces_have_numbers():
+    cube = scenes.add_cube("Bare")
+    for edge in cube.data.edges:
+        edge.use_seam = True
+    scenes.select(cube)
+    assert bpy.ops.object.koebe_flat_copy(pieces="TRUE", numbers=False) == {"FINISHED"}
+    assert not any(obj.type == "FONT" for obj in bpy.data.objects)
+    scenes.select(cube)
+    assert bpy.ops.object.koebe_flat_copy(pieces="TRUE") == {"FINISHED"}
+    copy = bpy.context.view_layer.objects.active
+    texts = [obj for obj in bpy.data.objects if obj.type == "FONT"]
+    assert all(obj.parent == copy and obj.users_collection == copy.users_collection for obj in texts)
+    said = [obj.data.body for obj in texts]
+    assert sorted(said) == sorted(["P1", "P2", "P3", "P4", "P5", "P6"] + 2 * [str(k) for k in range(1, 13)])
+    points = positions(copy.data)[:, :2]
+    squares = [points[list(face.vertices)] for face in copy.data.polygons]
+    for obj in texts:
+        at = np.array(obj.location[:2])
+        inside = [(square.min(axis=0) < at).all() and (at < square.max(axis=0)).all() for square in squares]
+        assert sum(inside) == 1 and 0.0 < obj.data.size < 0.15 * np.ptp(squares[0])
+
+
 def test_pieces_are_cut_along_seams():
     obj = rolled()
     for edge in obj.data.edges:
