@@ -51,7 +51,7 @@ MUTANTS = [
     ("native/parts/twins.cpp", "(is > 0.0) == mirrored ? -1.0 : 1.0", "1.0"),
     ("native/parts/tile_packing.cpp", "tiles_[fullest()].packing.scale", "tiles_[0].packing.scale"),
     ("native/parts/through_cuts.cpp", "length - piece_price(from.end, to.end)", "length"),
-    ("native/certified/capacity_bounds.cpp", "const bool shared = loop >= 0 && !fixed_[i]", "const bool shared = false"),
+    ("native/certified/capacity_bounds.cpp", "shared = loop >= 0 && !fixed_[i]", "shared = false"),
     ("native/fit/circle_path.cpp", "least = std::min(least, std::abs(centers[k] - centers[j]) / wanted);", ""),
     ("native/fit/circle_bending.cpp", "k == 0 ? here : next, k == 0 ? next : here", "here, next"),
     ("native/canonical/corner_map.h", "mesh.name_faces(result.turned);", ""),

@@ -27,8 +27,8 @@ class FlattenResult(DomainMap):
     cut_length_mm, darts    of all seams, and the number of darts
     pages, page_mm   their number, and the size of each; 0 without pages
     sheets           for each sheet a dict: size_mm (of its frames), columns and rows of pages, labels: the numbers of
-                     seams ("1", on all sides) and pieces ("P1"), each a dict: text, piece (from 1), at_mm (the middle of
-                     the text), height_mm (of capitals), angle_deg (counter-clockwise)
+                     seams ("1", on all sides) and pieces ("P1"), each a dict: text, piece (from 1), at_mm (the text's
+                     middle), height_mm (of capitals), angle_deg (counter-clockwise)
     svg              list of SVG documents, one a page
     dxf              the text of a DXF file (R12)
     seconds          in all
