@@ -131,7 +131,7 @@ test-python: programs ## pytest tests/python
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m 'not long' tests/python
 
 test-python-%: programs
-	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m 'not long' tests/python/test_[$*]*.py
+	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider --durations=12 -m 'not long' tests/python/test_[$*]*.py
 
 test-long: programs ## the Python tests that are marked long
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m long tests/python
@@ -143,13 +143,13 @@ test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
 	scripts/blender_tests.sh $(BLENDER)
 
 test-blender-%: package $(DONE)/install-blender
-	scripts/blender_tests.sh $(BLENDER) --ignore-glob='tests/blender/test_[!$*]*'
+	scripts/blender_tests.sh $(BLENDER) --durations=12 --ignore-glob='tests/blender/test_[!$*]*'
 
 test-bpy-%: package build/venv-bpy-%/.done
 	scripts/blender_tests.sh build/venv-bpy-$*/bin/python
 
 test-differing-%: package build/venv-bpy-%/.done
-	scripts/blender_tests.sh build/venv-bpy-$*/bin/python -m 'not alike'
+	scripts/blender_tests.sh build/venv-bpy-$*/bin/python --durations=12 -m 'not alike'
 
 # Not in `make test`: it wants a machine that does nothing else, and knows where the sidebars of 3.4 and 4.3 have their tabs.
 test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys in Blender's window: out/gui/

@@ -1,6 +1,8 @@
 """Lets the add-on fail before any line that it executes inside a transaction, as memory, a key or a bug could."""
 
+import contextlib
 import os
+import pickle
 import sys
 
 import bpy
@@ -10,6 +12,35 @@ import fingerprint
 EVERY_STEP = "KOEBE_EVERY_STEP"
 # Blender calls them and swallows what they raise: no operator fails by it.
 HANDLERS = ("after_update", "after_undo", "after_frame")
+
+
+# Functions of the native package that take long.
+MAPS = ("uniformize", "parts", "ring_map", "torus_map", "sphere_map", "schottky_map", "flatten", "lift")
+
+
+@contextlib.contextmanager
+def remembered_maps(koebe):
+    """The native package computes each map once: the faults come later, while it is written."""
+    own = {name: getattr(koebe, name) for name in MAPS}
+    known = {}
+
+    def remembering(name):
+        def compute(*arrays, **options):
+            asked = {key: value for key, value in options.items() if key not in ("progress", "cancel")}
+            key = pickle.dumps((name, arrays, asked))
+            if key not in known:
+                known[key] = own[name](*arrays, **options)
+            return known[key]
+
+        return compute
+
+    try:
+        for name in MAPS:
+            setattr(koebe, name, remembering(name))
+        yield
+    finally:
+        for name in MAPS:
+            setattr(koebe, name, own[name])
 
 
 class Fault:

@@ -11,14 +11,16 @@ MOST = 25  # steps at which an operator is broken off
 
 
 @pytest.mark.parametrize("run", RUNS)
-def test_what_is_broken_off_leaves_everything_as_it_was(folder, run):
+def test_what_is_broken_off_leaves_everything_as_it_was(folder, koebe, run):
     build, name, options = RUNS[run]
-    faults.check_all_comes_back(folder, build, operator(name), options, MOST)
+    with faults.remembered_maps(koebe):
+        faults.check_all_comes_back(folder, build, operator(name), options, MOST)
 
 
 @pytest.mark.parametrize("run", [
     "uniformize", "torus", "ring in Edit Mode", "checker off", "distortion changed", "fill", "carry",
 ])  # fmt: skip
-def test_an_error_is_that_of_one_object(folder, run):
+def test_an_error_is_that_of_one_object(folder, koebe, run):
     build, name, options = RUNS[run]
-    faults.check_each_for_itself(folder, build, operator(name), options, MOST // 2)
+    with faults.remembered_maps(koebe):
+        faults.check_each_for_itself(folder, build, operator(name), options, MOST // 2)
