@@ -37,20 +37,26 @@ WORDS = {
         "{count} {have} no UVs, because another face has the same vertices. Use Mesh ▸ Clean Up ▸ Merge by Distance"),
     "not_mapped": ("faces", "{count} could not be mapped, and {are} at one point in the UVs. Repair the mesh there"),
 }  # fmt: skip
+# Of a surface that was cut open: there the mesh is not at fault.
+CUT_WORDS = {
+    "flaps": ("faces", "{count} beside a cut {are} connected by one edge only. Mark seams where cuts may run"),
+}  # fmt: skip
 NOUNS = {"faces": ("face", None), "vertices": ("vertex", "vertices"), "loops": ("boundary", "boundaries")}
 WHOLE = "the whole map"  # what a warning is about that names no elements
 SELECTED = ("faces", "vertices")  # that can be selected by their numbers in the mesh
 
 
-def in_words(warnings: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
+def in_words(warnings: Iterable[dict[str, Any]], is_cut: bool = False) -> list[dict[str, Any]]:
     """Warnings of one map, in the mesh's numbers, as sentences: one for each kind, with all of its elements.
 
     Each is a dict: text, `of` and `elements`, where these can be selected. What has no sentence keeps its text.
+    @param is_cut whether the surface was cut open
     """
+    sentences = {**WORDS, **CUT_WORDS} if is_cut else WORDS
     found: dict[str, dict[str, Any]] = {}
     for warning in warnings:
         kind, text = warning["kind"], warning["text"]
-        of, sentence = WORDS.get(kind, ("", ""))
+        of, sentence = sentences.get(kind, ("", ""))
         one = found.setdefault(kind if sentence else text, {"text": sentence or text, "of": of, "elements": set()})
         one["elements"].update(warning["elements"] if of else ())
     return [_filled(**one) for one in found.values()]

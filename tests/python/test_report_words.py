@@ -34,6 +34,11 @@ def test_warnings_of_a_kind_are_one_sentence_with_all_their_elements(addon):
     assert " no effect on the whole map, " in said[3]["text"]
 
 
+def test_faces_that_a_cut_has_loosened_are_not_the_meshs_fault(addon):
+    (said,) = addon("maps.warning_words").in_words([warning("flaps", 7, 3)], is_cut=True)
+    assert said["text"].startswith("2 faces beside a cut are connected ") and "Delete" not in said["text"]
+
+
 GOOD = {"density": 2.0, "coverage": 0.7, "angle_error": 1.0, "flipped": 0, "parts": 0, "domain": "", "even": 0.0,
         "converged": True, "message": ""}  # fmt: skip
 
