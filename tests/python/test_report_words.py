@@ -30,6 +30,7 @@ def test_warnings_of_a_kind_are_one_sentence_with_all_their_elements(addon):
     assert [one.get("elements") for one in said] == [[3, 5, 7], None, None, None]
     assert said[0]["text"].startswith("3 faces are connected by ") and said[0]["of"] == "faces"
     assert said[1]["text"].startswith("1 boundary is too small ") and "of" not in said[1]
+    assert said[1]["text"].endswith(" near it")
     assert said[2]["text"] == "as the solver says it"
     assert " no effect on the whole map, " in said[3]["text"]
 
