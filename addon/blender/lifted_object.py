@@ -12,7 +12,7 @@ from .errors import TransferError
 from .mesh_object import MeshObject
 from .transaction import Transaction
 
-ENDING = "Lift"  # of the names, after the source's name
+ENDING = "Pattern"  # of the names, after the source's name
 WALLS = 2  # in `Lifted.patch`
 ROUNDING = 1e-5  # of a transform, relative to its largest number
 

@@ -232,7 +232,7 @@ DISK_INPUTS = (
     ("Vector", "Disk", (0.5, 0.5, 0.0), "Middle of the disk in the UVs"),
     ("Float", "Radius", 0.5, "Radius of the disk in the UVs"),
 )
-FIELD, CIRCLES, LIFT, SCATTER = "Koebe Moebius", "Koebe Move Circles", "Koebe Lift", "Koebe Scatter"
+FIELD, CIRCLES, LIFT, SCATTER = "Koebe Moebius", "Koebe Move Circles", "Koebe Bend onto Surface", "Koebe Scatter"
 
 
 def _moebius(build: NodeBuilder) -> None:

@@ -27,7 +27,7 @@ class PartsJob(ChoiceJob):
     def __init__(self, *given: Any, **named: Any) -> None:
         super().__init__(*given, **named)
         if self.choice.show and all(task.show is None for task in self.tasks):
-            raise TransferError(f"Show is the vertex group {self.choice.show!r}, but no object has this group")
+            raise TransferError(f"Avoid is the vertex group {self.choice.show!r}, but no object has this group")
 
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
         show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None

@@ -21,6 +21,7 @@ LATTICES = ("hexagons", "triangles", "diamonds", "stripes", "truchet")  # patter
 DRAWN = ("file", "object")  # patterns that an artist has drawn
 CELLS = 12.0  # of the pattern, along the root of the area, if no size is given
 RISE = 0.08  # of a cell: the height, if none is given
+BRIDGE = 0.2  # of a cell: the bridge, if none is given
 HIGHEST = 1e30  # that the solver takes
 REASONS = {
     "closed": "the surface is closed: set Shape to Sphere, Parts or Torus, or delete a face",
@@ -56,6 +57,19 @@ def is_used(name: str, options: Options) -> bool:
     }.get(name, True)
 
 
+def cell_of(area: float) -> float:
+    """The size of a built-in pattern on a surface of this area, if none is given."""
+    return math.sqrt(area) / CELLS
+
+
+def first_value(name: str, options: Any, area: float) -> float:
+    """Where an option begins that was automatic until now: near the automatic value, in two digits."""
+    size = options.size or cell_of(area) * (CELLS / 2 if options.pattern in DRAWN else 1.0)
+    value = {"size": size, "bridge": BRIDGE * size, "height": RISE * size, "thickness": BRIDGE * size,
+             "rows": 3, "repeats": 12}[name]  # fmt: skip
+    return float(f"{value:.2g}")
+
+
 @dataclasses.dataclass(frozen=True)
 class LiftChoice:
     """How a pattern is brought onto a surface. 0 of a length: none is given.
@@ -80,7 +94,7 @@ class LiftChoice:
         found = {"pattern": self.pattern, "perforate": self.perforate, "size": self.size or None, **self.others}
         if not self.perforate:
             built_in = self.pattern in (*SPREAD, *LATTICES)
-            cell = self.size if self.size and built_in else math.sqrt(area) / CELLS
+            cell = self.size if self.size and built_in else cell_of(area)
             height = self.height or min(RISE * cell, HIGHEST)
             found["height"] = -height if mirrored else height
         return found
@@ -129,6 +143,7 @@ class LiftOutcome:
     """What became of one object: its result, or the error and the island that has it.
 
     cursor  the place of the 3D cursor, if the pattern lies around it
+    area    of the surface's largest part
     """
 
     name: str
@@ -138,6 +153,7 @@ class LiftOutcome:
     lifted: Lifted | None = None
     error: Exception | None = None
     island: Island | None = None
+    area: float = 0.0
 
     def line(self, perforate: bool) -> str:
         """One line on the result."""
@@ -190,6 +206,7 @@ def lift_surface(
     results = []
     with np.errstate(all="ignore"):  # a vertex may be no number
         areas = [float(island.areas.sum()) for island in islands]
+    outcome.area = max(areas, default=0.0)
     for k, island in enumerate(islands):
         outcome.island = island
         results.append(koebe.lift(

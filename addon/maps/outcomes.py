@@ -118,7 +118,10 @@ class Outcome:
 
     def said_warnings(self) -> list[str]:
         """The warnings of all islands."""
-        return [said["text"] for one in self.mapped for said in in_words(self.warnings(one))]
+        return [said["text"] for one in self.mapped for said in self._in_words(one)]
+
+    def _in_words(self, one: Any) -> list[dict[str, Any]]:
+        return in_words(self.warnings(one), getattr(one, "opening", None) is not None)
 
     def said_notes(self) -> list[str]:
         """The notes of all islands."""
@@ -169,7 +172,7 @@ class Outcome:
                 warnings = self.warnings(one)
                 texts = [*(warning["text"] for warning in warnings), *self.remarks]
                 row |= {"mapped": True, "converged": one.result.converged, "message": "; ".join(texts)}
-                row["warnings"] = [*in_words(warnings), *({"text": remark} for remark in self.remarks)]
+                row["warnings"] = [*self._in_words(one), *({"text": remark} for remark in self.remarks)]
                 row |= {"note": "; ".join(said.get(id(one), [])), **self._row(one)}
             else:
                 kind, elements = offending_elements(self.task.surface, one.island, one.error)

@@ -90,17 +90,22 @@ class SequenceOutcome(Outcome):
         """Figures over all maps."""
         results = [one.result for made in self.maps for one in made.mapped]
         sweeps, angles = [result.sweeps for result in results], [made.mean_angle_error for made in self.maps]
-        words = [
+        return ", ".join([
             counted(len(self.maps), "shape"),
             counted(sum(len(one.result.loops) for one in self.maps[0].mapped), "loop"),
             f"{_from_to(min(sweeps), max(sweeps))} {'sweep' if max(sweeps) == 1 else 'sweeps'}",
-            f"angle error {min(angles):.2f}° to {max(angles):.2f}°, mean {sum(angles) / len(angles):.2f}°",
-            counted(sum(len(one.flipped) for made in self.maps for one in made.mapped), "flip"),
-        ]
+            *self._quality(f", mean {sum(angles) / len(angles):.2f}°"),
+        ])  # fmt: skip
+
+    def _quality(self, mean: str = "") -> list[str]:
+        """How good the maps are, for the report. @param mean the words on the mean angle error"""
+        angles = [made.mean_angle_error for made in self.maps]
         late = [label for label, made in zip(self.labels, self.maps, strict=True) if not made.converged]
-        if late:
-            words.append(f"NOT CONVERGED: {named(late)}")
-        return ", ".join(words)
+        return [
+            f"angle error {min(angles):.2f}° to {max(angles):.2f}°{mean}",
+            counted(sum(len(one.flipped) for made in self.maps for one in made.mapped), "flip"),
+            *([f"NOT CONVERGED: {named(late)}"] if late else []),
+        ]
 
     def said_warnings(self) -> list[str]:
         """The warnings, each once, with the shapes that it applies to unless it applies to all."""
@@ -134,7 +139,8 @@ class SequenceOutcome(Outcome):
         """Rows of the report for each shape and island. The layer is the shape's, if it has one."""
         if not self.mapped:
             return [self._failure_row()]
-        said = "; ".join(filter(None, [self.how_shown, self.figures()]))
+        in_short = ", ".join([counted(len(self.maps), "map"), *self._quality()])
+        said = "; ".join(filter(None, [self.how_shown, in_short]))
         layers = self.written if self.in_layers else [layer if self.in_uv else ""] * len(self.written)
         own = [*self._nothing_moves(), *self.remarks]
         return [

@@ -25,11 +25,19 @@ class Figure:
         return not self.advice
 
 
-def figures(entry: Any) -> list[Figure]:
-    """The figures of a mapped island, as the report has it (state/run_report.py)."""
+def figures(entry: Any, coverage: float | None = None) -> list[Figure]:
+    """The figures of a mapped island, as the report has it (state/run_report.py).
+
+    @param coverage of all islands that share the UV square with this one; by default this island's alone
+    """
     found = [_evenness(entry)] if entry.density else []
-    found += [_coverage(entry)] if entry.coverage else []
+    found += [_coverage(entry.coverage if coverage is None else coverage)] if entry.coverage else []
     return [*found, _angles(entry), _flips(entry)]
+
+
+def is_good(entry: Any) -> bool:
+    """Whether there is nothing to do about a mapped island itself."""
+    return entry.converged and not entry.message and all(figure.is_good for figure in figures(entry, 1.0))
 
 
 def _evenness(entry: Any) -> Figure:
@@ -47,16 +55,16 @@ def _evenness(entry: Any) -> Figure:
     return Figure("Evenness", value, advice)
 
 
-def _coverage(entry: Any) -> Figure:
-    advice = "" if entry.coverage >= COVERED else "Much of the image stays empty: UV ▸ Pack Islands fills it better"
-    return Figure("Coverage", f"{100.0 * entry.coverage:.0f} %", advice)
+def _coverage(coverage: float) -> Figure:
+    advice = "" if coverage >= COVERED else "Much of the image stays empty: UV ▸ Pack Islands fills it better"
+    return Figure("Coverage", f"{100.0 * coverage:.0f} %", advice)
 
 
 def _angles(entry: Any) -> Figure:
     advice = ""
     if entry.angle_error > TRUE:
-        advice = ("The checker is bent: lower Even" if entry.even else
-                  "The checker is bent: subdivide large faces, or choose more parts")  # fmt: skip
+        more = "move the slider Parts to the right" if entry.parts else "choose Shape: Parts"
+        advice = f"The checker is bent: {'lower Even' if entry.even else f'subdivide large faces, or {more}'}"
     return Figure("Angle error", f"{entry.angle_error:.2f}°", advice)
 
 

@@ -25,13 +25,15 @@ from .tooltip import tooltip
 
 
 class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
-    """Bring a flat pattern onto the selected surfaces: as holes, as a relief, as a closed solid. Circles stay circles,
-    as the map keeps angles. The result is a new object, and the original is hidden"""
+    """Copy the selected surfaces with a flat pattern on them: holes, a relief, a closed solid. Circles stay circles, as
+    the map keeps angles. The copy is a new object, and the original is hidden"""
 
     bl_idname = "object.koebe_lift"
-    bl_label = "Koebe Lift Pattern"
+    bl_label = "Koebe Patterned Copy"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
+
+    area: bpy.props.FloatProperty(default=0.0, options={"HIDDEN", "SKIP_SAVE"})
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -54,7 +56,7 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
             self.report({"ERROR"}, f"Koebe UV: {error}")
             return None
         if not job.outcomes:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was lifted.", job.problems))
+            self.report({"ERROR"}, lines("Koebe UV: no copy was made.", job.problems))
             return None
         return job
 
@@ -70,6 +72,7 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
             raise TransferError("an image is a relief: set Make to Relief")
 
     def _finish(self, context: bpy.types.Context, job: LiftJob) -> set[str]:
+        self.area = max((outcome.area for outcome in job.outcomes), default=0.0)  # for the redo panel
         with transaction() as run:
             made = job.write(run, context, settings_of(context).layer)
             if made:
@@ -87,7 +90,7 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
     def _say(self, job: LiftJob, done: list[LiftOutcome]) -> set[str]:
         problems = [*(f"{one.name}: {one.reason()}" for one in job.failures()), *job.problems]
         if not done:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was lifted.", problems))
+            self.report({"ERROR"}, lines("Koebe UV: no copy was made.", problems))
             return {"CANCELLED"}
         for outcome in done:
             told = outcome.warnings()

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of Lift Pattern as Blender properties: of the operator (redo panel) and of the scene (panel)."""
+"""The options of Patterned Copy as Blender properties: of the operator (redo panel) and of the scene (panel)."""
 
 import math
 from typing import Any
 
 import bpy
+import numpy as np
 from bpy.props import BoolProperty, EnumProperty, PointerProperty, StringProperty
 
 from ..blender.compat import path_options
-from ..maps.lifting import DRAWN, LiftChoice, is_used
+from ..maps.lifting import DRAWN, LiftChoice, first_value, is_used
 from ..maps.option_table import own_rows
 from .option_properties import property_of, shown_number
 
@@ -24,13 +25,13 @@ PATTERNS = [
     ("object", "Curve or Text", "The closed curves of a curve object or text object of the scene"),
 ]
 WAYS = [
-    ("perforate", "Perforate", "Cut the outlines out of the surface"),
+    ("perforate", "Holes", "Cut the outlines out of the surface"),
     ("raise", "Relief", "Raise the outlines along the normals, with upright walls"),
 ]
 OWN = own_rows("lift")
 
 PROPERTIES = {
-    "pattern": EnumProperty(name="Pattern", items=PATTERNS, default="circles", description="The pattern to be lifted"),
+    "pattern": EnumProperty(name="Pattern", items=PATTERNS, default="circles", description="Pattern on the surface"),
     "file": StringProperty(
         name="File", subtype="FILE_PATH", options=path_options(), description="SVG or PNG file with the pattern"
     ),
@@ -47,12 +48,47 @@ PROPERTIES = {
 }  # fmt: skip
 LIFT_NAMES = tuple(PROPERTIES)
 SHOWN = tuple(name for name in LIFT_NAMES if name not in ("seams", "hide"))  # in the redo panel
+AUTOMATIC = ("size", "bridge", "height", "rows", "repeats")  # options whose 0 is automatic
+NAMES = 0.4  # of a row's width, as Blender gives to names
 
-LiftProperties: Any = type("LiftProperties", (), {"__annotations__": PROPERTIES})
+
+def switch(option: str, on: bool, name: str, description: str) -> Any:
+    """A switch that is on if an option is 0, or if it is not 0. Blender stores the option alone."""
+
+    def is_on(properties: Any) -> bool:
+        return (getattr(properties, option) != 0) == on
+
+    def turn(properties: Any, to: bool) -> None:
+        value = first_value(option, properties, area_of(properties)) if to == on else 0
+        kind = type(getattr(properties, option))
+        setattr(properties, option, kind(value))
+
+    return BoolProperty(name=name, description=description, get=is_on, set=turn, options={"SKIP_SAVE"})
+
+
+def area_of(properties: Any) -> float:
+    """The area that automatic values follow: of the surface that an operator has used, else of the active object."""
+    if getattr(properties, "area", 0.0):
+        return float(properties.area)
+    obj: Any = bpy.context.active_object
+    if obj is None or obj.type != "MESH":
+        return 1.0
+    areas = np.zeros(len(obj.data.polygons))
+    obj.data.polygons.foreach_get("area", areas)
+    return float(areas.sum()) * abs(obj.matrix_world.determinant()) ** (2 / 3) or 1.0
+
+
+SWITCHES = {
+    "solid": switch("thickness", True, "Solid", "Make a closed solid of a thickness. Off: the surface stays a sheet"),
+    **{f"automatic_{name}": switch(name, False, "Automatic", "The value follows the surface. Off: choose it yourself")
+       for name in AUTOMATIC},
+}  # fmt: skip
+
+LiftProperties: Any = type("LiftProperties", (), {"__annotations__": {**PROPERTIES, **SWITCHES}})
 
 
 class KoebeLiftSettings(LiftProperties, bpy.types.PropertyGroup):
-    """The scene's settings of Lift Pattern, shown in the panel."""
+    """The scene's settings of Patterned Copy, shown in the panel."""
 
 
 def lift_settings_of(context: bpy.types.Context) -> KoebeLiftSettings:
@@ -73,8 +109,30 @@ def draw_lift_options(layout: bpy.types.UILayout, options: Any, names: tuple[str
             continue
         if name == "drawing":
             layout.prop_search(options, name, bpy.data, "objects")
+        elif name in AUTOMATIC:
+            draw_automatic(layout, options, name)
+        elif name == "thickness":
+            layout.prop(options, "solid")
+            if options.thickness:
+                layout.prop(options, name)
         else:
             layout.prop(options, name)
+
+
+def draw_automatic(layout: bpy.types.UILayout, options: Any, name: str) -> None:
+    """Draw an option: the word Automatic, or its value and the button that makes it automatic again."""
+    row = layout.row()
+    row.use_property_split = False
+    split = row.split(factor=NAMES)
+    label = split.row()
+    label.alignment = "RIGHT"
+    label.label(text=OWN[name].blender["label"])
+    value, automatic = split.row(align=True), f"automatic_{name}"
+    if getattr(options, automatic):
+        value.prop(options, automatic, toggle=True)
+    else:
+        value.prop(options, name, text="")
+        value.prop(options, automatic, text="", icon="LOOP_BACK")
 
 
 def lift_choice_of(options: Any) -> LiftChoice:

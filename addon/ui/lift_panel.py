@@ -12,11 +12,11 @@ from .panel_parts import ClosedPanel
 class LiftPanel(ClosedPanel):
     """Patterns on the surface, as holes or a relief, and node groups that bend things onto it."""
 
-    bl_label = "Lift"
+    bl_label = "Pattern on Surface"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), lift_settings_of(context)
-        button = column.operator(OBJECT_OT_koebe_lift.bl_idname, text="Lift Pattern", icon="MOD_LATTICE")
+        button = column.operator(OBJECT_OT_koebe_lift.bl_idname, text="Make Patterned Copy", icon="MOD_LATTICE")
         copy_lift_options(settings, button)
         draw_lift_options(column, settings, LIFT_NAMES)
         row = column.row(align=True)

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import bpy
 
-from ..maps.verdicts import Figure, figures
+from ..maps.verdicts import Figure, figures, is_good
 from ..maps.wording import counted
 from ..operators.select_from_report import (
     UV_OT_koebe_select_cuts,
@@ -54,7 +54,14 @@ def island_icon(entry: KoebeIslandReport) -> Literal["CANCEL", "CHECKMARK", "ERR
     """The icon for good, to be looked at, or not mapped."""
     if not entry.mapped:
         return "CANCEL"
-    return "CHECKMARK" if entry.converged and not entry.flipped and not entry.message else "ERROR"
+    return "CHECKMARK" if is_good(entry) else "ERROR"
+
+
+def shared_coverage(context: bpy.types.Context, entry: KoebeIslandReport) -> float:
+    """How much of the UV square the islands cover that share it with this one."""
+    together = settings_of(context).placement == "together"
+    islands = report_of(context).islands if together else entries_of_object(context)
+    return sum(one.coverage for one in islands if one.shape == entry.shape)
 
 
 class ReportPanel(KoebePanel):
@@ -79,7 +86,7 @@ class ReportPanel(KoebePanel):
         layout.label(text=f"{entry.object_name}{which}", icon=island_icon(entry))
         if entry.mapped:
             column = layout.column(align=True)
-            for figure in figures(entry):
+            for figure in figures(entry, shared_coverage(context, entry)):
                 draw_figure(column, figure)
             draw_selections(layout.column(), entry)
             if entry.uneven:

@@ -1,4 +1,4 @@
-"""Lift Pattern: holes and reliefs on surfaces, as new objects. The original is never changed."""
+"""Patterned Copy: holes and reliefs on surfaces, as new objects. The original is never changed."""
 
 import importlib
 
@@ -30,7 +30,7 @@ def lift(**options):
 def made():
     """The new object, which is selected and active."""
     obj = bpy.context.view_layer.objects.active
-    assert bpy.context.selected_objects == [obj] and " Lift" in obj.name
+    assert bpy.context.selected_objects == [obj] and " Pattern" in obj.name
     return obj
 
 
@@ -60,7 +60,7 @@ def test_circles_are_cut_out_and_the_original_stays(capfd):
     before, names = scenes.mesh_state(obj.data), len(bpy.data.meshes)
     assert lift(pattern="circles") == {"FINISHED"}
     found = made()
-    assert found.name == "Panel Lift" and len(bpy.data.meshes) == names + 1
+    assert found.name == "Panel Pattern" and len(bpy.data.meshes) == names + 1
     assert str(scenes.mesh_state(obj.data)) == str(before)
     holes = len(scenes.boundary_loops(found.data)) - 4
     assert holes > 5 and euler(found.data) == euler(obj.data) - holes
@@ -155,7 +155,7 @@ def test_shapes_of_the_map_and_several_objects():
     panels = [scenes.add_panel("One"), scenes.add_panel("Two")]
     scenes.select(*panels)
     lift()
-    assert {obj.name for obj in bpy.context.selected_objects} == {"One Lift", "Two Lift"}
+    assert {obj.name for obj in bpy.context.selected_objects} == {"One Pattern", "Two Pattern"}
 
 
 def test_parts_of_one_object_are_lifted_each():
@@ -299,7 +299,7 @@ def test_one_failure_stops_no_other(capfd):
     good, bad = scenes.add_panel("Good"), scenes.add_cube("Bad")
     scenes.select(good, bad)
     assert lift() == {"FINISHED"}
-    assert made().name == "Good Lift" and not bad.hide_get()
+    assert made().name == "Good Pattern" and not bad.hide_get()
     assert "left out. Bad: the surface is closed" in capfd.readouterr().out
 
 
@@ -310,7 +310,7 @@ def test_undo_and_redo():
     bpy.ops.ed.undo()
     assert sorted(bpy.data.objects.keys()) == ["Panel"] and not bpy.data.objects["Panel"].hide_get()
     bpy.ops.ed.redo()
-    assert sorted(bpy.data.objects.keys()) == ["Panel", "Panel Lift"]
+    assert sorted(bpy.data.objects.keys()) == ["Panel", "Panel Pattern"]
     del obj
 
 
@@ -325,6 +325,26 @@ def test_a_linked_object_is_lifted_too(tmp_path):
 def test_it_works_in_object_mode_only():
     scenes.select_faces(scenes.add_panel())
     assert not bpy.ops.object.koebe_lift.poll()
+
+
+@pytest.mark.alike
+def test_switches_turn_automatic_values_into_values_near_them():
+    scenes.select(scenes.add_panel())
+    settings = bpy.context.scene.koebe_lift
+    settings.way = "raise"
+    for name in ("size", "bridge", "height", "rows", "repeats"):
+        assert getattr(settings, name) == 0 and getattr(settings, f"automatic_{name}")
+        setattr(settings, f"automatic_{name}", False)
+        assert getattr(settings, name) > 0 and not getattr(settings, f"automatic_{name}")
+    assert settings.bridge == pytest.approx(0.2 * settings.size, rel=0.1)
+    area = sum(face.area for face in bpy.context.object.data.polygons)
+    assert settings.size == pytest.approx(area**0.5 / 12.0, rel=0.05)
+    settings.solid = True
+    assert 0.0 < settings.thickness < settings.size
+    settings.solid = settings.automatic_size = False
+    assert settings.thickness == 0.0 and settings.size > 0.0
+    settings.automatic_size = True
+    assert settings.size == 0.0
 
 
 @pytest.mark.alike

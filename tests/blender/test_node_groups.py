@@ -6,7 +6,7 @@ import pytest
 import scenes
 
 EXACT = 1e-5
-NAMES = ["Koebe Lift", "Koebe Moebius", "Koebe Move Circles", "Koebe Scatter"]
+NAMES = ["Koebe Bend onto Surface", "Koebe Moebius", "Koebe Move Circles", "Koebe Scatter"]
 
 
 def add():
@@ -94,7 +94,7 @@ def test_lifted_points_are_the_solvers(koebe, height):
     uv, place = result.uv[top].reshape(-1, 2), result.vertices[result.triangles[top].ravel()]
     up = np.repeat(result.patch[top], 3) * (height or 0.0)
     flat = scenes.add_object("Flat", np.column_stack([uv, up]), [])
-    put(flat, "Koebe Lift", Surface=surface)
+    put(flat, "Koebe Bend onto Surface", Surface=surface)
     found = shown(flat)
     assert found.shape == place.shape
     assert np.abs(found - place).max() < EXACT
@@ -108,7 +108,7 @@ def test_place_size_and_height_move_and_scale_the_drawing():
     surface.location = (5.0, 0.0, 0.0)
     points = np.array([[0.0, 0.0, 0.0], [1.0, 0.5, 2.0], [9.0, 9.0, 0.0]])
     flat = scenes.add_object("Flat", points, [])
-    modifier = put(flat, "Koebe Lift", Surface=surface, Place=(0.25, 0.5, 0.0), Size=0.5, Height=0.1)
+    modifier = put(flat, "Koebe Bend onto Surface", Surface=surface, Place=(0.25, 0.5, 0.0), Size=0.5, Height=0.1)
     assert np.abs(shown(flat) - [[5.5, 1.0, 0.0], [6.5, 1.5, 0.2]]).max() < EXACT  # and the third is not on it
     give(modifier, "In Proportion", True)
     flat.update_tag()
@@ -189,7 +189,7 @@ def test_groups_come_as_assets_and_go():
 
 
 def test_names_that_are_taken_stay_the_users():
-    own = bpy.data.node_groups.new("Koebe Lift", "GeometryNodeTree")
+    own = bpy.data.node_groups.new("Koebe Bend onto Surface", "GeometryNodeTree")
     assert add() == {"FINISHED"} and len(bpy.data.node_groups) == 5
     assert bpy.ops.node.koebe_remove_groups() == {"FINISHED"}
     assert list(bpy.data.node_groups) == [own]

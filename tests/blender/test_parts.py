@@ -292,6 +292,6 @@ def test_a_group_to_show_that_nobody_has_is_refused():
     obj = MODELS["sphere"]()
     scenes.select(obj)
     state = scenes.mesh_state(obj.data)
-    with pytest.raises(RuntimeError, match="Show is the vertex group 'Nothing', but no object has this group"):
+    with pytest.raises(RuntimeError, match="Avoid is the vertex group 'Nothing', but no object has this group"):
         unwrap(show="Nothing")
     assert scenes.mesh_state(obj.data) == state

@@ -475,7 +475,7 @@ def test_the_report_has_an_entry_for_each_shape():
     assert [entry.layer for entry in found] == ["Koebe Basis", "Koebe Smile", "Koebe Frown"]
     for entry in found:
         assert entry.mapped and entry.converged and entry.flipped == 0 and entry.sweeps > 0 and entry.angle_error > 0
-        assert "3 shapes, 4 loops" in entry.note and "0 flips" in entry.note and len(entry.loops) == 4
+        assert "3 maps, angle error " in entry.note and "0 flips" in entry.note and len(entry.loops) == 4
 
 
 def test_a_cancel_leaves_everything_as_it_was(addon, koebe, monkeypatch):

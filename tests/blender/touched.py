@@ -122,7 +122,7 @@ class Touched:
 
     def _lift(self, owner, what):
         """New data, selected; the original is hidden; the report of an object that cannot be lifted."""
-        added = " Lift" in owner or owner.startswith("names of ") or what.startswith(("selected in ", "hidden in "))
+        added = " Pattern" in owner or owner.startswith("names of ") or what.startswith(("selected in ", "hidden in "))
         shared = owner.startswith("material ") and what == "users" or owner == "file" and what.endswith(" active")
         return added or shared or what == "hide_render" or (owner, what) == ("file", "report")
 

@@ -1,8 +1,8 @@
-"""Lift Pattern in the window: from the panel, with Esc, and again in the redo panel."""
+"""Patterned Copy in the window: from the panel, with Esc, and again in the redo panel."""
 
 from test_escape import escape
 
-LIFTED = "[obj.name for obj in bpy.context.scene.objects if obj.name.endswith('Lift')]"
+LIFTED = "[obj.name for obj in bpy.context.scene.objects if obj.name.endswith('Pattern')]"
 SETTINGS = "settings = bpy.context.scene.koebe_lift\n"
 
 
@@ -14,7 +14,7 @@ def test_a_pattern_is_lifted_from_the_panel(window, open_sample):
     window.click(*window.find_button("VIEW_3D", "koebe_lift"))
     window.wait(f"{LIFTED} != []", 240.0)
     window.settle()
-    assert window.ask(LIFTED) == [f"{name} Lift"]
+    assert window.ask(LIFTED) == [f"{name} Pattern"]
     window.move(*window.middle("VIEW_3D"))
     window.run("for obj in bpy.context.scene.objects: obj.select_set(False)")
     window.settle()

@@ -30,11 +30,18 @@ def test_warnings_of_a_kind_are_one_sentence_with_all_their_elements(addon):
     assert [one.get("elements") for one in said] == [[3, 5, 7], None, None, None]
     assert said[0]["text"].startswith("3 faces are connected by ") and said[0]["of"] == "faces"
     assert said[1]["text"].startswith("1 boundary is too small ") and "of" not in said[1]
+    assert said[1]["text"].endswith(" near it")
     assert said[2]["text"] == "as the solver says it"
     assert " no effect on the whole map, " in said[3]["text"]
 
 
-GOOD = {"density": 2.0, "coverage": 0.7, "angle_error": 1.0, "flipped": 0, "parts": 0, "domain": "", "even": 0.0}
+def test_faces_that_a_cut_has_loosened_are_not_the_meshs_fault(addon):
+    (said,) = addon("maps.warning_words").in_words([warning("flaps", 7, 3)], is_cut=True)
+    assert said["text"].startswith("2 faces beside a cut are connected ") and "Delete" not in said["text"]
+
+
+GOOD = {"density": 2.0, "coverage": 0.7, "angle_error": 1.0, "flipped": 0, "parts": 0, "domain": "", "even": 0.0,
+        "converged": True, "message": ""}  # fmt: skip
 
 
 def test_a_good_map_asks_for_nothing(addon):
@@ -42,6 +49,7 @@ def test_a_good_map_asks_for_nothing(addon):
     assert [(figure.name, figure.value) for figure in found] == [
         ("Evenness", "1 : 2.0"), ("Coverage", "70 %"), ("Angle error", "1.00°"), ("Flips", "none")]  # fmt: skip
     assert all(figure.is_good for figure in found)
+    assert addon("maps.verdicts").is_good(SimpleNamespace(**GOOD))
 
 
 @pytest.mark.parametrize("bad, name, advice", [
@@ -51,7 +59,8 @@ def test_a_good_map_asks_for_nothing(addon):
     ({"density": 50.0, "domain": "sphere"}, "Evenness", "always has uneven texels"),
     ({"density": 5e6}, "Evenness", "Shape: Parts"),
     ({"coverage": 0.1}, "Coverage", "Pack Islands"),
-    ({"angle_error": 9.0}, "Angle error", "subdivide"),
+    ({"angle_error": 9.0}, "Angle error", "subdivide large faces, or choose Shape: Parts"),
+    ({"angle_error": 9.0, "parts": 3}, "Angle error", "slider Parts"),
     ({"angle_error": 9.0, "even": 0.5}, "Angle error", "lower Even"),
     ({"flipped": 3}, "Flips", "choose Shape: Parts"),
     ({"flipped": 3, "parts": 3}, "Flips", "repair"),
@@ -60,6 +69,12 @@ def test_what_is_bad_comes_with_what_to_do(addon, bad, name, advice):
     found = addon("maps.verdicts").figures(SimpleNamespace(**{**GOOD, **bad}))
     assert [figure.name for figure in found if not figure.is_good] == [name]
     assert advice in next(figure.advice for figure in found if figure.name == name)
+    assert addon("maps.verdicts").is_good(SimpleNamespace(**{**GOOD, **bad})) == (name == "Coverage")
+
+
+def test_islands_that_share_the_square_are_judged_by_what_they_cover_together(addon):
+    found = addon("maps.verdicts").figures(SimpleNamespace(**{**GOOD, "coverage": 0.02}), 0.66)
+    assert [(figure.value, figure.is_good) for figure in found if figure.name == "Coverage"] == [("66 %", True)]
 
 
 def test_figures_that_a_map_has_not_are_left_out(addon):
