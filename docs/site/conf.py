@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = sorted((ROOT / "scripts" / "site").glob("*.py"))
 sys.path[:0] = [str(ROOT / "scripts" / "site"), str(ROOT / "build" / "python")]
 
 import docstrings  # noqa: E402
@@ -55,7 +56,8 @@ html_theme_options = {
 def write_docstring(app, what, name, obj, options, lines):
     """Brings a docstring of the package into the markup of the site."""
     if name.startswith("koebe."):
-        lines[:] = docstrings.converted(list(lines), what == "class", python_pages.PUBLIC)
+        results = python_pages.results(obj) if what == "function" else []
+        lines[:] = docstrings.converted(list(lines), what == "class", python_pages.PUBLIC, results)
 
 
 def hide_arguments(app, what, name, obj, options, signature, returned):
@@ -66,5 +68,6 @@ def hide_arguments(app, what, name, obj, options, signature, returned):
 
 
 def setup(app):
+    app.add_config_value("site_scripts", b"".join(path.read_bytes() for path in SCRIPTS), "env")  # reads all again
     app.connect("autodoc-process-docstring", write_docstring)
     app.connect("autodoc-process-signature", hide_arguments)

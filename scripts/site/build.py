@@ -34,7 +34,19 @@ def write(folder, texts, files):
 
 def fail(faults):
     if faults:
-        raise SystemExit("\n".join([*faults, f"make docs: {len(faults)} faults"]))
+        raise SystemExit("\n".join([*faults, f"make docs: faults: {len(faults)}"]))
+
+
+def run_sphinx(source, html, kept):
+    """Runs Sphinx. After a fault it knows again what it knew before, so that it reads the pages at fault once more."""
+    memory = kept / "environment.pickle"
+    before = memory.read_bytes() if memory.is_file() else None
+    if build_main(["-q", "-W", "-c", str(SITE), "-d", str(kept), str(source), str(html)]) != 0:
+        if before is None:
+            shutil.rmtree(kept, ignore_errors=True)
+        else:
+            memory.write_bytes(before)
+        fail(["Sphinx warned: see above"])
 
 
 def main():
@@ -45,11 +57,8 @@ def main():
          + cpp_pages.faults(folder / "doxygen"))  # fmt: skip
     texts = {**pages.texts(), **python_pages.pages(), **command_pages.pages(), **cpp_pages.pages(folder / "doxygen")}
     write(folder / "source", {**texts, **blender_pages.pages(found)}, pages.files())
-    # What Sphinx knows of unchanged pages holds no warnings: after a fault all are read again.
-    kept, html = folder / "doctrees", folder / "html"
-    if build_main(["-q", "-W", "-c", str(SITE), "-d", str(kept), str(folder / "source"), str(html)]) != 0:
-        shutil.rmtree(kept, ignore_errors=True)
-        fail(["Sphinx warned: see above"])
+    html = folder / "html"
+    run_sphinx(folder / "source", html, folder / "doctrees")
     fail(links.dead(html))
     print(f"{len(list(html.rglob('*.html')))} pages: {html / 'index.html'}")
 

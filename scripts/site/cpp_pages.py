@@ -3,7 +3,9 @@
 The public headers are koebe.h, the headers that it includes, and theirs, as native/package/CMakeLists.txt copies them.
 """
 
+import hashlib
 import re
+import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -55,11 +57,17 @@ def subject(name):
 
 
 def doxygen(folder):
-    """Doxygen's XML of the public headers, in folder/xml."""
-    folder.mkdir(parents=True, exist_ok=True)
-    inputs = " ".join(f'"{NATIVE / name}"' for name in headers())
-    settings = f"INPUT={inputs}\nOUTPUT_DIRECTORY={folder}\nSTRIP_FROM_PATH={NATIVE}\n{SETTINGS}"
-    settings += f"INPUT_FILTER=sed -E -f {FILTER}\n"
+    """Doxygen's XML of the public headers, in folder/xml. It stays while they stay: Sphinx goes by the files' times."""
+    inputs = [NATIVE / name for name in headers()]
+    settings = f"OUTPUT_DIRECTORY={folder}\nSTRIP_FROM_PATH={NATIVE}\n{SETTINGS}INPUT_FILTER=sed -E -f {FILTER}\n"
+    settings += "INPUT=" + " ".join(f'"{path}"' for path in inputs) + "\n"
+    digest, stamp = hashlib.sha256(settings.encode()), folder / "inputs.sha256"
+    for path in (FILTER, Path(__file__), *inputs):
+        digest.update(path.read_bytes())
+    if stamp.is_file() and stamp.read_text() == digest.hexdigest():
+        return
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
     subprocess.run(["doxygen", "-"], input=settings, text=True, check=True)
     for path in sorted((folder / "xml").glob("struct*.xml")):  # each_option serves the bindings alone
         tree = ElementTree.parse(path)
@@ -68,6 +76,7 @@ def doxygen(folder):
                 if member.findtext("name") == "each_option":
                     section.remove(member)
         tree.write(path, encoding="utf-8", xml_declaration=True)
+    stamp.write_text(digest.hexdigest())
 
 
 def said(node):

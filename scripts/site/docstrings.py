@@ -20,7 +20,7 @@ def linked(text, public):
     said = "|".join(sorted(map(re.escape, public - WORDS), key=len, reverse=True))
     marks = re.compile(
         rf"``(?P<literal>[^`]+)``|`(?P<code>[^`]+)`|(?P<page>docs/\w+\.md)"
-        rf"|(?<![\w.'])(?:koebe\.)?(?P<name>{said})(?![\w'])|(?<![\w'])(?P<word>'[\w .|-]{{1,24}}')(?![\w'])"
+        rf"|koebe\.(?P<full>\w+)|(?<![\w.'])(?P<name>{said})(?![\w'])|(?<![\w'])(?P<word>'[\w .|-]{{1,24}}')(?![\w'])"
     )
     made, at = "", 0
 
@@ -34,10 +34,10 @@ def linked(text, public):
         at = found.end()
         if page := found["page"]:
             add(f":doc:`/{page[5:-3]}`")
-        elif (name := found["name"] or (found["code"] or "").removeprefix("koebe.")) in public:
+        elif (name := found["name"] or found["full"] or (found["code"] or "").removeprefix("koebe.")) in public:
             add(f":py:obj:`~koebe.{name}`")
         else:
-            add(f"``{found['literal'] or found['code'] or found['word']}``")
+            add(f"``{found['literal'] or found['code'] or found['word'] or found[0]}``")
     return made + escaped(text[at:])
 
 
@@ -63,10 +63,18 @@ def parts(lines):
     return [one for one in found if one[2]]
 
 
-def converted(lines, of_class, public):
+def with_results(found, results):
+    """The parts with a row for the classes of the results, after the arguments."""
+    rows = [place for place, one in enumerate(found) if one[0] == "row"]
+    place = rows[-1] + 1 if rows else 1
+    text = ", or ".join(f"`{name}`" for name in results)
+    return [*found[:place], ("row", "Returns", [text]), *found[place:]] if results else found
+
+
+def converted(lines, of_class, public, results=()):
     """The lines of a docstring in reStructuredText."""
     made, before = [], ""
-    for kind, names, text in parts(lines):
+    for kind, names, text in with_results(parts(lines), results):
         if kind == "example":
             made += ["", *([] if before == "example" else [".. rubric:: Example", ""]), *text]
         elif kind == "text":

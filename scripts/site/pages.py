@@ -7,6 +7,8 @@ ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "docs" / "site"
 PROJECT = ("CHANGELOG.md", "CONTRIBUTING.md", "THIRD_PARTY.md")
 LINK = re.compile(r"(\]\()(?!https?:|#)([^)\s]+)(\))")
+FILE_NAME = re.compile(r"\[(?:docs/)?(\w+)\.(?:md|ipynb)\](\(\1\.)")
+CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
 PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
 CODE = {"main.cpp", "CMakeLists.txt"}
 
@@ -17,8 +19,10 @@ def documents():
 
 
 def flat(text, prefix):
-    """The text with its links as they are where all pages lie side by side."""
-    return LINK.sub(lambda link: link[1] + link[2].removeprefix(prefix) + link[3], text)
+    """The text with its links as they are where all pages lie side by side. A link named by its file gets a name."""
+    titles = dict(contents())
+    text = LINK.sub(lambda link: link[1] + link[2].removeprefix(prefix) + link[3], text)
+    return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
 
 
 def linked_files(text):
@@ -28,16 +32,16 @@ def linked_files(text):
 
 
 def contents():
-    """The names of the pages in the site's lists."""
+    """The pages in the site's lists: pairs of a name and a title, which may be empty."""
     text = (SITE / "contents.md").read_text(encoding="utf-8")
-    return [one or other for one, other in re.findall(r"<([\w/]+)>$|^(?!:)([\w/]+)$", text, re.MULTILINE)]
+    return [(name or bare, title) for title, name, bare in CONTENT.findall(text)]
 
 
 def gallery():
     """All pictures of the pages, in the order of the contents, each with its text and a link to its page."""
     made = "# Gallery\n\nEach picture leads to the page that explains it.\n\n:::::{container} gallery\n"
     shown = set()
-    for name in contents():
+    for name, _ in contents():
         page = ROOT / "docs" / f"{name}.md"
         if not page.is_file():
             continue

@@ -87,6 +87,12 @@ def text_of(name):
     return one.__dict__.get("__doc__") if inspect.isclass(one) else one.__doc__
 
 
+def results(function):
+    """The public classes that a function returns."""
+    said = inspect.signature(function).return_annotation
+    return [one.__name__ for one in typing.get_args(said) or [said] if getattr(one, "__name__", None) in PUBLIC]
+
+
 def comment_of(name):
     """The comment above a constant."""
     found = re.search(rf"((?:^# .*\n)+){name}\b", inspect.getsource(_result), re.MULTILINE)

@@ -29,7 +29,7 @@ FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
 
 
 def test_every_page_is_in_one_list():
-    entries = pages.contents()
+    entries = [name for name, _ in pages.contents()]
     written = {name.rpartition(".")[0] for name in {**pages.texts(), **python_pages.pages(), **command_pages.pages()}}
     top = {name for name in written if "/" not in name} - {"index"}
     top |= {f"reference/{room}/index" for room in ("python", "command", "blender", "cpp")}
@@ -96,6 +96,13 @@ def test_operators_without_a_description_are_seen():
     assert blender_pages.faults(found) == [
         "bpy.ops.uv.b has no description", "bpy.ops.uv.a: even has no description",
     ]  # fmt: skip
+
+
+def test_a_link_that_is_named_by_its_file_gets_the_title_of_the_contents():
+    text = "[parts.md](parts.md#darts), [here](parts.md), [docs/lift.md](docs/lift.md), [t](../THIRD_PARTY.md)"
+    assert pages.flat(text, "docs/") == (
+        "[Parts](parts.md#darts), [here](parts.md), [Patterns on surfaces](lift.md), [t](../THIRD_PARTY.md)"
+    )
 
 
 def test_a_docstring_becomes_definitions_links_and_an_example():
