@@ -120,7 +120,7 @@ def dictionary(kind):
     """The entry of a dictionary of a report."""
     hints = typing.get_type_hints(kind)
     rows = "".join(f"- ``{name}``: {escaped(getattr(hint, '__name__', str(hint)))}\n" for name, hint in hints.items())
-    return title(kind.__name__, "-") + linked(" ".join(kind.__doc__.split()), PUBLIC) + "\n\n" + rows + "\n"
+    return title(kind.__name__, "^") + linked(" ".join(kind.__doc__.split()), PUBLIC) + "\n\n" + rows + "\n"
 
 
 def pages():
@@ -143,7 +143,7 @@ def pages():
             text = title(page if page not in ("errors", "reports") else page.capitalize())
             text += ".. py:currentmodule:: koebe\n\n" + "".join(map(entry, entries))
             if page == "reports":
-                text += "".join(map(dictionary, ENTRIES))
+                text += title("Dictionaries in reports", "-") + "".join(map(dictionary, ENTRIES))
             made[f"reference/python/{page}.rst"] = text
     made["reference/python/index.rst"] = index
     return made
