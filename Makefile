@@ -14,6 +14,8 @@ LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
 LABS := pytest==9.2.0 numpy==2.4.6 scikit-learn==1.9.1 scipy==1.17.1 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 \
         distributed==2026.8.0 nibabel==5.4.2 nbclient==0.11.0 ipykernel==7.4.0 \
         nilearn==0.14.1 pygeodesic==0.1.11
+# What the site is built with.
+SITE := sphinx==9.0.4 furo==2025.12.19 myst-nb==1.4.0 breathe==5.1.0 sphinx-copybutton==0.5.2 numpy==2.4.6
 # What ours is compared with, and what draws it.
 COMPARED := bpy==5.0.1 xatlas==0.0.11 matplotlib==3.11.2
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...
@@ -39,7 +41,7 @@ ifndef AT_ONCE
 endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
-.PHONY: help build native programs wheel package dist matrix lint lint-python lint-native check check-native check-form \
+.PHONY: help build native programs wheel package dist matrix docs lint lint-python lint-native check check-native check-form \
         test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
@@ -95,6 +97,14 @@ build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install
 	$(@D)/bin/pip install --quiet build 'scikit-build-core>=0.10' 'auditwheel>=6.1' 'delvewheel>=1.10'
 	@touch $@
 
+# Sphinx reads again what has changed. Undocumented names, warnings and dead links end it.
+docs: native build/docs/operators.json build/venv-docs/.done $(DONE)/install-docs ## the site: build/docs/html/
+	PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=build/python build/venv-docs/bin/python scripts/site/build.py build/docs
+
+build/docs/operators.json: scripts/site/blender_names.py $(ADDON_SOURCES) native/options/options.json | $(DONE)/install-blender
+	@mkdir -p $(@D)
+	scripts/in_own_home.sh $(BLENDER) scripts/site/blender_names.py $@ >$(@D)/blender.log || { cat $(@D)/blender.log; exit 1; }
+
 # ---------------------------------------------------------------- tests
 
 # Three runners at once: each uses half of a core, as it waits for processes that it starts. Each runs, whatever became of
@@ -107,7 +117,7 @@ test: build test-tools ## what a user could hit: native, Python, labs, and the i
 
 test-tools: programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done)
 
-test-all: lint test test-long test-fuzz $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, and all tests in each bpy that add-ons still meet
+test-all: lint test test-long test-fuzz docs $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, the site, and all tests in each bpy that add-ons still meet
 
 # The native tests whole; of the others those that are not marked slow.
 check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
@@ -255,6 +265,11 @@ build/venv-lint/.done: Makefile | $(DONE)/install-build
 build/venv-labs/.done: Makefile | $(DONE)/install-build
 	/usr/bin/python3 -m venv --clear $(@D)
 	$(@D)/bin/pip install --quiet --no-compile $(LABS)
+	@touch $@
+
+build/venv-docs/.done: Makefile | $(DONE)/install-build
+	/usr/bin/python3 -m venv --clear $(@D)
+	$(@D)/bin/pip install --quiet $(SITE)
 	@touch $@
 
 build/venv-compare/.done: Makefile | $(DONE)/install-build $(DONE)/install-blender

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Install the Debian packages that are missing.
-# Usage: scripts/install.sh build|blender|bench|gui|fuzz|farms ...       LIST=1 prints the names and installs nothing.
+# Usage: scripts/install.sh build|blender|bench|docs|gui|fuzz|farms ...       LIST=1 prints the names and installs nothing.
 set -euo pipefail
 
 declare -A groups=(
@@ -11,6 +11,8 @@ declare -A groups=(
         python3-dev python3-venv python3-numpy python3-pytest python3-hypothesis ca-certificates"
     # what `make bench` compares with
     [bench]="libopenblas-pthread-dev"
+    # what reads the headers for `make docs`
+    [docs]="doxygen"
     # what scripts/fetch_sources.sh fetches with
     [dist]="dpkg-dev maven default-jre-headless"
     # the form of C++, and what can be said of it without running it

@@ -30,7 +30,9 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
     bl_label = "Koebe Distortion"
     bl_options = {"REGISTER", "UNDO"}
 
-    kind: bpy.props.EnumProperty(name="Distortion", items=KINDS, default=distortion.ANGLE)
+    kind: bpy.props.EnumProperty(
+        name="Distortion", items=KINDS, default=distortion.ANGLE, description="Quantity that the colours show"
+    )
     layer: bpy.props.StringProperty(name="UV Layer", default="Koebe", description="UV layer to judge")
 
     @classmethod

@@ -64,10 +64,21 @@ void bind_uniformize(py::module_& m)
         .value("reflected-last", Metric::reflected_last);
     py::enum_<Partners>(m, "Partners").value("fixed", Partners::fixed).value("changing", Partners::changing);
 
-    py::class_<CancelToken>(m, "CancelToken", "A flag that any thread may raise to stop a computation.")
+    py::class_<CancelToken>(m, "CancelToken", R"(A flag that any thread may raise to stop a computation.
+
+Give it to a function as `cancel`. The call ends with Cancelled, within a fraction of a second.
+
+>>> import koebe
+>>> token = koebe.CancelToken()
+>>> token.cancel()  # from any thread
+>>> koebe.uniformize("blend_samples/face.obj", cancel=token)
+Traceback (most recent call last):
+...
+koebe.errors.Cancelled: ...
+)")
         .def(py::init<>())
-        .def("cancel", &CancelToken::cancel)
-        .def_property_readonly("cancelled", &CancelToken::cancelled);
+        .def("cancel", &CancelToken::cancel, "Raise the flag. It stays raised.")
+        .def_property_readonly("cancelled", &CancelToken::cancelled, "Whether the flag is raised.");
 
     bind_options<KoebeMeshOptions>(m, "KoebeMeshOptions");
     bind_options<UniformizeOptions>(m, "UniformizeOptions")

@@ -1,6 +1,8 @@
 """Pictures of a result."""
 
+import doctest
 import sys
+from pathlib import Path
 
 import koebe
 import numpy as np
@@ -36,3 +38,9 @@ def test_matplotlib_is_loaded_by_no_one_else():
 
     done = subprocess.run([sys.executable, "-c", "import koebe, sys; sys.exit('matplotlib' in sys.modules)"])
     assert done.returncode == 0
+
+
+def test_the_example_of_the_docstring_runs(monkeypatch):
+    monkeypatch.chdir(Path(__file__).resolve().parents[2])
+    (found,) = doctest.DocTestFinder(recurse=False).find(koebe.plot, "plot", module=False, globs={})
+    assert found.examples and doctest.DocTestRunner().run(found).failed == 0

@@ -48,6 +48,12 @@ def batch(
     warnings (their number), output, input_sha256, options, version. Any number of calls may share one output folder;
     each file is done once. Raises OptionError for a wrong call, Cancelled if another program ended the command, and
     KoebeError if the output folder cannot be written.
+
+    >>> import koebe, tempfile
+    >>> folder = tempfile.mkdtemp()
+    >>> rows = koebe.batch(["blend_samples/face.obj", "docs/link.obj"], folder, cut=True)
+    >>> [(row["name"], row["exit_code"]) for row in rows]
+    [('face.obj', 0), ('link.obj', 0)]
     """
     if isinstance(files, str | os.PathLike):
         files = [files]

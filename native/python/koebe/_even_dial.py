@@ -18,6 +18,14 @@ class EvenDial:
     uv      (V, 2) the map at first, one to one: for example the UVs of one island
     round   boundary loops that lie on circles stay on circles
     Raises InputError (for faces that are turned over, too), or TopologyError.
+
+    >>> import koebe
+    >>> result = koebe.uniformize("blend_samples/face.obj")
+    >>> dial = koebe.EvenDial("blend_samples/face.obj", uv=result.uv)
+    >>> before = koebe.distortion("blend_samples/face.obj", uv=dial.uv)["area_distortion"]["log_sd"]
+    >>> uv = dial.move(0.5)
+    >>> koebe.distortion("blend_samples/face.obj", uv=uv)["area_distortion"]["log_sd"] < before
+    True
     """
 
     def __init__(self, vertices: Any, triangles: Any = None, *, uv: Any, round: bool = True) -> None:

@@ -82,6 +82,15 @@ def family(
     error       also compute error bars of the modules (module_error), which maps a finer mesh for each
     module_distance takes the best order for its two shapes, so three such distances need not obey the triangle
     inequality; the distances of a family do. Raises InputError, also for circles that are not the surface's own.
+
+    >>> import koebe
+    >>> faces = [koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised")]
+    >>> found = koebe.family(faces, labels=["face", "surprised"])
+    >>> found.columns
+    ['r_1', 'y_2', 'r_2', 'x_3', 'y_3', 'r_3']
+    >>> found.distances.round(2)
+    array([[0.  , 0.06],
+           [0.06, 0.  ]])
     """
     shapes = list(results)
     if not shapes:

@@ -8,12 +8,24 @@ from ._arrays import as_points
 
 
 def disk_to_uv(points: Any) -> np.ndarray:
-    """UVs (n, 2) in [0, 1]^2 of points (n, 2) of the unit disk: u = (1 + x) / 2, v = (1 + y) / 2."""
+    """UVs (n, 2) in [0, 1]^2 of points (n, 2) of the unit disk: u = (1 + x) / 2, v = (1 + y) / 2.
+
+    >>> import koebe
+    >>> koebe.disk_to_uv([[0, 0], [1, 0]])
+    array([[0.5, 0.5],
+           [1. , 0.5]])
+    """
     return 0.5 * (1.0 + as_points(points, "points", 2))
 
 
 def uv_to_disk(uv: Any) -> np.ndarray:
-    """Points (n, 2) of the unit disk at UVs (n, 2): the inverse of disk_to_uv. The disk of radius 1 is UVs' 1/2."""
+    """Points (n, 2) of the unit disk at UVs (n, 2): the inverse of disk_to_uv. The disk of radius 1 is UVs' 1/2.
+
+    >>> import koebe
+    >>> koebe.uv_to_disk([[0.5, 0.5], [1, 0.5]])
+    array([[0., 0.],
+           [1., 0.]])
+    """
     return 2.0 * as_points(uv, "uv", 2) - 1.0
 
 

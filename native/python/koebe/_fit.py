@@ -118,6 +118,12 @@ def fit_circles(
     progress, cancel    as for `uniformize`
     Raises InputError for a template that no surface fits (circles that meet or leave the disk) or not this one,
     SolverError if no one-to-one map was found, with the circles as `elements`, and the errors of `uniformize`.
+
+    >>> import koebe
+    >>> centers, radii = [[-0.3, 0.2], [0.3, 0.2], [0, -0.4]], [0.15, 0.15, 0.1]
+    >>> result = koebe.fit_circles("blend_samples/face.obj", centers, radii)
+    >>> print(result.radii, result.flipped, bool(result.mu.max() < 1))
+    [1.   0.15 0.15 0.1 ] 0 True
     """
     names, pins, fixed = given.pop("names"), given.pop("pins"), given.pop("fixed")
     extremal = flag(given.pop("extremal"), "extremal")

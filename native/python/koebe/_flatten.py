@@ -76,6 +76,11 @@ def flatten(vertices: Any, triangles: Any = None, **given: "Unpack[FlattenOption
     Each piece is as true to size as it can be, as with even=1 and loops='free' of `parts`; no piece overlaps itself or
     another. Write the drawing with, for example, Path('pattern.svg').write_text(result.svg[0], 'utf-8').
     Raises InputError (OptionError for an option), SolverError, Cancelled, or MemoryError.
+
+    >>> import koebe
+    >>> pattern = koebe.flatten("docs/link.obj", units="cm", page="A2")
+    >>> print(len(pattern.pieces), "piece,", pattern.pages, "page,", "<svg" in pattern.svg[0])
+    1 piece, 1 page, True
     """
     surface, options = (vertices, triangles), _koebe.FlattenOptions()
     return domain_map(FlattenResult, _koebe.flatten, "flatten", options, given, surface, degenerate=True)

@@ -18,6 +18,11 @@ def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -
     bounding box's diagonal. A plane that holds most of the surface does not count. The image of an unused vertex is -1.
 
     polygon      (F,) integers: triangles of one number are one polygon, and their diagonals do not count
+
+    >>> import koebe
+    >>> image = koebe.mirror_image("docs/link.obj")
+    >>> bool((image[image] == range(len(image))).all())  # the image of the image is the vertex itself
+    True
     """
     source = surface_of(vertices, triangles)
     found = _koebe.mirror_image(source.vertices, source.triangles, polygons_of(polygon, source))
@@ -29,6 +34,11 @@ def pack_disks(radii: Any, margin: float = 0.02) -> tuple[np.ndarray, np.ndarray
 
     margin       between two disks, half of it at the border; less for many disks, so that they have room
     One disk fills the square. Raises InputError for radii that are not positive.
+
+    >>> import koebe
+    >>> centers, radii = koebe.pack_disks([3, 2, 1])
+    >>> (radii / radii[2]).round(9)
+    array([3., 2., 1.])
     """
     sizes = np.asarray(radii, dtype=np.float64)
     if sizes.ndim != 1 or not 0.0 <= margin < 0.5:
@@ -40,6 +50,11 @@ def fit_circle(points: Any) -> tuple[np.ndarray, float, float]:
     """Centre (2,) and radius of the circle of least squared distance to points (n, 2), and the largest distance.
 
     Points on a line, or on less than an eighth of a turn, get the circle round their mean.
+
+    >>> import koebe
+    >>> center, radius, off = koebe.fit_circle([[1, 0], [0, 1], [-1, 0]])
+    >>> round(radius, 9)
+    1.0
     """
     center, radius, off = _koebe.fit_circle(as_points(points, "points", 2))
     return np.array([center.real, center.imag]), radius, off

@@ -92,6 +92,11 @@ def lift(
     Raises InputError (OptionError for an option), FileError for a file that cannot be read, TopologyError, SolverError,
     Cancelled, or MemoryError. Where it returns, each outline that is not left out has become one hole or one hill, no
     face is flipped, and a solid is closed.
+
+    >>> import koebe
+    >>> sheet = koebe.lift("blend_samples/face.obj", pattern="circles", perforate=True)
+    >>> sheet.loops["after"] == sheet.loops["before"] + sheet.outlines
+    True
     """
     options, said = filled("lift", _koebe.LiftOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")

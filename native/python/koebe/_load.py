@@ -20,6 +20,13 @@ def load(path: str | os.PathLike[str]) -> Any:
     """Read a result written by `save`, as its class: UniformizeResult, CutResult, PartsResult, SphereMap, ...
 
     Raises InputError for a file that is not a result, OSError for one that cannot be read.
+
+    >>> import koebe, os, tempfile
+    >>> result = koebe.uniformize("blend_samples/face.obj")
+    >>> path = os.path.join(tempfile.mkdtemp(), "face.npz")
+    >>> result.save(path)
+    >>> bool((koebe.load(path).uv == result.uv).all())
+    True
     """
     try:
         with np.load(path, allow_pickle=False) as file:

@@ -81,6 +81,11 @@ def open_surface(
     progress, cancel    as for `uniformize`
     Handles are cut along short loops of a greedy homology basis [Erickson and Whittlesey 2005], a closed surface is
     opened along a shortest path between vertices far apart. Raises InputError, Cancelled, or MemoryError.
+
+    >>> import koebe
+    >>> opened = koebe.open_surface("docs/link.obj")  # a closed surface with a handle
+    >>> [cut.kind for cut in opened.cuts], [len(piece.triangles) for piece in opened.pieces]
+    (['handle', 'opening'], [1024])
     """
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
     source = surface_of(vertices, triangles, degenerate=True)

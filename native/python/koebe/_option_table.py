@@ -52,7 +52,7 @@ class Row:
             parts.append(f"{self.given}: {self.default}")
         prefix = "with engine='mesh': " if self.of_mesh_engine else ""
         return textwrap.fill(
-            f"{self.name:<{_BULLET - 1}} {prefix}{'. '.join(parts)}", 116, subsequent_indent=" " * _BULLET
+            f"{self.name:<{_BULLET - 2}}  {prefix}{'. '.join(parts)}", 116, subsequent_indent=" " * _BULLET
         )
 
 

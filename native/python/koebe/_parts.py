@@ -99,6 +99,13 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
                  None: along a short, straight path
     progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
+
+    >>> import koebe
+    >>> result = koebe.parts("docs/link.obj")
+    >>> [part["kind"] for part in result.parts]
+    ['tube']
+    >>> print(result.uv.shape, result.flipped, bool(result.density_ratio_5_95 < 1.2))
+    (1024, 3, 2) 0 True
     """
     options, said = filled("parts", _koebe.PartsOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")

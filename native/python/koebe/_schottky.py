@@ -78,6 +78,11 @@ def schottky_map(vertices: Any, triangles: Any = None, **given: "Unpack[Schottky
     progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: no handle, or cuts that touch each other),
     SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning tells why.
+
+    >>> import koebe
+    >>> result = koebe.schottky_map("docs/link.obj")
+    >>> print(len(result.handles), result.flipped, bool(abs(result.multipliers[0]) < 1))
+    1 0 True
     """
     options = _koebe.SchottkyOptions()
     return domain_map(SchottkyMap, _koebe.schottky_map, "schottky", options, given, (vertices, triangles))

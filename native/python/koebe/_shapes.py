@@ -28,6 +28,10 @@ def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
     The loops are sorted by conformal distance from the outer loop. The order jumps where two loops are alike, so
     compare shapes by module_distance of two results, or give the order yourself.
     any_outer: the outer loop is chosen, too.
+
+    >>> import koebe
+    >>> koebe.canonical_order(koebe.uniformize("blend_samples/face.obj")).tolist()  # rim, mouth, eyes
+    [0, 1, 3, 2]
     """
     return np.array(_koebe.canonical_order(*as_circles(result), flag(any_outer, "any_outer")), dtype=np.int32)
 
@@ -41,6 +45,11 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -
     3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, 0 without holes: lengths in the unit disk. They are equal
     if and only if a conformal map that keeps orientation and numbering takes one surface to the other. Raises
     InputError, also if circles are not the iteration's, as the mesh is too coarse for them.
+
+    >>> import koebe
+    >>> result = koebe.uniformize("blend_samples/face.obj")
+    >>> dict(zip(koebe.module_names(4), koebe.conformal_module(result).round(1).tolist()))
+    {'r_1': 0.2, 'y_2': 0.6, 'r_2': 0.1, 'x_3': -0.4, 'y_3': 0.4, 'r_3': 0.1}
     """
     _require_own_circles(result)
     return _koebe.conformal_module(*as_circles(result), _chosen_order(result, order))
@@ -54,6 +63,11 @@ def module_error(result: UniformizeResult, *, order: Sequence[int] | str | None 
     changes. On exact domains 97 % of the errors lie within the bars, and half of the bars are less than 5 times the
     error (docs/shapes.md). Takes about 5 times as long as the map, once for each result.
     Raises InputError if circles are not the surface's own, SolverError.
+
+    >>> import koebe
+    >>> bars = koebe.module_error(koebe.uniformize("blend_samples/face.obj"))
+    >>> bool((bars > 0).all() and (bars < 0.01).all())
+    True
     """
     if not isinstance(result, UniformizeResult):
         raise TypeError(f"module_error takes a result of uniformize, not {type(result).__name__}")
@@ -90,7 +104,12 @@ def _chosen_order(result: Any, order: Sequence[int] | str | None) -> np.ndarray:
 
 
 def module_names(loop_count: int) -> list[str]:
-    """The names of the module's numbers: ['r_1', 'y_2', 'r_2', ...]."""
+    """The names of the module's numbers: ['r_1', 'y_2', 'r_2', ...].
+
+    >>> import koebe
+    >>> koebe.module_names(4)
+    ['r_1', 'y_2', 'r_2', 'x_3', 'y_3', 'r_3']
+    """
     return _koebe.module_names(whole(loop_count, "loop_count", least=0))
 
 
@@ -100,6 +119,12 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False) -> tuple[np.ndarray,
     Returns an order of a's loops and one of b's in which corresponding loops stand at the same place, outer ones
     first, and the distance of the modules in these orders. It is symmetric, and 0 only for equal shapes. any_outer:
     the outer loop of one may correspond to a hole of the other. Raises InputError for different numbers of loops.
+
+    >>> import koebe
+    >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
+    >>> order, partners, distance = koebe.match_loops(face, other)
+    >>> print(order, partners, f"{distance:.2f}")
+    [0 1 2 3] [0 1 2 3] 0.06
     """
     _require_own_circles(a)
     _require_own_circles(b)
@@ -109,7 +134,13 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False) -> tuple[np.ndarray,
 
 def module_distance(a: Any, b: Any) -> float:
     """L2 distance of two conformal modules, a length in the unit disk. Two results are compared in the orders of
-    match_loops."""
+    match_loops.
+
+    >>> import koebe
+    >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
+    >>> print(f"{koebe.module_distance(face, other):.2f}", koebe.module_distance(face, face))
+    0.06 0.0
+    """
     if hasattr(a, "radii") and hasattr(b, "radii"):
         return match_loops(a, b)[2]
     first, second = as_numbers(a, "the module"), as_numbers(b, "the module")
@@ -164,6 +195,13 @@ def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = Non
     With one hole the circles do not determine the rotation, and it is 0. Without holes they determine nothing, and
     the map is the identity.
     Lengths are in the unit disk.
+
+    >>> import koebe
+    >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
+    >>> alignment = koebe.align_domains(face, other)
+    >>> laid = alignment(other.uv)  # other's map laid over the face's
+    >>> print(laid.shape, f"{alignment.residual:.2f}")
+    (2309, 2) 0.03
     """
     a, b = as_circles(source), as_circles(target)
     chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(b[1]), "loops")

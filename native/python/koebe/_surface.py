@@ -29,6 +29,13 @@ class Surface:
     vertices, triangles, or a mesh of another package, and the options: as for uniformize. With outer='auto' or
     'longest' the first positions choose the outer loop, with balance='area' the first map does.
     Raises InputError, TopologyError, SolverError, MemoryError.
+
+    >>> import koebe
+    >>> surface = koebe.Surface("blend_samples/face.obj")
+    >>> first = surface.uniformize()
+    >>> moved = surface.uniformize("blend_samples/surprised.obj")
+    >>> print(first.flipped, moved.flipped, moved.converged)
+    0 0 True
     """
 
     @takes("sequence", SequenceOptions)

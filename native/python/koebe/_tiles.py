@@ -56,6 +56,11 @@ def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOption
     progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning tells why.
+
+    >>> import koebe
+    >>> result = koebe.torus_map("docs/link.obj")
+    >>> print(len(result.periods), "periods, modulus", f"{result.modulus.imag:.2f} i")
+    2 periods, modulus 2.03 i
     """
     return domain_map(TileMap, _koebe.torus_map, "torus", _koebe.TileOptions(), given, (vertices, triangles))
 
@@ -73,5 +78,9 @@ def ring_map(vertices: Any, triangles: Any = None, **given: "Unpack[RingOptions]
     progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
     not one to one has converged = False, and a warning tells why.
+
+    >>> import koebe
+    >>> koebe.ring_map("blend_samples/face.obj", holes="radial")
+    <koebe.TileMap 4379 faces, 4 loops, modulus 0+0.3031j, angle error 1.7 deg, 0 flipped>
     """
     return domain_map(TileMap, _koebe.ring_map, "ring", _koebe.TileOptions(), given, (vertices, triangles))

@@ -109,6 +109,15 @@ def transfer(
     Two results of fit_circles with the same circles already lie over each other: circle k corresponds to circle k.
     Raises InputError, also if circles are not the surface's own and for landmarks that exclude each other, and
     SolverError if no such map was found: `elements` are the landmarks, by their places in the list.
+
+    >>> import koebe, numpy as np
+    >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
+    >>> heights = koebe.transfer(face, other, face.surface[0][:, 1])
+    >>> heights.shape
+    (2309,)
+    >>> places = koebe.transfer(face, other)
+    >>> bool(np.allclose(places.weights.sum(axis=1), 1.0)), places.flipped
+    (True, 0)
     """
     for result in (a, b):
         if not isinstance(result, UniformizeResult):

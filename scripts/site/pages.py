@@ -1,0 +1,73 @@
+"""The pages of docs/ as the site has them: side by side, README.md as the front page, and a gallery of all pictures."""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SITE = ROOT / "docs" / "site"
+PROJECT = ("CHANGELOG.md", "CONTRIBUTING.md", "THIRD_PARTY.md")
+LINK = re.compile(r"(\]\()(?!https?:|#)([^)\s]+)(\))")
+FILE_NAME = re.compile(r"\[(?:docs/)?(\w+)\.(?:md|ipynb)\](\(\1\.)")
+CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
+PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
+CODE = {"main.cpp", "CMakeLists.txt"}
+
+
+def documents():
+    """The pages and notebooks of docs/."""
+    return sorted([*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.ipynb")])
+
+
+def flat(text, prefix):
+    """The text with its links as they are where all pages lie side by side. A link named by its file gets a name."""
+    titles = dict(contents())
+    text = LINK.sub(lambda link: link[1] + link[2].removeprefix(prefix) + link[3], text)
+    return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
+
+
+def linked_files(text):
+    """Files other than pages that a page of docs/ links: their names on the site, and the files."""
+    found = sorted({link[1].partition("#")[0] for link in LINK.findall(text)})
+    return {name.removeprefix("../"): ROOT / "docs" / name for name in found if not name.endswith((".md", ".ipynb"))}
+
+
+def contents():
+    """The pages in the site's lists: pairs of a name and a title, which may be empty."""
+    text = (SITE / "contents.md").read_text(encoding="utf-8")
+    return [(name or bare, title) for title, name, bare in CONTENT.findall(text)]
+
+
+def gallery():
+    """All pictures of the pages, in the order of the contents, each with its text and a link to its page."""
+    made = "# Gallery\n\nEach picture leads to the page that explains it.\n\n:::::{container} gallery\n"
+    shown = set()
+    for name, _ in contents():
+        page = ROOT / "docs" / f"{name}.md"
+        if not page.is_file():
+            continue
+        for alt, picture in PICTURE.findall(page.read_text(encoding="utf-8")):
+            if picture not in shown:
+                alt = " ".join(alt.split())
+                made += f"::::{{container}} card\n[![{alt}]({picture})]({page.name})\n\n{alt}\n::::\n"
+                shown.add(picture)
+    return made + ":::::\n"
+
+
+def texts():
+    """The pages: name -> text."""
+    front = flat((ROOT / "README.md").read_text(encoding="utf-8"), "docs/")
+    made = {"index.md": front + "\n" + (SITE / "contents.md").read_text(encoding="utf-8"), "gallery.md": gallery()}
+    for path in documents():
+        made[path.name] = flat(path.read_text(encoding="utf-8"), "../")
+    for name in PROJECT:
+        made[name] = flat((ROOT / name).read_text(encoding="utf-8"), "docs/")
+    return made
+
+
+def files():
+    """Everything else that the pages show or link: name -> file."""
+    made = {f"code/{name}": ROOT / "tests" / "consumer" / name for name in sorted(CODE)}
+    made |= {f"images/{path.name}": path for path in sorted((ROOT / "docs" / "images").iterdir())}
+    for path in documents():
+        made |= linked_files(path.read_text(encoding="utf-8"))
+    return made
