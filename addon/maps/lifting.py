@@ -35,6 +35,7 @@ class Options(Protocol):
     way: str
     shape: str
     around: str
+    file: str
 
 
 def is_used(name: str, options: Options) -> bool:
@@ -48,6 +49,8 @@ def is_used(name: str, options: Options) -> bool:
         "drawing": options.pattern == "object",
         "height": options.way == "raise",
         "bridge": not drawn,
+        "graded": not drawn,
+        "rim": shape != "sphere" and not (options.pattern == "file" and options.file.lower().endswith(".png")),
         "seed": options.pattern in (*SPREAD, "truchet"),
         "around": may_surround,
         "rows": rows,
@@ -64,6 +67,7 @@ class LiftChoice:
     seams    cut the surface at its seams first
     cursor   the pattern lies around the hole nearest to the 3D cursor; on a sphere, around the vertex
     others   further keyword arguments of `koebe.lift`
+    graded   vertex group with the sizes of outlines, or empty
     """
 
     pattern: str
@@ -73,6 +77,7 @@ class LiftChoice:
     seams: bool = False
     cursor: bool = False
     others: dict[str, Any] = dataclasses.field(default_factory=dict)
+    graded: str = ""
 
     def arguments(self, area: float, mirrored: bool) -> dict[str, Any]:
         """Keyword arguments of the solver for a surface of this area. On a mirrored one normals are turned over."""
@@ -129,12 +134,14 @@ class LiftOutcome:
     """What became of one object: its result, or the error and the island that has it.
 
     cursor  the place of the 3D cursor, if the pattern lies around it
+    graded  (V,) sizes of outlines, as shares of the size
     """
 
     name: str
     surface: Surface
     mirrored: bool = False
     cursor: np.ndarray | None = None
+    graded: np.ndarray | None = None
     lifted: Lifted | None = None
     error: Exception | None = None
     island: Island | None = None
@@ -192,9 +199,10 @@ def lift_surface(
         areas = [float(island.areas.sum()) for island in islands]
     for k, island in enumerate(islands):
         outcome.island = island
+        graded = None if outcome.graded is None else outcome.graded[island.source_vertex]
         results.append(koebe.lift(
             island.vertices, island.triangles, progress=share_of(progress, sum(sizes[:k]), sizes[k], sum(sizes)),
-            cancel=cancel, around=around[k], **choice.arguments(areas[k], outcome.mirrored),
+            cancel=cancel, around=around[k], graded=graded, **choice.arguments(areas[k], outcome.mirrored),
         ))  # fmt: skip
     outcome.island = None
     outcome.lifted = _joined(surface, islands, results, outcome.mirrored)
