@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures of docs/lift.md: a ring with a lattice of hexagons, a lampshade of Voronoi cells, a vase with text; in
 lift_sphere.jpg an egg of Voronoi cells, a woven basket, a pebble with text; in lift_rows.jpg a mask of lace with rows
-around its eyes and mouth, and a sleeve for a forearm whose holes are smaller at the wrist.
+around its eyes and mouth, and a sleeve for a forearm whose holes are smaller at the wrist; in lift_rims.jpg a shield
+four times, with the choices at its rims and with sizes by weights.
 
     blender -b --factory-startup --python-exit-code 1 -P scripts/lift_picture.py -- docs/images/lift.jpg [SAMPLES]
 
@@ -263,17 +264,40 @@ def add_rows():
     add("sleeve", sleeve, metal("nylon", (0.1, 0.16, 0.24, 1.0), 0.5, 0.0), (1.35, 0.2, 0.0), (0.0, 0.0, 0.4), 0.105)
 
 
+def shield(height, angle):
+    """A bent plate with a hole, from the outer rim inwards."""
+    radius = 1.0 - 0.72 * height
+    x, z = radius * np.cos(angle), 1.12 * radius * np.sin(angle) + 0.1 * height
+    return np.column_stack([x, 0.35 * x**2 + 0.2 * z**2 - 0.3, z])
+
+
+def add_rims():
+    points, faces = tube(60, 180, shield)
+    glaze = metal("glaze", (0.08, 0.2, 0.28, 1.0), 0.35, 0.0)
+    with tempfile.TemporaryDirectory() as folder:
+        weights = Path(folder) / "weights.txt"
+        shares = np.clip(0.62 + 0.5 * points[:, 2] / 1.12, 0, 1)
+        weights.write_text("\n".join(map(str, shares)), encoding="ascii")
+        for k, more in enumerate((["--rim", "leave"], ["--rim", "clip"], ["--rim", "whole"],
+                                  ["--rim", "whole", "--graded", weights])):  # fmt: skip
+            plate = lifted(points, faces, "hexagons", "--perforate", "--size", "0.21", "--bridge", "0.045",
+                           "--thickness", "0.05", *more)  # fmt: skip
+            add(f"plate {k}", plate, glaze, (2.1 * (k - 1.5) * 0.78, 0.2, 0.93), (0.0, 0.0, 0.0), 0.78)
+
+
 def main():
     out, *samples = sys.argv[sys.argv.index("--") + 1 :]
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
-    {"lift_sphere": add_spheres, "lift_rows": add_rows}.get(Path(out).stem, add_tubes)()
+    {"lift_sphere": add_spheres, "lift_rows": add_rows, "lift_rims": add_rims}.get(Path(out).stem, add_tubes)()
     bpy.ops.mesh.primitive_plane_add(size=60.0)
     bpy.context.object.data.materials.append(studio.plain_material(studio.BACKDROP))
     add_lamp((-3.0, -3.5, 5.0), 170.0, 2.5)
     add_lamp((4.0, -2.0, 3.5), 50.0, 3.0)
     glow = bpy.data.lights.new("glow", "POINT")
     glow.energy, glow.color, glow.shadow_soft_size = 16.0, (1.0, 0.72, 0.4), 0.12
+    if Path(out).stem == "lift_rims":  # it would shine between the plates
+        glow.energy = 0.0
     lamp = bpy.data.objects.new("glow", glow)
     lamp.location = (0.0, 0.1, 1.0)
     scene.collection.objects.link(lamp)

@@ -38,7 +38,7 @@ class LiftJob:
         self.choice, self._drawing = choice, drawing
         for obj in objects:
             try:
-                self.outcomes.append(_read(obj, choice.cursor))
+                self.outcomes.append(_read(obj, choice))
                 self._places.append((obj.name, obj.library.filepath if obj.library else None))
             except Exception as error:
                 self.problems.append(reason(obj.name, error))
@@ -80,10 +80,13 @@ class LiftJob:
         return made
 
 
-def _read(obj: MeshObject, cursor: bool) -> LiftOutcome:
+def _read(obj: MeshObject, choice: LiftChoice) -> LiftOutcome:
     check_readable(obj)
     surface = mesh_reading.read_surface(obj, selected_only=False)
     if not len(surface.face_size):
         raise TransferError(f"{obj.name}: it has no faces")
-    place = mesh_reading.cursor_place(obj) if cursor else None
-    return LiftOutcome(obj.name, surface, obj.matrix_world.determinant() < 0.0, place)
+    place = mesh_reading.cursor_place(obj) if choice.cursor else None
+    graded = mesh_reading.vertex_weights(obj, choice.graded) if choice.graded else None
+    if choice.graded and graded is None:
+        raise TransferError(f"{obj.name}: it has no vertex group {choice.graded!r}, which Graded names")
+    return LiftOutcome(obj.name, surface, obj.matrix_world.determinant() < 0.0, place, graded)

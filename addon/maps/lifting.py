@@ -36,6 +36,7 @@ class Options(Protocol):
     way: str
     shape: str
     around: str
+    file: str
 
 
 def is_used(name: str, options: Options) -> bool:
@@ -49,6 +50,8 @@ def is_used(name: str, options: Options) -> bool:
         "drawing": options.pattern == "object",
         "height": options.way == "raise",
         "bridge": not drawn,
+        "graded": not drawn,
+        "rim": shape != "sphere" and not (options.pattern == "file" and options.file.lower().endswith(".png")),
         "seed": options.pattern in (*SPREAD, "truchet"),
         "around": may_surround,
         "rows": rows,
@@ -78,6 +81,7 @@ class LiftChoice:
     seams    cut the surface at its seams first
     cursor   the pattern lies around the hole nearest to the 3D cursor; on a sphere, around the vertex
     others   further keyword arguments of `koebe.lift`
+    graded   vertex group with the sizes of outlines, or empty
     """
 
     pattern: str
@@ -87,6 +91,7 @@ class LiftChoice:
     seams: bool = False
     cursor: bool = False
     others: dict[str, Any] = dataclasses.field(default_factory=dict)
+    graded: str = ""
 
     def arguments(self, area: float, mirrored: bool) -> dict[str, Any]:
         """Keyword arguments of the solver for a surface of this area. On a mirrored one normals are turned over."""
@@ -144,12 +149,14 @@ class LiftOutcome:
 
     cursor  the place of the 3D cursor, if the pattern lies around it
     area    of the surface's largest part
+    graded  (V,) sizes of outlines, as shares of the size
     """
 
     name: str
     surface: Surface
     mirrored: bool = False
     cursor: np.ndarray | None = None
+    graded: np.ndarray | None = None
     lifted: Lifted | None = None
     error: Exception | None = None
     island: Island | None = None
@@ -209,9 +216,10 @@ def lift_surface(
     outcome.area = max(areas, default=0.0)
     for k, island in enumerate(islands):
         outcome.island = island
+        graded = None if outcome.graded is None else outcome.graded[island.source_vertex]
         results.append(koebe.lift(
             island.vertices, island.triangles, progress=share_of(progress, sum(sizes[:k]), sizes[k], sum(sizes)),
-            cancel=cancel, around=around[k], **choice.arguments(areas[k], outcome.mirrored),
+            cancel=cancel, around=around[k], graded=graded, **choice.arguments(areas[k], outcome.mirrored),
         ))  # fmt: skip
     outcome.island = None
     outcome.lifted = _joined(surface, islands, results, outcome.mirrored)

@@ -38,7 +38,8 @@ PROPERTIES = {
     "drawing": StringProperty(name="Object", description="Curve object or text object with the pattern"),
     "way": EnumProperty(name="Make", items=WAYS, default="perforate", description="What is made of the outlines"),
     **{name: property_of(OWN[name]) for name in (
-        "height", "size", "bridge", "thickness", "shape", "even", "around", "rows", "repeats", "turn", "seed"
+        "height", "size", "graded", "bridge", "rim", "thickness", "shape", "even", "around", "rows", "repeats", "turn",
+        "seed",
     )},
     "seams": BoolProperty(name="Cut at Seams", default=False, description="Cut the surface open at its seams first"),
     "hide": BoolProperty(
@@ -107,6 +108,7 @@ def draw_lift_options(layout: bpy.types.UILayout, options: Any, names: tuple[str
     for name in names:
         if not is_used(name, options):
             continue
+        active = bpy.context.active_object
         if name == "drawing":
             layout.prop_search(options, name, bpy.data, "objects")
         elif name in AUTOMATIC:
@@ -115,6 +117,8 @@ def draw_lift_options(layout: bpy.types.UILayout, options: Any, names: tuple[str
             layout.prop(options, "solid")
             if options.thickness:
                 layout.prop(options, name)
+        elif name == "graded" and active is not None and active.type == "MESH":
+            layout.prop_search(options, name, active, "vertex_groups")
         else:
             layout.prop(options, name)
 
@@ -144,13 +148,16 @@ def lift_choice_of(options: Any) -> LiftChoice:
 
     others = {name: number(name) or None for name in ("bridge", "thickness", "even")}
     others |= {"shape": options.shape, "turn": math.degrees(number("turn"))}
+    if is_used("rim", options):
+        others["rim"] = options.rim
     others |= {name: number(name) for name in ("repeats", "rows")}
     if is_used("seed", options):
         others["seed"] = options.seed
     pattern = bpy.path.abspath(options.file) if options.pattern in DRAWN else options.pattern
     cursor = is_used("around", options) and options.around == "cursor"
     lengths, perforate = (number("height"), number("size")), options.way == "perforate"
-    return LiftChoice(pattern, perforate, *lengths, options.seams, cursor, others)
+    graded = options.graded if is_used("graded", options) else ""
+    return LiftChoice(pattern, perforate, *lengths, options.seams, cursor, others, graded)
 
 
 def register() -> None:

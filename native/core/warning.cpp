@@ -35,6 +35,7 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::not_even: return "not_even";
     case WarningKind::not_enclosed: return "not_enclosed";
     case WarningKind::crossings: return "crossings";
+    case WarningKind::thin_bridges: return "thin_bridges";
     case WarningKind::lost_area: return "lost_area";
     case WarningKind::not_mapped: return "not_mapped";
     }
@@ -56,6 +57,7 @@ ElementKind elements_of(WarningKind kind) noexcept
     case WarningKind::left_out:
     case WarningKind::not_even:
     case WarningKind::crossings:
+    case WarningKind::thin_bridges:
     case WarningKind::lost_area:
     case WarningKind::not_mapped:
     case WarningKind::not_one_to_one: return ElementKind::faces;

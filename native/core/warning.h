@@ -41,6 +41,7 @@ enum class WarningKind {
     not_even,          ///< parts left conformal, as no map that is more even was found; elements: their faces
     not_enclosed,      ///< the circles have no proved bounds, but the capacities have
     crossings,         ///< distant places of a lifted pattern meet; elements: the surface's faces there
+    thin_bridges,      ///< less material between two openings than was asked for; elements: the surface's faces there
     lost_area,         ///< more area than allowed has no area in the UVs; elements: the faces without area
     not_mapped,        ///< faces of pieces without a map; elements: these faces. Must stay the last kind
 };

@@ -39,9 +39,20 @@ private:
 
 struct Sample {
     Eigen::RowVector3d position, normal;
+    double grade = 1.0;  // of the spacing
 };
 
-/// Points at random, equally many per area.
+/// The grade in the middle of a face; 0 below the least.
+double mean_grade(const FlatSheet& sheet, Index f)
+{
+    const double grade = sheet.grade_at(f, Eigen::RowVector3d::Constant(1.0 / 3.0));
+    return grade < least_grade ? 0.0 : grade;
+}
+
+/// Twice the area of a face, as many cells are there as if it were larger by the grade.
+double graded_area(double twice_area, double grade) { return grade > 0.0 ? twice_area / (grade * grade) : 0.0; }
+
+/// Points at random, equally many per area, or per cell where the sheet has a grade.
 std::vector<Sample> random_samples(const FlatSheet& sheet, std::size_t count, RandomNumbers& random)
 {
     std::vector<double> sum(sheet.triangles.rows());
@@ -54,7 +65,7 @@ std::vector<Sample> random_samples(const FlatSheet& sheet, std::size_t count, Ra
         normals[f] = b.cross(c);
         const double length = normals[f].norm();
         if (length > 0.0) normals[f] /= length;
-        sum[f] = area += length;
+        sum[f] = area += sheet.grade.empty() ? length : graded_area(length, mean_grade(sheet, f));
     }
     std::vector<Sample> samples(count);
     for (std::size_t i = 0; i < count; ++i) {  // one in each stratum of equal area
@@ -62,17 +73,19 @@ std::vector<Sample> random_samples(const FlatSheet& sheet, std::size_t count, Ra
         const auto f = std::min<std::ptrdiff_t>(std::ranges::lower_bound(sum, at) - sum.begin(),
                                                 static_cast<std::ptrdiff_t>(sum.size()) - 1);
         const double root = std::sqrt(random.next()), along = random.next();
-        samples[i] = {sheet.position_at(static_cast<Index>(f), {1.0 - root, root * (1.0 - along), root * along}),
-                      normals[f]};
+        const Eigen::RowVector3d weights(1.0 - root, root * (1.0 - along), root * along);
+        samples[i] = {sheet.position_at(static_cast<Index>(f), weights), normals[f],
+                      std::max(least_grade, sheet.grade_at(static_cast<Index>(f), weights))};
     }
     for (std::size_t i = count; i > 1; --i)
         std::swap(samples[i - 1], samples[static_cast<std::size_t>(random.next() * static_cast<double>(i))]);
     return samples;
 }
 
-/// Squared distance, with the normals' difference as a further direction.
-double apart(const Sample& a, const Sample& b, double spacing)
+/// Squared distance of a sample from a site, with the normals' difference as a further direction.
+double apart(const Sample& a, const Sample& b, double largest_spacing)
 {
+    const double spacing = a.grade * largest_spacing;
     return (a.position - b.position).squaredNorm() + spacing * spacing * (1.0 - a.normal.dot(b.normal));
 }
 
@@ -136,7 +149,7 @@ private:
     std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
 };
 
-/// Samples, of which no two are nearer than three quarters of the spacing: as many as there is room for.
+/// Samples, of which no two are nearer than three quarters of their spacing: as many as there is room for.
 std::vector<Sample> first_sites(const std::vector<Sample>& samples, std::size_t count, double spacing)
 {
     std::vector<Sample> sites;
@@ -144,14 +157,16 @@ std::vector<Sample> first_sites(const std::vector<Sample>& samples, std::size_t 
     SiteGrid grid(sites, spacing);
     for (const Sample& sample : samples) {
         if (sites.size() == count) break;
-        if (grid.nearest(sample).second < 0.5625 * spacing * spacing) continue;
+        const double own = sample.grade * spacing;
+        if (grid.nearest(sample).second < 0.5625 * own * own) continue;
         sites.push_back(sample);
         grid.add(sites.size() - 1);
     }
     return sites;
 }
 
-/// Moves each site to the mean of its samples.
+/// Moves each site to the mean of its samples. Where the spacing is smaller samples count more, as the density of sites
+/// is the root of the density of what is spread [Gersho 1979].
 /// @param site_of (n) the site of each sample: before, and now
 void relax(std::vector<Sample>& sites, const std::vector<Sample>& samples, double spacing,
            std::vector<std::ptrdiff_t>& site_of)
@@ -160,28 +175,46 @@ void relax(std::vector<Sample>& sites, const std::vector<Sample>& samples, doubl
     in_pieces(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) site_of[i] = grid.nearest(samples[i], site_of[i]).first;
     });
-    std::vector<Sample> sums(sites.size(), {Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()});
+    std::vector<Sample> sums(sites.size(), {Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero(), 0.0});
     std::vector<double> counts(sites.size(), 0.0);
     for (std::size_t s = 0; s < samples.size(); ++s) {
         const std::ptrdiff_t i = site_of[s];
         if (i < 0) continue;
-        sums[i].position += samples[s].position;
-        sums[i].normal += samples[s].normal;
-        counts[i] += 1.0;
+        const double weight = 1.0 / (samples[s].grade * samples[s].grade);
+        sums[i].position += weight * samples[s].position;
+        sums[i].normal += weight * samples[s].normal;
+        sums[i].grade += weight * samples[s].grade;
+        counts[i] += weight;
     }
     for (std::size_t i = 0; i < sites.size(); ++i) {
         if (counts[i] == 0.0) continue;
         sites[i].position = sums[i].position / counts[i];
+        sites[i].grade = sums[i].grade / counts[i];
         const double length = sums[i].normal.norm();
         if (length > 0.0) sites[i].normal = sums[i].normal / length;
     }
+}
+
+/// The surface's area, where it has a grade counted in cells of the size asked for. @throws InputError there is none
+double cell_area(const FlatSheet& sheet)
+{
+    if (sheet.grade.empty()) return sheet.area;
+    double area = 0.0;
+    for (Index f = 0; f < static_cast<Index>(sheet.triangles.rows()); ++f) {
+        const Eigen::RowVector3d a = sheet.vertices.row(sheet.triangles(f, 0));
+        const Eigen::RowVector3d b = sheet.vertices.row(sheet.triangles(f, 1)) - a;
+        const Eigen::RowVector3d c = sheet.vertices.row(sheet.triangles(f, 2)) - a;
+        area += 0.5 * graded_area(b.cross(c).norm(), mean_grade(sheet, f));
+    }
+    if (!(area > 0.0)) throw InputError("no outline is drawn: graded is below 0.1 everywhere");
+    return area;
 }
 
 }  // namespace
 
 std::vector<SurfacePoint> even_sites(const FlatSheet& sheet, double spacing, std::uint64_t seed)
 {
-    const double wanted = std::round(sheet.area / (spacing * spacing * std::sqrt(0.75)));  // as in a hexagonal lattice
+    const double wanted = std::round(cell_area(sheet) / (spacing * spacing * std::sqrt(0.75)));  // hexagonal lattice
     if (!(wanted < most_sites)) throw InputError("the size is too small for the surface: over a million outlines");
     const auto count = static_cast<std::size_t>(std::max(1.0, wanted));
     RandomNumbers random(seed);

@@ -101,6 +101,14 @@ double FlatSheet::scale_at(Index f, const Eigen::RowVector3d& weights) const
     return result;
 }
 
+double FlatSheet::grade_at(Index f, const Eigen::RowVector3d& weights) const
+{
+    if (grade.empty()) return 1.0;
+    double result = 0.0;
+    for (int k = 0; k < 3; ++k) result += weights[k] * grade[triangles(f, k)];
+    return result;
+}
+
 Eigen::RowVector3d FlatSheet::position_at(Index f, const Eigen::RowVector3d& weights) const
 {
     Eigen::RowVector3d result = Eigen::RowVector3d::Zero();

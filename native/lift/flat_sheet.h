@@ -16,6 +16,8 @@ struct FlatSheet {
     std::vector<Complex> uv;  ///< (3F) of corners
     double grid = 0.0;        ///< UVs are whole multiples of it; 0: there is no such number
     std::vector<Complex> periods = {};
+    std::vector<double> grade = {};  ///< (V) size of outlines there, as a share of what is asked for; empty: 1
+    std::vector<Index> gap = {};     ///< (F) of a filled sheet (filled_sheet.h); else empty
 
     std::vector<Index> twin;    ///< (3F)
     std::vector<char> border;   ///< (3F) whether the walk ends at this half-edge
@@ -30,6 +32,8 @@ struct FlatSheet {
     double twice_area(Index face) const;
     /// A field linear in each face, at barycentric weights.
     double scale_at(Index face, const Eigen::RowVector3d& weights) const;
+    double grade_at(Index face, const Eigen::RowVector3d& weights) const;
+    bool on_surface(Index face) const { return gap.empty() || gap[face] < 0; }
     Eigen::RowVector3d position_at(Index face, const Eigen::RowVector3d& weights) const;
     Complex uv_at(Index face, const Eigen::RowVector3d& weights) const;
     /// Barycentric coordinates of a place in a face's chart.

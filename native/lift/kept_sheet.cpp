@@ -15,11 +15,6 @@
 namespace koebe {
 namespace {
 
-bool in_pattern(const Overlay& overlay, Index face)
-{
-    return overlay.region[face] >= 0 && !overlay.outlines[overlay.region[face]].hole;
-}
-
 /// Faces that are no walls: they keep their direction when they move.
 Triangles without_walls(const RaisedSheet& raised)
 {
@@ -45,12 +40,17 @@ using EdgeKey = std::array<Index, 2>;  // the lower vertex first
 
 EdgeKey edge_key(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// A face of the sheet at each of these edges, a raised one if there is.
+/// A face of the sheet at each of these edges, a raised one if there is. An edge from a vertex to itself stands for the
+/// vertex.
 std::map<EdgeKey, Index> faces_at(std::map<EdgeKey, Index> edges, const KeptSheet& sheet)
 {
+    const auto take = [&](Index a, Index b, Index f) {
+        const auto at = edges.find(edge_key(a, b));
+        if (at != edges.end() && (at->second < 0 || sheet.patch[f] == 1)) at->second = f;
+    };
     for (Index h = 0; h < static_cast<Index>(sheet.triangles.size()); ++h) {
-        const auto at = edges.find(edge_key(origin(sheet.triangles, h), target(sheet.triangles, h)));
-        if (at != edges.end() && (at->second < 0 || sheet.patch[face_of(h)] == 1)) at->second = face_of(h);
+        take(origin(sheet.triangles, h), target(sheet.triangles, h), face_of(h));
+        take(origin(sheet.triangles, h), origin(sheet.triangles, h), face_of(h));
     }
     return edges;
 }
@@ -70,7 +70,7 @@ KeptSheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Inde
             corners.push_back(overlay.triangles(f, k));
             sheet.uv.push_back(overlay.uv[3 * f + k]);
         }
-        sheet.patch.push_back(in_pattern(overlay, f) ? 1 : 0);
+        sheet.patch.push_back(overlay.in_pattern(f) ? 1 : 0);
         sheet.face.push_back(overlay.face[f]);
     }
     std::vector<Index> used;
@@ -118,7 +118,7 @@ void finish_solid(const KeptSheet& sheet, const RaisedSheet& raised, const LiftO
                     (raised.height.array() + half).matrix(), without_walls(raised), sheet.face);
     const Vertices inside = moved_sheet(sheet.vertices, sheet.normals, VectorXd::Constant(sheet.vertices.rows(), -half),
                                         sheet.triangles, sheet.face);
-    Solid solid = closed_solid(outside, raised.triangles, inside, sheet.triangles);
+    Solid solid = closed_solid(outside, raised.triangles, inside, sheet.triangles, raised.source);
     result.vertices = std::move(solid.vertices);
     result.triangles = std::move(solid.triangles);
     result.patch = std::move(solid.patch);

@@ -8,6 +8,8 @@
 #include "execution/stopwatch.h"
 #include "execution/thread_share.h"
 #include "lift/bent_mesh.h"
+#include "lift/bridges.h"
+#include "lift/clipped_outlines.h"
 #include "lift/flat_domain.h"
 #include "lift/image_relief.h"
 #include "lift/kept_sheet.h"
@@ -19,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <numeric>
 #include <utility>
@@ -39,7 +42,8 @@ void require_foretold(const Surface& before, const KeptSheet& sheet, Index holes
     if (result.loops_after != result.loops_before + holes || result.euler_after != result.euler_before - holes ||
         !after.reoriented.empty())
         throw SolverError("the pattern has made " + std::to_string(result.loops_after - result.loops_before) +
-                          " holes in place of " + std::to_string(holes));
+                          " holes in place of " + std::to_string(holes) + ", and lowered the Euler characteristic by " +
+                          std::to_string(result.euler_before - result.euler_after));
 }
 
 void warn_of_left_out(LiftResult& result)
@@ -71,6 +75,7 @@ PatternOptions pattern_options(const FlatDomain& domain, const LiftOptions& opti
     chosen.turn = options.turn;
     chosen.rows = options.rows;
     chosen.hole = domain.hole;
+    chosen.whole = options.rim == LiftRim::whole;
     if (!(chosen.size > 0.0)) throw InputError("the surface has no area: no size for the pattern");
     return chosen;
 }
@@ -109,28 +114,61 @@ std::vector<DrawnOutline> built_in_outlines(const FlatDomain& domain, const std:
     result.size = chosen.size;
     result.bridge = chosen.bridge;
     DrawnPattern pattern = domain.sphere ? built_in_pattern_on_sphere(*domain.sphere, name, chosen)
-                                         : built_in_pattern(domain.flat, name, chosen);
+                                         : built_in_pattern(domain.flat, name, chosen, &domain.walked());
     result.bend = pattern.bend;
     return std::move(pattern.outlines);
 }
 
+std::string short_number(double number)
+{
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.4g", number);
+    return text.data();
+}
+
+void warn_of_thin_bridges(const FlatDomain& domain, const Overlay& overlay, const std::vector<char>& keep, double width,
+                          LiftResult& result, const ExecutionContext& context)
+{
+    ThinBridges thin = thin_bridges(domain.walked(), overlay, keep, width, context);
+    result.thin_bridges = thin.count;
+    result.thinnest_bridge = thin.thinnest;
+    if (thin.count > 0)
+        result.warnings.push_back({WarningKind::thin_bridges,
+                                   counted(static_cast<std::size_t>(thin.count), "bridge") +
+                                       " thinner than asked for: the thinnest is " + short_number(*thin.thinnest),
+                                   std::move(thin.faces), "Ask for a wider bridge, or make the map more even (even)"});
+}
+
 /// The sheet with the pattern's outlines in it, and those raised or cut out.
 RaisedSheet outlined_sheet(const FlatDomain& domain, std::vector<DrawnOutline> outlines, int open,
-                           const LiftOptions& options, KeptSheet& sheet, LiftResult& result)
+                           const LiftOptions& options, KeptSheet& sheet, LiftResult& result,
+                           const ExecutionContext& context)
 {
-    const Overlay overlay = draw_outlines(domain.sheet(), std::move(outlines),
-                                          domain.sphere ? domain.sphere->charts : std::vector<FlatSheet>());
+    const std::vector<FlatSheet> charts = domain.sphere ? domain.sphere->charts : std::vector<FlatSheet>();
+    ClippedOverlay drawn;
+    if (domain.filled) {
+        drawn = draw_clipped_outlines(*domain.filled, std::move(outlines), charts, options.perforate);
+    } else {
+        drawn.overlay = draw_outlines(domain.sheet(), std::move(outlines), charts);
+        drawn.outlines = static_cast<Index>(std::ranges::count(drawn.overlay.outlines, false, &DrawnOutline::hole));
+        drawn.holes = options.perforate ? drawn.outlines : 0;
+    }
+    const Overlay& overlay = drawn.overlay;
     result.left_out = overlay.left_out;
     result.left_out.open = open;
-    result.outlines = static_cast<Index>(std::ranges::count(overlay.outlines, false, &DrawnOutline::hole));
+    result.outlines = drawn.outlines;
     if (result.outlines == 0)
         throw InputError("no outline of the pattern fits the surface: give another size (left out at a hole, a rim or "
                          "a cut: " +
                          std::to_string(result.left_out.at_border) + ")");
     std::vector<char> keep(overlay.region.size(), 1);
-    if (options.perforate)
-        for (std::size_t f = 0; f < keep.size(); ++f) keep[f] = overlay.region[f] < 0;
+    for (std::size_t f = 0; f < keep.size(); ++f)
+        keep[f] = domain.walked().on_surface(overlay.face[f]) && !(options.perforate && overlay.region[f] >= 0);
+    if (std::ranges::find(keep, 1) == keep.end()) throw InputError("an outline covers the surface: nothing is left");
+    if (options.perforate && options.bridge)
+        warn_of_thin_bridges(domain, overlay, keep, *options.bridge, result, context);
     sheet = kept_faces(overlay, keep, static_cast<Index>(domain.sheet().vertices.rows()));
+    require_foretold(domain.surface, sheet, drawn.holes, result);
     return raised_sheet(sheet, options.height);
 }
 
@@ -147,8 +185,10 @@ PatternPlace place_of(const FlatDomain& domain, const LiftOptions& options)
 std::vector<DrawnOutline> outlines_of(const SvgDrawing& drawing, const FlatDomain& domain, const LiftOptions& options,
                                       LiftResult& result)
 {
-    PlacedDrawing placed =
-        placed_drawing(domain.placing_sheet(), drawing, place_of(domain, options), options.perforate);
+    const FlatSheet& sheet = domain.placing_sheet();
+    PlacedDrawing placed = placed_drawing(
+        sheet, domain.filled ? *domain.filled : sheet, drawing, place_of(domain, options), options.perforate,
+        options.rim == LiftRim::whole ? std::optional(options.bridge.value_or(0.0)) : std::nullopt);
     for (DrawnOutline& outline : placed.outlines) outline.chart = domain.middle_chart();
     result.size = placed.size;
     result.islands = placed.islands;
@@ -198,15 +238,15 @@ void lift_outlines(const FlatDomain& domain, const Triangles& given, const Patte
     RaisedSheet raised;
     if (file.image) {
         raised = image_relief(domain, *file.image, options, sheet, result);
+        require_foretold(domain.surface, sheet, 0, result);
     } else {
         std::vector<DrawnOutline> outlines = file.drawing ? outlines_of(*file.drawing, domain, options, result)
                                                           : built_in_outlines(domain, name, options, result);
         context.checkpoint();
-        raised =
-            outlined_sheet(domain, std::move(outlines), file.drawing ? file.drawing->open : 0, options, sheet, result);
+        raised = outlined_sheet(domain, std::move(outlines), file.drawing ? file.drawing->open : 0, options, sheet,
+                                result, context);
     }
     context.checkpoint();
-    require_foretold(domain.surface, sheet, options.perforate ? result.outlines : 0, result);
     const std::size_t outer = raised.patch.size();
     const std::vector<Index> source = raised.source;
     if (options.thickness)
@@ -217,7 +257,10 @@ void lift_outlines(const FlatDomain& domain, const Triangles& given, const Patte
     warn_of_left_out(result);
     if (!options.thickness && !options.height) return;
     context.checkpoint();
-    const MeetingFaces meeting = meeting_faces(result.vertices, result.triangles);
+    const MeetingFaces meeting = meeting_faces(result.vertices, result.triangles, context);
+    if (!meeting.all)
+        throw InputError("the thickness or height is far more than the surface has room for: too many faces would meet",
+                         ElementKind::faces, faces_below(meeting.faces, sheet, outer));
     warn_of_crossings(meeting, faces_below(meeting.faces, sheet, outer), result);
 }
 
@@ -252,12 +295,14 @@ void lift_mesh(const FlatDomain& domain, const PatternMesh& mesh, const LiftOpti
     result.patch.assign(bent.uv.size() / 3, 0);
     result.original.assign(result.vertices.rows(), -1);
     result.uv = planar_points(bent.uv);
-    const auto meeting_of = [](const Vertices& vertices, const Triangles& triangles) {
+    const auto meeting_of = [&](const Vertices& vertices, const Triangles& triangles) {
         const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
-        return meeting_faces(vertices, joined_corners(vertices, triangles, 1e-9 * diagonal));
+        return meeting_faces(vertices, joined_corners(vertices, triangles, 1e-9 * diagonal), context);
     };
     const MeetingFaces before = meeting_of(mesh.vertices, mesh.triangles);
     const MeetingFaces meeting = meeting_of(result.vertices, result.triangles);
+    if (!meeting.all && before.all)
+        throw InputError("the mesh's heights are far more than the surface has room for: too many faces would meet");
     if (meeting.pairs > 0 && before.pairs == 0) warn_of_crossings(meeting, {}, result);
     result.crossings = meeting.pairs;
 }
@@ -294,6 +339,8 @@ const char* to_string(LiftShape shape) noexcept
 {
     return word_of(shape, std::array{"disk", "ring", "torus", "sphere", "parts"});
 }
+
+const char* to_string(LiftRim rim) noexcept { return word_of(rim, std::array{"leave", "clip", "whole"}); }
 
 LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,
                 const LiftOptions& options, ExecutionContext& context)

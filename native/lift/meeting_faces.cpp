@@ -28,6 +28,12 @@ SpaceKernel::Triangle_3 triangle_at(const Vertices& vertices, const Triangles& t
     return {corner(0), corner(1), corner(2)};
 }
 
+// The count ends above these, of boxes that overlap and of faces that meet.
+constexpr std::int64_t least_tests = 4'000'000, tests_of_a_face = 100;
+constexpr Index least_pairs = 20'000, pairs_of_a_face = 2;
+
+struct TooManyPairs {};
+
 using FaceCorners = std::array<Eigen::Vector3d, 3>;
 
 FaceCorners three_corners(const Vertices& vertices, const Triangles& triangles, Index f)
@@ -65,7 +71,7 @@ bool neighbours(const Triangles& triangles, Index f, Index g)
 
 }  // namespace
 
-MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles)
+MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles, const ExecutionContext& context)
 {
     std::vector<FaceBox> boxes;
     boxes.reserve(static_cast<std::size_t>(triangles.rows()));
@@ -81,7 +87,12 @@ MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles)
         boxes.emplace_back(low, high, f);
     }
     MeetingFaces meeting;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FaceBox& first, const FaceBox& second) {
+    const std::int64_t most_tests = least_tests + tests_of_a_face * static_cast<std::int64_t>(triangles.rows());
+    const Index most_pairs = least_pairs + pairs_of_a_face * static_cast<Index>(triangles.rows());
+    std::int64_t tests = 0;
+    const auto test = [&](const FaceBox& first, const FaceBox& second) {
+        if (++tests % 4096 == 0) context.checkpoint();
+        if (tests > most_tests || meeting.pairs > most_pairs) throw TooManyPairs();
         const Index f = first.info(), g = second.info();
         if (neighbours(triangles, f, g)) return;
         const FaceCorners own = three_corners(vertices, triangles, f), other = three_corners(vertices, triangles, g);
@@ -91,7 +102,12 @@ MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles)
         ++meeting.pairs;
         meeting.faces.push_back(f);
         meeting.faces.push_back(g);
-    });
+    };
+    try {
+        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), test);
+    } catch (const TooManyPairs&) {
+        meeting.all = false;
+    }
     sort_unique(meeting.faces);
     return meeting;
 }

@@ -214,7 +214,8 @@ private:
                 corners.push_back(vertices[pieces(t, k)]);
                 result.uv.push_back(z);
             }
-            if (StoredFace(stored[0], stored[1], stored[2]).doubtful()) blame(part.outline, Fault::too_fine);
+            if (sheet_.on_surface(f) && StoredFace(stored[0], stored[1], stored[2]).doubtful())
+                blame(part.outline, Fault::too_fine);
             result.face.push_back(f);
         }
     }
@@ -319,7 +320,7 @@ private:
 };
 
 /// Takes out the groups of the faulty outlines. Each group counts once.
-void leave_out(const Faults& faults, std::vector<DrawnOutline>& outlines, LeftOut& left_out)
+void leave_out(const Faults& faults, const FlatSheet& sheet, std::vector<DrawnOutline>& outlines, LeftOut& left_out)
 {
     std::unordered_map<Index, Fault> groups;
     for (const auto& [outline, fault] : faults) groups.emplace(outlines[outline].group, fault);
@@ -328,11 +329,20 @@ void leave_out(const Faults& faults, std::vector<DrawnOutline>& outlines, LeftOu
            : fault == Fault::too_fine ? left_out.too_fine
                                       : left_out.crossing);
     for (const DrawnOutline& o : outlines)
-        if (groups.contains(o.group) && o.face >= 0) left_out.faces.push_back(o.face);
+        if (groups.contains(o.group) && o.face >= 0 && sheet.on_surface(o.face)) left_out.faces.push_back(o.face);
     std::erase_if(outlines, [&](const DrawnOutline& o) { return groups.contains(o.group); });
 }
 
 }  // namespace
+
+void LeftOut::add(const LeftOut& others)
+{
+    at_border += others.at_border;
+    too_fine += others.too_fine;
+    crossing += others.crossing;
+    open += others.open;
+    faces.insert(faces.end(), others.faces.begin(), others.faces.end());
+}
 
 Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines, const std::vector<FlatSheet>& charts)
 {
@@ -346,7 +356,7 @@ Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines
             result.left_out = std::move(left_out);
             return result;
         }
-        leave_out(faults, outlines, left_out);
+        leave_out(faults, sheet, outlines, left_out);
     }
 }
 

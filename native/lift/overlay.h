@@ -17,6 +17,7 @@ struct LeftOut {
     std::vector<Index> faces = {};  ///< where they begin: of the surface, ascending
 
     Index all() const { return at_border + too_fine + crossing + open; }
+    void add(const LeftOut& others);
 };
 
 /// The vertices of the sheet come first, unchanged; those of the outlines follow.
@@ -29,13 +30,16 @@ struct Overlay {
     std::vector<DrawnOutline> outlines;     ///< the outlines that were drawn
     std::vector<std::vector<Index>> loops;  ///< the vertices of each outline, in order
     LeftOut left_out;
+
+    /// Whether a face lies inside an outline, and in no hole of it.
+    bool in_pattern(Index f) const { return region[f] >= 0 && !outlines[region[f]].hole; }
 };
 
 /// Cuts faces along the outlines by constrained Delaunay triangulations in their charts with exact predicates. Vertices
 /// of the outlines have barycentric coordinates on the surface. Outlines that cannot be drawn are left out, with their
 /// group, and counted. In the result no two outlines meet. Each bounds a disk, less the
 /// outlines inside: those inside an outline are holes, those inside a hole are none. Every new face is upright in
-/// 32-bit UVs.
+/// 32-bit UVs. Faces that fill gaps of a filled sheet need not be.
 /// @param charts of the same faces, in which outlines are followed that name one
 Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines,
                       const std::vector<FlatSheet>& charts = {});

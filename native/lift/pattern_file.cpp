@@ -15,7 +15,16 @@ void require_fitting_options(const std::string& kind, const LiftOptions& options
     if (kind != ".obj" && options.perforate == options.height.has_value())
         throw InputError("either perforate, or give a height");
     if (options.turn != 0.0 && kind == ".png") throw InputError("an image has no turn");
-    if (options.bridge && !kind.empty()) throw InputError("a bridge is for the built-in patterns: a file has its own");
+    if (options.bridge && (kind == ".png" || kind == ".obj"))
+        throw InputError("a bridge is for outlines: an image and a mesh have none");
+    if (options.bridge && kind == ".svg" && !options.perforate && options.rim != LiftRim::whole)
+        throw InputError("a drawing has its own bridges: they are checked where it is cut out");
+    if (!options.graded.empty() && !kind.empty())
+        throw InputError("graded sizes are for the built-in patterns: a file has its own");
+    if (options.rim != LiftRim::leave && (kind == ".png" || kind == ".obj"))
+        throw InputError("the rim cuts outlines: an image and a mesh have none");
+    if (options.rim == LiftRim::clip && options.shape == LiftShape::sphere)
+        throw InputError("on a sphere nothing is clipped: take --rim leave, or whole");
     if (kind == ".obj" && (options.perforate || options.thickness))
         throw InputError("a mesh is bent as it is: without perforate and thickness");
     if (options.even && options.shape == LiftShape::sphere)

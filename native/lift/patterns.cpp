@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "io/extension.h"
+#include "lift/border_room.h"
 #include "lift/even_sites.h"
 #include "lift/lattice.h"
 #include "lift/outline_places.h"
@@ -60,9 +61,34 @@ LatticePlane plane_about(const FlatSheet& sheet, const Circle& hole)
     return plane;
 }
 
-/// An outline with its first copy in the UVs; in a curved plane its sides are divided.
-std::vector<Complex> points_in_uv(const LatticePlane& plane, const std::vector<Complex>& shape, Complex moved)
+Complex middle_of(const std::vector<Complex>& shape)
 {
+    Complex sum = 0.0;
+    for (const Complex z : shape) sum += z;
+    return sum / static_cast<double>(shape.size());
+}
+
+/// A shape made smaller about its middle.
+std::vector<Complex> smaller(std::vector<Complex> shape, double scale)
+{
+    const Complex middle = middle_of(shape);
+    if (scale != 1.0)
+        for (Complex& z : shape) z = middle + scale * (z - middle);
+    return shape;
+}
+
+/// A shape of a lattice that is laid over a domain.
+struct LaidShape {
+    const std::vector<Complex>* shape;
+    Complex place;
+    double scale = 1.0;
+};
+
+/// An outline with its first copy in the UVs; in a curved plane its sides are divided.
+std::vector<Complex> points_in_uv(const LatticePlane& plane, const LaidShape& laid)
+{
+    const std::vector<Complex> shape = smaller(*laid.shape, laid.scale);
+    const Complex moved = first_copy(plane.periods, laid.place + shape[0]) - shape[0];
     double longest = 0.0;
     for (const Complex z : shape) longest = std::max(longest, distance(z, shape[0]));
     std::vector<Complex> points;
@@ -95,7 +121,8 @@ bool runs_along(const std::string& name, const PatternOptions& options)
 
 /// Moves the rows, so that the first one lies a bridge away from the hole, and drops those at the rim and beyond
 /// `most`.
-void begin_at_hole(LaidLattice& laid, const LatticePlane& plane, double rise, double bridge, int most)
+/// @param clipped whether rows go on over the rim
+void begin_at_hole(LaidLattice& laid, const LatticePlane& plane, double rise, double bridge, int most, bool clipped)
 {
     double top = -INFINITY, bottom = INFINITY;
     for (const auto* shapes : {&laid.shapes, &laid.other_shapes})
@@ -105,13 +132,43 @@ void begin_at_hole(LaidLattice& laid, const LatticePlane& plane, double rise, do
                 bottom = std::min(bottom, z.imag());
             }
     const double first = plane.high.imag() - bridge - top, near = 1e-6 * rise;
-    const double last = std::max(plane.low.imag() + bridge - bottom, most > 0 ? first - (most - 1) * rise : -INFINITY);
+    const double rim = clipped ? -INFINITY : plane.low.imag() + bridge - bottom;
+    const double last = std::max(rim, most > 0 ? first - (most - 1) * rise : -INFINITY);
     const Complex shift(0.0, std::fmod(first - laid.places.front().imag(), rise));
     for (Complex& place : laid.places) place += shift;
     std::erase_if(laid.places, [&](Complex z) { return z.imag() > first + near || z.imag() < last - near; });
 }
 
-DrawnPattern lattice_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
+/// Gives each shape the scale that the grade asks for, and that the border has room for.
+void scale_shapes(const FlatSheet& sheet, const LatticePlane& plane, const PatternOptions& options,
+                  std::vector<LaidShape>& shapes)
+{
+    if (sheet.grade.empty() && !options.whole) return;
+    std::vector<Complex> middles;
+    for (const LaidShape& one : shapes) {
+        const Complex middle = one.place + middle_of(*one.shape);
+        middles.push_back(first_copy(sheet.periods, plane.in_uv(first_copy(plane.periods, middle))));
+    }
+    const std::vector<SheetPlace> nearest = places_in_sheet(sheet, middles, INFINITY);
+    const BorderRoom room(sheet, options.size / sheet.mean_scale);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const SheetPlace& at = nearest[i];
+        const double grade = sheet.grade_at(at.face, at.weights);
+        shapes[i].scale = grade < least_grade ? 0.0 : grade;
+        const bool on_surface = distance(sheet.uv_at(at.face, at.weights), middles[i] + at.shift) < 1e-9;
+        if (!options.whole || !on_surface || shapes[i].scale == 0.0) continue;
+        const double bridge = options.bridge / sheet.scale_at(at.face, at.weights);
+        shapes[i].scale *= room.largest_scale(
+            [&](double scale) {
+                return points_in_uv(plane, {shapes[i].shape, shapes[i].place, scale * shapes[i].scale});
+            },
+            bridge);
+    }
+    std::erase_if(shapes, [](const LaidShape& one) { return one.scale == 0.0; });
+}
+
+DrawnPattern lattice_pattern(const FlatSheet& sheet, const FlatSheet& walked, const std::string& name,
+                             const PatternOptions& options)
 {
     const bool repeats = options.hole || sheet.periods.size() == 1, along = repeats && runs_along(name, options);
     const LatticePlane plane = options.hole ? plane_about(sheet, *options.hole)
@@ -120,15 +177,17 @@ DrawnPattern lattice_pattern(const FlatSheet& sheet, const std::string& name, co
     const Lattice lattice = lattice_of(name, bridge, along);
     LaidLattice laid =
         lay_lattice(lattice, plane.periods, options.size / plane.scale, options.repeats, plane.low, plane.high);
-    if (options.hole) begin_at_hole(laid, plane, laid.unit * lattice.b.imag(), laid.unit * bridge, options.rows);
+    if (options.hole)
+        begin_at_hole(laid, plane, laid.unit * lattice.b.imag(), laid.unit * bridge, options.rows, &walked != &sheet);
     DrawnPattern pattern;
     pattern.bend = laid.bend;
+    std::vector<LaidShape> shapes;
     for (std::size_t i = 0; i < laid.places.size(); ++i)
-        for (const auto& shape : laid.other_shapes.empty() || coin(options.seed, i) ? laid.shapes : laid.other_shapes) {
-            const Complex moved = first_copy(plane.periods, laid.places[i] + shape[0]) - shape[0];
-            pattern.outlines.push_back({points_in_uv(plane, shape, moved)});
-        }
-    locate_outlines(sheet, pattern.outlines);
+        for (const auto& shape : laid.other_shapes.empty() || coin(options.seed, i) ? laid.shapes : laid.other_shapes)
+            shapes.push_back({&shape, laid.places[i]});
+    scale_shapes(sheet, plane, options, shapes);
+    for (const LaidShape& one : shapes) pattern.outlines.push_back({points_in_uv(plane, one)});
+    locate_outlines(walked, pattern.outlines);
     std::erase_if(pattern.outlines, [](const DrawnOutline& outline) { return outline.face < 0; });
     for (std::size_t i = 0; i < pattern.outlines.size(); ++i) pattern.outlines[i].group = static_cast<Index>(i);
     return pattern;
@@ -166,16 +225,18 @@ bool is_pattern_file(const std::string& pattern)
     return extension == ".svg" || extension == ".png" || extension == ".obj";
 }
 
-DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options)
+DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options,
+                              const FlatSheet* filled)
 {
+    const FlatSheet& walked = filled ? *filled : sheet;
     require_pattern(name, options);
     if (options.hole && name == "voronoi") throw InputError("Voronoi cells have no rows to lie around a hole");
     if (options.repeats > 0 && !options.hole && (at_sites(name) || sheet.periods.size() != 1))
         throw InputError("repeats are for hexagons, triangles, diamonds, stripes and truchet on a ring");
     if (options.turn != 0.0 && sheet.periods.size() == 2)
         throw InputError("a lattice on a torus is turned so that it meets itself: leave the turn out");
-    if (options.hole || !at_sites(name)) return lattice_pattern(sheet, name, options);
-    return {site_outlines(sheet, even_sites(sheet, options.size, options.seed), shape_of(name), options.size,
+    if (options.hole || !at_sites(name)) return lattice_pattern(sheet, walked, name, options);
+    return {site_outlines(walked, even_sites(sheet, options.size, options.seed), shape_of(name), options.size,
                           options.bridge)};
 }
 

@@ -22,6 +22,7 @@ struct PatternOptions {
     double turn = 0.0;                ///< of a lattice, degrees counter-clockwise
     std::optional<Circle> hole = {};  ///< of the unit disk: a lattice's rows lie around it
     int rows = 0;                     ///< around the hole, beginning there; 0: as many as fit
+    bool whole = false;               ///< outlines of a lattice are made smaller at the border, until they fit
 };
 
 /// The patterns' names. Circles and Voronoi cells are even on the surface. Hexagons, triangles, diamonds, stripes and
@@ -39,8 +40,12 @@ struct DrawnPattern {
     double bend = 1.0;  ///< of the lattice, so that it fits a torus (LaidLattice)
 };
 
+/// The sheet's `grade` gives sizes: outlines of a lattice become so much smaller about their middles, and circles and
+/// Voronoi cells lie so much nearer to each other. Below least_grade there are no outlines.
+/// @param filled the sheet filled (filled_sheet.h): outlines lie beyond the border, too. Null: the sheet itself
 /// @throws InputError no such pattern; a size, bridge, turn or repeats that do not fit the surface
-DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options);
+DrawnPattern built_in_pattern(const FlatSheet& sheet, const std::string& name, const PatternOptions& options,
+                              const FlatSheet* filled = nullptr);
 
 /// On a sphere: circles and Voronoi cells only. @throws InputError as above, and for a lattice
 DrawnPattern built_in_pattern_on_sphere(const SphereSheets& sheets, const std::string& name,

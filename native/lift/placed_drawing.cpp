@@ -2,12 +2,14 @@
 
 #include "core/errors.h"
 #include "core/sort_unique.h"
+#include "lift/border_room.h"
 #include "lift/outline_places.h"
 #include "planar/filled_paths.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -81,16 +83,6 @@ std::vector<FilledBoundary> drawn_boundaries(const SvgDrawing& drawing, double t
     return boundaries;
 }
 
-bool runs_round(const std::vector<Complex>& polygon, Complex z)
-{
-    bool inside = false;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Complex a = polygon[i] - z, b = polygon[(i + 1) % polygon.size()] - z;
-        if ((a.imag() > 0.0) != (b.imag() > 0.0) && (cross(a, b) > 0.0) == (b.imag() > a.imag())) inside = !inside;
-    }
-    return inside;
-}
-
 /// Takes out areas that lie in a hole of another one.
 void drop_areas_in_holes(std::vector<FilledBoundary>& boundaries)
 {
@@ -109,6 +101,29 @@ void drop_areas_in_holes(std::vector<FilledBoundary>& boundaries)
     std::erase_if(boundaries, [&](const FilledBoundary& boundary) { return inner[boundary.area] != 0; });
 }
 
+/// Makes areas smaller about the middles of their boxes, with their holes, where the border has no room for them.
+void fit_beside_border(const FlatSheet& sheet, double bridge, std::vector<DrawnOutline>& outlines)
+{
+    for (auto first = outlines.begin(); first != outlines.end();) {
+        const auto last =
+            std::find_if(first, outlines.end(), [&](const DrawnOutline& other) { return other.group != first->group; });
+        const auto outer = std::ranges::find(first, last, false, &DrawnOutline::hole);
+        if (outer == last) throw std::logic_error("an area of a drawing has no outer boundary");
+        const PlaneBox box = box_around(outer->points);
+        const double width = std::max(box.size().real(), box.size().imag());
+        const BorderRoom room(sheet, width);
+        const auto smaller = [&](std::vector<Complex> points, double scale) {
+            for (Complex& z : points) z = box.middle() + scale * (z - box.middle());
+            return points;
+        };
+        const double scale =
+            room.largest_scale([&](double s) { return smaller(outer->points, s); }, std::max(bridge, 0.01 * width));
+        if (scale != 1.0)
+            for (auto one = first; one != last; ++one) one->points = smaller(std::move(one->points), scale);
+        first = last;
+    }
+}
+
 /// Takes out the holes, and notes where they begin.
 void drop_holes(PlacedDrawing& placed)
 {
@@ -124,7 +139,8 @@ void drop_holes(PlacedDrawing& placed)
 
 }  // namespace
 
-PlacedDrawing placed_drawing(const FlatSheet& sheet, const SvgDrawing& given, const PatternPlace& place, bool cut_out)
+PlacedDrawing placed_drawing(const FlatSheet& sheet, const FlatSheet& filled, const SvgDrawing& given,
+                             const PatternPlace& place, bool cut_out, std::optional<double> least_bridge)
 {
     const SvgDrawing drawing = in_unit_width(given, place.turn);
     const PlacedFrame frame = placed_frame(sheet, drawing.high.imag() - drawing.low.imag(), place, "drawing");
@@ -151,7 +167,8 @@ PlacedDrawing placed_drawing(const FlatSheet& sheet, const SvgDrawing& given, co
         }
         group += areas;
     }
-    locate_outlines(sheet, placed.outlines);
+    if (least_bridge) fit_beside_border(sheet, *least_bridge / frame.scale, placed.outlines);
+    locate_outlines(filled, placed.outlines);
     if (cut_out) drop_holes(placed);
     return placed;
 }

@@ -6,6 +6,7 @@
 #include "lift/pattern_place.h"
 #include "lift/svg_drawing.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -19,9 +20,12 @@ struct PlacedDrawing {
 
 /// The drawing is placed by placed_frame. Paths are united (planar/filled_paths.h). Curves become polygons that lie
 /// within a thousandth of the drawing's size, and within a twentieth of the mesh's mean edge.
+/// @param filled the sheet filled (filled_sheet.h), or the sheet itself: where outlines are
 /// @param cut_out without holes in outlines, and the outlines in these
+/// @param least_bridge if given, areas that are nearer than this to the border are made smaller about their middle,
+/// until they fit: in the unit of the vertices
 /// @throws InputError as placed_frame; a drawing of over 200,000 corners
-PlacedDrawing placed_drawing(const FlatSheet& sheet, const SvgDrawing& drawing, const PatternPlace& place,
-                             bool cut_out);
+PlacedDrawing placed_drawing(const FlatSheet& sheet, const FlatSheet& filled, const SvgDrawing& drawing,
+                             const PatternPlace& place, bool cut_out, std::optional<double> least_bridge = {});
 
 }  // namespace koebe

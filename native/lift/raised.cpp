@@ -26,12 +26,15 @@ RaisedSheet raise_faces(const Triangles& triangles, const std::vector<Complex>& 
     RaisedSheet raised;
     std::vector<Index> above(vertex_count, -1);  // the vertex at the height over a foot
     for (Index v = 0; v < vertex_count; ++v) raised.source.push_back(v);
-    for (const Index h : feet) {
-        above[origin(triangles, h)] = static_cast<Index>(raised.source.size());
-        raised.source.push_back(origin(triangles, h));
-    }
+    const auto raise = [&](Index v) {
+        if (above[v] >= 0) return;
+        above[v] = static_cast<Index>(raised.source.size());
+        raised.source.push_back(v);
+    };
+    for (const Index h : feet) raise(origin(triangles, h));
+    for (const Index h : feet) raise(target(triangles, h));  // where a wall ends at a loop
     raised.height = VectorXd::Zero(static_cast<Eigen::Index>(raised.source.size()));
-    raised.height.tail(static_cast<Eigen::Index>(feet.size())).setConstant(height);
+    raised.height.tail(raised.height.size() - vertex_count).setConstant(height);
 
     const Eigen::Index faces = triangles.rows();
     raised.triangles.resize(faces + 2 * static_cast<Eigen::Index>(feet.size()), 3);

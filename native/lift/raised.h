@@ -16,7 +16,7 @@ struct RaisedSheet {
 };
 
 /// Doubles the vertices between raised faces and the ground: one stays on the ground, and one is raised. Walls join the
-/// two. Every edge keeps two faces.
+/// two. Every edge keeps two faces, but for a wall's edges where it ends at a loop.
 /// @param uv (3F) of corners @param up (F) whether a face is raised
 RaisedSheet raise_faces(const Triangles& triangles, const std::vector<Complex>& uv, const std::vector<Index>& up,
                         Index vertex_count, double height);

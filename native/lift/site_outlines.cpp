@@ -1,5 +1,6 @@
 #include "lift/site_outlines.h"
 
+#include "lift/even_sites.h"
 #include "lift/lattice.h"
 #include "planar/planar_predicates.h"
 
@@ -234,8 +235,9 @@ std::vector<DrawnOutline> site_outlines(const FlatSheet& sheet, const std::vecto
     std::vector<Site> sites;
     for (const SurfacePoint& point : points) {
         const double scale = sheet.scale_at(point.face, point.weights);
-        sites.push_back({sheet.uv_at(point.face, point.weights), point.face, sheet.sheet[point.face], size / scale,
-                         bridge / scale});
+        const double own = size * std::max(least_grade, sheet.grade_at(point.face, point.weights));
+        sites.push_back(
+            {sheet.uv_at(point.face, point.weights), point.face, sheet.sheet[point.face], own / scale, bridge / scale});
     }
     return outlines_around(sheet, sites, std::vector<char>(sites.size(), 1), shape, size / sheet.mean_scale, false);
 }
@@ -253,7 +255,8 @@ std::vector<DrawnOutline> site_outlines_on_sphere(const SphereSheets& sheets, co
             if (!(sheet.twice_area(point.face) > 0.0)) continue;  // at the other pole
             const Complex place = sheet.uv_at(point.face, point.weights);
             const double scale = sheet.scale_at(point.face, point.weights) * magnified(place);
-            sites.push_back({place, point.face, sheet.sheet[point.face], size / scale, bridge / scale});
+            const double own = size * std::max(least_grade, sheet.grade_at(point.face, point.weights));
+            sites.push_back({place, point.face, sheet.sheet[point.face], own / scale, bridge / scale});
             drawn.push_back(sheets.in_south(point.face) == (chart == 1) ? 1 : 0);
         }
         for (DrawnOutline& outline : outlines_around(sheet, sites, drawn, shape, apart, true)) {

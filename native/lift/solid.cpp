@@ -36,28 +36,29 @@ Vertices moved_along(const Vertices& vertices, const Vertices& normals, const Ve
 }
 
 Solid closed_solid(const Vertices& outside, const Triangles& outer_faces, const Vertices& inside,
-                   const Triangles& inner_faces)
+                   const Triangles& inner_faces, const std::vector<Index>& source)
 {
     const Index count = static_cast<Index>(outside.rows()), outer = static_cast<Index>(outer_faces.rows());
     const Index inner = static_cast<Index>(inner_faces.rows());
-    const std::vector<Index> twin = pair_halfedges(inner_faces, static_cast<Index>(inside.rows()));
-    const Index rim = static_cast<Index>(std::ranges::count(twin, no_twin));
+    const std::vector<Index> twin = pair_halfedges(outer_faces, count);
+    std::vector<Index> walls;  // corners
+    for (Index h = 0; h < 3 * outer; ++h) {
+        if (twin[h] != no_twin) continue;
+        const Index a = origin(outer_faces, h), b = target(outer_faces, h);
+        walls.insert(walls.end(), {b, a, count + source[a]});
+        if (source[a] != source[b]) walls.insert(walls.end(), {b, count + source[a], count + source[b]});
+    }
 
     Solid solid;
     solid.vertices.resize(count + inside.rows(), 3);
     solid.vertices << outside, inside;
-    solid.triangles.resize(outer + inner + 2 * rim, 3);
+    solid.triangles.resize(outer + inner + static_cast<Eigen::Index>(walls.size() / 3), 3);
     solid.triangles.topRows(outer) = outer_faces;
     for (Index f = 0; f < inner; ++f)
         solid.triangles.row(outer + f) << count + inner_faces(f, 0), count + inner_faces(f, 2),
             count + inner_faces(f, 1);
-    Index wall = outer + inner;
-    for (Index h = 0; h < 3 * inner; ++h) {
-        if (twin[h] != no_twin) continue;
-        const Index a = origin(inner_faces, h), b = target(inner_faces, h);
-        solid.triangles.row(wall++) << b, a, count + a;
-        solid.triangles.row(wall++) << b, count + a, count + b;
-    }
+    const Eigen::Index wall_count = static_cast<Eigen::Index>(walls.size() / 3);
+    solid.triangles.bottomRows(wall_count) = Eigen::Map<const Triangles>(walls.data(), wall_count, 3);
     solid.patch.assign(outer, 0);
     solid.patch.resize(outer + inner, 1);
     solid.patch.resize(solid.triangles.rows(), 2);

@@ -14,9 +14,10 @@ struct Solid {
 };
 
 /// Joins two sheets with the same loops to a solid. Every edge of the solid has two faces, in opposite directions.
-/// @param outside its first vertices are the vertices of the inner side, and its loops have no other vertices
+/// Where a wall of the outer side ends at a loop, its edge has one vertex of the inner side below it.
+/// @param source (V) vertex of the inner side below each vertex of the outer side
 Solid closed_solid(const Vertices& outside, const Triangles& outer_faces, const Vertices& inside,
-                   const Triangles& inner_faces);
+                   const Triangles& inner_faces, const std::vector<Index>& source);
 
 /// The vertices moved along the normals, and the faces of `triangles` checked.
 /// @param normals (V, 3) unit @param by (V)

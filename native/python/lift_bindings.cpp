@@ -22,6 +22,7 @@ void bind_lift(py::module_& m)
 {
     bind_words(m, "LiftShape",
                {LiftShape::disk, LiftShape::ring, LiftShape::torus, LiftShape::sphere, LiftShape::parts});
+    bind_words(m, "LiftRim", {LiftRim::leave, LiftRim::clip, LiftRim::whole});
     bind_options<LiftOptions>(m, "LiftOptions");
     py::class_<LiftResult>(m, "LiftResult")
         .def_property_readonly("vertices", [](const LiftResult& r) { return r.vertices; })

@@ -108,6 +108,11 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
                                    counted(faults.below_resolution.size(), "face") + " too small for 32-bit UVs",
                                    faults.below_resolution});
     if (!faults.any()) return;
+    if (!faults.holes.empty())
+        result.warnings.push_back(
+            {WarningKind::lost_circles,
+             counted(faults.holes.size(), "loop") + " out of shape: they cross, or run the wrong way",
+             {faults.holes.begin(), faults.holes.end()}});
     warn_not_one_to_one(faults.flipped, faults.below_resolution,
                         {faults.holes.empty() ? "" : counted(faults.holes.size(), "loop") + " out of shape",
                          faults.seams ? "the sides of the cut do not fit" : "",
@@ -168,6 +173,27 @@ TileResult reported(const Vertices& vertices, const Triangles& triangles, const 
     return result;
 }
 
+/// Faces whose height is less than a part in ten million of their longest edge, or else the one with the least share.
+std::vector<Index> thinnest_faces(const Vertices& vertices, const Triangles& triangles)
+{
+    constexpr double thin = 1e-7;  // dimensionless: shares below it are lost among the roundings of a factorization
+    std::vector<Index> faces;
+    Index thinnest = 0;
+    double least = INFINITY;
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+        const Eigen::RowVector3d a = vertices.row(triangles(f, 1)) - vertices.row(triangles(f, 0));
+        const Eigen::RowVector3d b = vertices.row(triangles(f, 2)) - vertices.row(triangles(f, 0));
+        const double longest = std::max({a.norm(), b.norm(), (b - a).norm()});
+        const double share = longest > 0.0 ? (a / longest).cross(b / longest).norm() : 0.0;
+        if (share < thin) faces.push_back(f);
+        if (!(share < least)) continue;
+        least = share;
+        thinnest = f;
+    }
+    if (faces.empty()) faces.push_back(thinnest);
+    return faces;
+}
+
 }  // namespace
 
 TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
@@ -182,7 +208,17 @@ TileResult canonical_tile(const Vertices& vertices, const Triangles& triangles, 
         here.importance = mesh.of_vertices(here.importance);
         return map(mesh.vertices, mesh.triangles, here, own);
     };
-    return corner_map<TileResult>(vertices, triangles, options, context, compute, name_tile);
+    try {
+        return corner_map<TileResult>(vertices, triangles, options, context, compute, name_tile);
+    } catch (const OutOfMemory&) {
+        throw;
+    } catch (const SolverError& error) {
+        if (!error.elements().empty()) throw;
+        std::vector<Index> faces = thinnest_faces(vertices, triangles);
+        throw SolverError("the map's equations have no solution: " + counted(faces.size(), "face") +
+                              (faces.size() == 1 ? " is" : " are") + " too thin (" + error.what() + ")",
+                          ElementKind::faces, std::move(faces));
+    }
 }
 
 TileResult tile_result(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,

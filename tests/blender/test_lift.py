@@ -114,6 +114,35 @@ def test_a_mirrored_object_has_its_relief_and_solid_on_the_same_side():
     assert is_closed(made().data) and volume(made().data) > 0.0
 
 
+def test_outlines_are_clipped_at_rims_and_bridges_are_checked(capfd):
+    obj = scenes.add_panel()
+    loops = len(scenes.boundary_loops(obj.data))
+    assert lift(pattern="hexagons", size=0.3, rim="clip", bridge=0.14, hide=False) == {"FINISHED"}
+    clipped = len(scenes.boundary_loops(made().data)) - loops
+    said = capfd.readouterr().out
+    outlines = int(said.split(" outlines cut out")[0].split()[-1])
+    assert clipped < outlines and "thinner than asked for" in said
+    scenes.select(obj)
+    assert lift(pattern="hexagons", size=0.3, rim="clip", thickness=0.05) == {"FINISHED"}
+    assert is_closed(made().data)
+
+
+def test_sizes_follow_a_vertex_group():
+    obj = scenes.add_panel(holes=())
+    group = obj.vertex_groups.new(name="Sizes")
+    x = points(obj)[:, 0]
+    for vertex in np.flatnonzero(x > 0.0).tolist():
+        group.add([vertex], 1.0, "REPLACE")
+    assert lift(pattern="circles", size=0.2, graded="Sizes", hide=False) == {"FINISHED"}
+    holes = scenes.boundary_loops(made().data)
+    new = points(made())
+    middles = [new[loop][:, 0].mean() for loop in holes]
+    assert len(holes) > 5 and sum(middle < -0.15 for middle in middles) == 0
+    scenes.select(obj)
+    with pytest.raises(RuntimeError, match="it has no vertex group 'None', which Graded names"):
+        lift(graded="None")
+
+
 def test_a_solid_is_closed_and_has_no_uvs():
     scenes.add_panel()
     assert lift(pattern="diamonds", thickness=0.05) == {"FINISHED"}
@@ -202,7 +231,8 @@ def test_uvs_attributes_and_groups_come_along(options):
     layer = mesh.uv_layers.new(name="Own")
     layer.data.foreach_set("uv", np.ascontiguousarray(own[corner, :2] * [1, -1]).ravel())
     for name, kind, domain, values in (
-        ("Point", "FLOAT", "POINT", linear), ("Vector", "FLOAT_VECTOR", "CORNER", own[corner]),
+        ("Point", "FLOAT", "POINT", linear),
+        ("Vector", "FLOAT_VECTOR", "CORNER", own[corner]),
         ("Color", "BYTE_COLOR", "CORNER", np.tile(linear[corner][:, None], 4)),
         ("Number", "INT", "FACE", np.arange(len(mesh.polygons))),
     ):

@@ -257,11 +257,33 @@ TEST(MeetingFaces, CountPairsThatAreNoNeighbours)
     apart << 0, 1, 2, 4, 5, 6;
     touching << 0, 1, 2, 4, 5, 7;
     above << 0, 1, 2, 3, 4, 0;
-    EXPECT_EQ(meeting_faces(points, through).pairs, 1);
-    EXPECT_EQ(meeting_faces(points, through).faces, (std::vector<Index>{0, 1}));
-    EXPECT_EQ(meeting_faces(points, apart).pairs, 0) << "a billionth above is above";
-    EXPECT_EQ(meeting_faces(points, touching).pairs, 1) << "a corner on a face meets it";
-    EXPECT_EQ(meeting_faces(points, above).pairs, 0) << "they share a vertex";
+    const ExecutionContext context;
+    EXPECT_EQ(meeting_faces(points, through, context).pairs, 1);
+    EXPECT_EQ(meeting_faces(points, through, context).faces, (std::vector<Index>{0, 1}));
+    EXPECT_EQ(meeting_faces(points, apart, context).pairs, 0) << "a billionth above is above";
+    EXPECT_EQ(meeting_faces(points, touching, context).pairs, 1) << "a corner on a face meets it";
+    EXPECT_EQ(meeting_faces(points, above, context).pairs, 0) << "they share a vertex";
+}
+
+TEST(MeetingFaces, EndWhereThereAreFarTooMany)
+{
+    constexpr Index count = 400;  // slabs crosswise: each one meets half of the others
+    Vertices points(3 * count, 3);
+    Triangles triangles(count, 3);
+    for (Index k = 0; k < count; ++k) {
+        const double at = 0.001 * k;
+        if (k % 2 == 0)
+            points.middleRows(3 * k, 3) << at, -1, -1, at, 3, -1, at, -1, 3;
+        else
+            points.middleRows(3 * k, 3) << -1, at, -1, 3, at, -1, -1, at, 3;
+        triangles.row(k) << 3 * k, 3 * k + 1, 3 * k + 2;
+    }
+    const MeetingFaces meeting = meeting_faces(points, triangles, ExecutionContext());
+    EXPECT_FALSE(meeting.all);
+    EXPECT_FALSE(meeting.faces.empty());
+    CancelToken token;
+    token.cancel();
+    EXPECT_THROW(meeting_faces(points, triangles, ExecutionContext({}, token)), Cancelled);
 }
 
 TEST(Solid, OfAPlaneHasItsVolume)
@@ -273,7 +295,7 @@ TEST(Solid, OfAPlaneHasItsVolume)
     triangles << 0, 1, 2, 0, 2, 3;
     const VectorXd half = VectorXd::Constant(4, 0.25);
     const Solid solid = closed_solid(moved_along(square, normals, half, triangles), triangles,
-                                     moved_along(square, normals, -half, triangles), triangles);
+                                     moved_along(square, normals, -half, triangles), triangles, {0, 1, 2, 3});
     EXPECT_NEAR(volume_of(solid.vertices, solid.triangles), 1.0, 1e-15);
     const Surface closed = analyze_surface(solid.triangles, 8);
     EXPECT_EQ(closed.euler_characteristic, 2);

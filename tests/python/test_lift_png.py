@@ -124,7 +124,7 @@ def test_what_an_image_cannot_be(lifted):
         ({"shape": "parts"}, "parts have cuts"),
         ({"shape": "disk", "repeats": 2}, "a disk does not repeat"),
         ({"turn": 5}, "an image has no turn"),
-        ({"bridge": 0.1}, "a bridge is for the built-in"),
+        ({"bridge": 0.1}, "a bridge is for outlines"),
         ({"size": 1e-4}, "over four million faces"),
         ({"height": -0.2, "thickness": 0.1}, "sunk through"),
     ):

@@ -134,8 +134,8 @@ def test_what_is_not_drawn_is_told(lifted):
     assert any("<text> is not drawn" in warning.text for warning in result.warnings)
     with pytest.raises(koebe.InputError, match="no closed path; it has text"):
         lifted(svg("<text>a</text>"), perforate=True)
-    with pytest.raises(koebe.InputError, match="a bridge is for the built-in"):
-        lifted(svg(path(SQUARE)), bridge=0.1, perforate=True)
+    with pytest.raises(koebe.InputError, match="a drawing has its own bridges"):
+        lifted(svg(path(SQUARE)), bridge=0.1, height=0.1)
 
 
 DAMAGED = {

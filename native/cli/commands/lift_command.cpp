@@ -1,6 +1,7 @@
 // koebe lift SURFACE PATTERN OUT
 #include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
+#include "cli/commands/weights_option.h"
 #include "cli/options/option_table.h"
 
 #include "core/counted.h"
@@ -23,6 +24,7 @@ struct LiftRequest : MapRequest {
     std::string pattern;
     std::string solid_format;  // .stl or .3mf; empty: a format of maps
     LiftOptions chosen;
+    WeightsOption graded;
 };
 
 std::vector<Warning> write_lifted(AtomicFile& file, const LiftRequest& request, const LiftResult& result)
@@ -43,9 +45,10 @@ int run_lift(const LiftRequest& request)
 {
     MapKind<LiftResult> kind;
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        LiftOptions chosen = request.chosen;
+        chosen.graded = request.graded.read("a share of the size");
         LiftResult result = with_filed_faces(input, [&] {
-            return lift(input.polygons.vertices, input.triangulation.triangles, request.pattern, request.chosen,
-                        context);
+            return lift(input.polygons.vertices, input.triangulation.triangles, request.pattern, chosen, context);
         });
         add_input_warnings(input, result.warnings);
         return result;
@@ -92,6 +95,7 @@ Subcommand add_lift(CLI::App& app)
     add_output(*options, request->output,
                "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL or 3MF");
     add_options(*options, "lift", request->chosen);
+    request->graded.add(*options, "lift", "graded");
     add_report_options(*options, *request, "");
     options->callback([request] {
         const std::string extension = io::lower_extension(request->output);
@@ -101,6 +105,7 @@ Subcommand add_lift(CLI::App& app)
         if (is_pattern_file(request->pattern)) inputs.push_back(request->pattern);
         require_different_files(map_files(*request), inputs, !request->quiet);
         request->entries["options"] = option_report("lift", request->chosen);
+        request->graded.check(*request);
     });
     return {options, [request] { return run_lift(*request); }};
 }

@@ -8,7 +8,7 @@ import numpy as np
 
 from ._input import surface_of
 from ._native import _koebe
-from ._options import callback, filled, takes, token
+from ._options import callback, filled, takes, token, vertex_weights
 from ._result import Warning
 from ._signatures import LiftOptions
 
@@ -31,17 +31,22 @@ class LiftResult:
     bend         above 1: a lattice is stretched by this much, so that it fits a torus
     outlines     on the surface
     crossings    pairs of faces that meet though they are no neighbours, of a relief, a solid or a mesh
+    thin_bridges       pairs of openings with less material between than `bridge` asked for; 0 if it was not asked for
+    thinnest_bridge    the least width of these, or None
     islands      holes in outlines that are cut out: what was inside has fallen out too
     left_out     dict of counts, why outlines were left out: at_border, too_fine, crossing, open
     loops, euler    dicts before and after: boundary loops and Euler characteristic of the sheet
     closed       whether it is a solid
     converged    of the map
-    warnings     list of Warning: of the map, and left_out with the faces where such outlines begin
+    warnings     list of Warning: of the map, left_out with the faces where such outlines begin, and thin_bridges
+                 with the faces where they are
     """
 
     pattern: str
     outlines: int
     crossings: int
+    thin_bridges: int
+    thinnest_bridge: float | None
     islands: int
     left_out: dict[str, int]
     loops: dict[str, int]
@@ -101,6 +106,7 @@ def lift(
     options, said = filled("lift", _koebe.LiftOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     source = surface_of(vertices, triangles)
+    options.graded = vertex_weights("graded", given["graded"], len(source.vertices))
     if not isinstance(pattern, str | os.PathLike):
         raise TypeError(f"pattern must be a name or a file's path, not {pattern!r}")
     native = _koebe.lift(source.vertices, source.triangles, os.fspath(pattern), options, progress, cancel)

@@ -130,6 +130,8 @@ class LiftOptions(RunOptions, total=False):
     turn: float
     around: int | None
     rows: int
+    rim: str
+    graded: Any
     perforate: bool
     height: float | None
     thickness: float | None
