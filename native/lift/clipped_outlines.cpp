@@ -1,39 +1,17 @@
 #include "lift/clipped_outlines.h"
 
 #include "core/sort_unique.h"
+#include "cut/disjoint_sets.h"
 #include "mesh/connectivity.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <numeric>
 #include <set>
 #include <utility>
 
 namespace koebe {
 namespace {
-
-/// Numbers that are joined to sets.
-class JoinedNumbers {
-public:
-    explicit JoinedNumbers(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-    /// @return false if they were joined already
-    bool join(Index a, Index b)
-    {
-        a = root(a);
-        b = root(b);
-        parent_[a] = b;
-        return a != b;
-    }
-
-private:
-    Index root(Index a)
-    {
-        while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-        return a;
-    }
-    std::vector<Index> parent_;
-};
 
 /// The pieces of the surface inside outlines, and how they lie at its loops.
 class TakenPieces {
@@ -78,7 +56,7 @@ public:
     std::vector<Index> dividing() const
     {
         const Index gaps = gap_.empty() ? 0 : std::ranges::max(gap_) + 1;
-        JoinedNumbers joined(static_cast<std::size_t>(gaps + pieces_));
+        DisjointSets joined(static_cast<std::size_t>(gaps + pieces_));
         std::vector<Index> found;
         for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h) {
             if (!at_edge(h) || at_rim(h) || !at_rim(next_at_edge(h))) continue;
