@@ -30,6 +30,7 @@
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
 #include "shape/module_error.h"
+#include "shape/separation_distance.h"
 #include "sphere/sphere_map.h"
 #include "surface/harmonic_map.h"
 #include "tiles/tile_map.h"

@@ -16,6 +16,7 @@
 #include "shape/domain_alignment.h"
 #include "shape/loop_matching.h"
 #include "shape/module_error.h"
+#include "shape/separation_distance.h"
 #include "surface/mirror.h"
 #include "transfer/correspondence.h"
 #include "transfer/surface_point.h"
@@ -80,6 +81,21 @@ void bind_shapes(py::module_& m)
             return std::make_tuple(std::move(match.order_a), std::move(match.order_b), match.distance);
         });
     });
+    m.def("conformal_separations", [](const PlanarPoints& centers, const VectorXd& radii) {
+        return detached([circles = circles_of(centers, radii)] { return conformal_separations(circles); });
+    });
+    m.def("match_separations", [](const PlanarPoints& centers_a, const VectorXd& radii_a, const PlanarPoints& centers_b,
+                                  const VectorXd& radii_b, bool any_outer) {
+        return detached([a = circles_of(centers_a, radii_a), b = circles_of(centers_b, radii_b), any_outer] {
+            SeparationMatch match = match_separations(a, b, any_outer);
+            return std::make_tuple(std::move(match.match), match.distance);
+        });
+    });
+    m.def("separation_distance",
+          [](const PlanarPoints& centers_a, const VectorXd& radii_a, const PlanarPoints& centers_b,
+             const VectorXd& radii_b, const std::vector<int>& match) {
+              return separation_distance(circles_of(centers_a, radii_a), circles_of(centers_b, radii_b), match);
+          });
 
     py::class_<DomainAlignment>(m, "DomainAlignment",
                                 "An automorphism of the unit disk that lays one circle domain "

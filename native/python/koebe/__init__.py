@@ -39,6 +39,8 @@ from ._shapes import (
     module_distance,
     module_error,
     module_names,
+    separation_distance,
+    separations,
 )
 from ._sphere import SphereMap, sphere_map
 from ._surface import Surface
@@ -109,6 +111,8 @@ __all__ = [
     "plot",
     "ring_map",
     "schottky_map",
+    "separation_distance",
+    "separations",
     "sphere_map",
     "torus_map",
     "transfer",
