@@ -20,7 +20,8 @@ def linked(text, public):
     said = "|".join(sorted(map(re.escape, public - WORDS), key=len, reverse=True))
     marks = re.compile(
         rf"``(?P<literal>[^`]+)``|`(?P<code>[^`]+)`|(?P<page>docs/\w+\.md)"
-        rf"|koebe\.(?P<full>\w+)|(?<![\w.'])(?P<name>{said})(?![\w'])|(?<![\w'])(?P<word>(?:\w+=)?'[\w .|-]{{1,24}}')(?![\w'])"
+        rf"|koebe\.(?P<full>\w+)|(?<![\w.'])(?P<name>{said})(?![\w'])"
+        rf"|(?<![\w'])(?P<word>(?:\w+=)?'[\w .|-]{{1,24}}')(?![\w'])"
     )
     made, at = "", 0
 
