@@ -15,6 +15,8 @@ from markup import escaped, title, toctree
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = ROOT / "native"
 FIRST = NATIVE / "package" / "koebe.h"
+EXAMPLES = ROOT / "tests" / "consumer" / "examples.cpp"
+MARK = re.compile(r"^ *// \[(\w+)\]$", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 SETTINGS = """
 GENERATE_HTML=NO
@@ -90,6 +92,8 @@ def faults(folder):
     own = {str(NATIVE / name) for name in included(FIRST)}
     tree = ElementTree.parse(folder / "xml" / "namespacekoebe.xml")
     functions = [member for member in tree.iter("memberdef") if member.get("kind") == "function"]
+    names = {member.findtext("name") for member in functions} | {"SurfaceSolver"}
+    made += [f"{EXAMPLES.name}: koebe.h declares no {name}" for name in examples() if name not in names]
     described = {member.findtext("name") for member in functions if said(member)}
     for member in functions:
         place, name = member.find("location").get("file"), member.findtext("name")
@@ -119,9 +123,22 @@ def entries(folder):
     return {name: [text for _, text in sorted(lines)] for name, lines in found.items()}
 
 
+def examples():
+    """The names of the functions and classes that have an example."""
+    return [name for name in MARK.findall(EXAMPLES.read_text(encoding="utf-8")) if name != "end"]
+
+
+def example(name):
+    """The example of a name, from a program that the tests compile and run."""
+    return (
+        f".. rubric:: Example: {name}\n\n.. literalinclude:: /code/{EXAMPLES.name}\n   :language: cpp\n   :dedent:\n"
+        f"   :start-after: // [{name}]\n   :end-before: // [end]\n\n"
+    )
+
+
 def pages(folder):
     """The pages: name -> text."""
-    rooms, written = {}, entries(folder)
+    rooms, written, shown = {}, entries(folder), examples()
     for name in headers():
         rooms.setdefault(name.split("/")[0], []).append(name)
     made = {}
@@ -140,7 +157,9 @@ def pages(folder):
         text = title(room)
         for name in names:
             text += title(f"koebe/{name}", "-") + escaped(subject(name)) + "\n\n"
-            text += "".join(written.get(name, []))
+            lines = written.get(name, [])
+            named = dict.fromkeys(re.findall(r"koebe::(\w+)[\n(]", "".join(lines)))
+            text += "".join(lines) + "".join(example(one) for one in named if one in shown)
         made[f"reference/cpp/{room}.rst"] = text
     made["reference/cpp/index.rst"] = index
     return made

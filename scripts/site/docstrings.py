@@ -21,7 +21,7 @@ def linked(text, public):
     marks = re.compile(
         rf"``(?P<literal>[^`]+)``|`(?P<code>[^`]+)`|(?P<page>docs/\w+\.md)"
         rf"|koebe\.(?P<full>\w+)|(?<![\w.'])(?P<name>{said})(?![\w'])"
-        r"|(?<![\w'])(?P<word>(?:\w+=)?'[\w .|-]{1,24}')(?![\w'])"
+        rf"|(?<![\w'])(?P<word>(?:\w+=)?'[\w .|-]{{1,24}}')(?![\w'])"
     )
     made, at = "", 0
 

@@ -10,7 +10,7 @@ LINK = re.compile(r"(\]\()(?!https?:|#)([^)\s]+)(\))")
 FILE_NAME = re.compile(r"\[(?:docs/)?(\w+)\.(?:md|ipynb)\](\(\1\.)")
 CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
 PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
-CODE = {"main.cpp", "CMakeLists.txt"}
+CODE = {"main.cpp", "examples.cpp", "CMakeLists.txt"}
 
 
 def documents():

@@ -1,6 +1,8 @@
 // Maps a round annulus, known in advance: its inner radius is that of the map. Ends with 0 if all is right.
 #include <koebe/koebe.h>
 
+#include "examples.h"
+
 #if __has_include("core/types.h")
 #error "the package's headers must not stand in the include path by their rooms"
 #endif
@@ -41,6 +43,11 @@ int main()
     std::printf("inner radius %.6f, %zu flipped\n", map.loops.at(1).circle.radius, map.distortion.flipped.size());
     if (!map.converged || !map.distortion.flipped.empty()) return 1;
     if (std::abs(map.loops.at(1).circle.radius - inner) > 2e-3) return 2;
+
+    one_surface(vertices, triangles);
+    steps(vertices, triangles);
+    shapes();
+    handles();
 
     int stages = 0;
     koebe::ExecutionContext context([&](double, const std::string&) { ++stages; }, koebe::CancelToken());

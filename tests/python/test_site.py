@@ -90,6 +90,13 @@ def test_every_public_header_says_what_it_is_for():
     assert [name for name in cpp_pages.headers() if not cpp_pages.subject(name)] == []
 
 
+def test_the_maps_of_the_library_have_examples():
+    shown = cpp_pages.examples()
+    maps = {"uniformize", "uniformize_with_cuts", "parts_of", "flatten", "torus_map", "ring_map", "sphere_map", "lift",
+            "schottky_map", "fit_circles", "disk_map", "annulus_map", "conformal_module"}  # fmt: skip
+    assert maps <= set(shown) and len(shown) == len(set(shown))
+
+
 def test_operators_without_a_description_are_seen():
     said = {"name": "even", "does": "", "hidden": False}
     found = [{"name": "uv.a", "does": "Map", "properties": [said]}, {"name": "uv.b", "does": "", "properties": []}]
