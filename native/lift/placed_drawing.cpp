@@ -102,24 +102,26 @@ void drop_areas_in_holes(std::vector<FilledBoundary>& boundaries)
 }
 
 /// Makes areas smaller about the middles of their boxes, with their holes, where the border has no room for them.
-void fit_beside_border(const FlatSheet& sheet, double bridge, std::vector<DrawnOutline>& outlines)
+/// @param width of the drawing in the UVs
+void fit_beside_border(const FlatSheet& sheet, double width, double bridge, std::vector<DrawnOutline>& outlines)
 {
+    const BorderRoom room(sheet, 0.1 * width);
+    std::ranges::stable_sort(outlines, {}, &DrawnOutline::group);
     for (auto first = outlines.begin(); first != outlines.end();) {
         const auto last =
             std::find_if(first, outlines.end(), [&](const DrawnOutline& other) { return other.group != first->group; });
         const auto outer = std::ranges::find(first, last, false, &DrawnOutline::hole);
         if (outer == last) throw std::logic_error("an area of a drawing has no outer boundary");
         const PlaneBox box = box_around(outer->points);
-        const double width = std::max(box.size().real(), box.size().imag());
-        const BorderRoom room(sheet, width);
-        const auto smaller = [&](std::vector<Complex> points, double scale) {
+        const auto smaller_by = [&](std::vector<Complex> points, double scale) {
             for (Complex& z : points) z = box.middle() + scale * (z - box.middle());
             return points;
         };
+        const double least = 0.01 * std::max(box.size().real(), box.size().imag());
         const double scale =
-            room.largest_scale([&](double s) { return smaller(outer->points, s); }, std::max(bridge, 0.01 * width));
+            room.largest_scale([&](double s) { return smaller_by(outer->points, s); }, std::max(bridge, least));
         if (scale != 1.0)
-            for (auto one = first; one != last; ++one) one->points = smaller(std::move(one->points), scale);
+            for (auto one = first; one != last; ++one) one->points = smaller_by(std::move(one->points), scale);
         first = last;
     }
 }
@@ -167,7 +169,7 @@ PlacedDrawing placed_drawing(const FlatSheet& sheet, const FlatSheet& filled, co
         }
         group += areas;
     }
-    if (least_bridge) fit_beside_border(sheet, *least_bridge / frame.scale, placed.outlines);
+    if (least_bridge) fit_beside_border(sheet, frame.width, *least_bridge / frame.scale, placed.outlines);
     locate_outlines(filled, placed.outlines);
     if (cut_out) drop_holes(placed);
     return placed;

@@ -95,6 +95,20 @@ def test_the_bridges_of_a_drawing_are_checked(tmp_path):
         koebe.lift(*mesh, two, bridge=0.03, height=0.1)
 
 
+@pytest.mark.parametrize("more", [{"perforate": True}, {"height": 0.02}], ids=str)
+def test_a_drawing_is_left_out_clipped_or_made_smaller(tmp_path, more):
+    rings = "".join(f"M{x} 0H{x + 10}V10H{x}ZM{x + 2} 2V8H{x + 8}V2Z" for x in (0, 20, 40))
+    (tmp_path / "rings.svg").write_text(f'<svg xmlns="http://www.w3.org/2000/svg"><path d="{rings}"/></svg>')
+    mesh = panel(holes=())
+    left, clipped, whole = (
+        koebe.lift(*mesh, tmp_path / "rings.svg", size=1.2, rim=rim, **more) for rim in ("leave", "clip", "whole")
+    )
+    assert left.outlines == 1 and left.left_out["at_border"] == 2
+    assert clipped.outlines == 3 == whole.outlines
+    assert clipped.loops["after"] == 1 + ("perforate" in more)  # two are bays
+    assert whole.loops["after"] == 1 + 3 * ("perforate" in more) and whole.left_out["at_border"] == 0
+
+
 @pytest.mark.parametrize("pattern", ["circles", "voronoi", "hexagons", "stripes"])
 def test_weights_give_the_sizes(pattern):
     vertices, triangles = panel(holes=())
