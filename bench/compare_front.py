@@ -15,19 +15,19 @@ BLUE, ORANGE, RED, GREEN, GREY = "#1f5fa8", "#d97706", "#c02f2f", "#2b8a3e", "#6
 FRONT = ("--darts 0", "--darts 0.05", "ours, in parts", "--darts 0.5")  # joined by a line
 # Name in the picture, its colour, and where it stands beside its point in the two panels.
 NAMED = {
-    "xatlas": ("xatlas", ORANGE, (8, -8), (8, 8)),
+    "xatlas": ("xatlas", ORANGE, (8, -8), (8, -9)),
     "Smart UV": ("Smart UV", RED, (8, 9), (8, 8)),
-    "OptCuts": ("OptCuts", GREEN, (-6, 9), (8, 6)),
+    "OptCuts": ("OptCuts", GREEN, (8, 13), (8, 6)),
     "Unwrap, Angle Based": ("Angle Based", GREY, (8, -7), (8, -6)),
     "Unwrap, Conformal": ("Conformal", GREY, (8, 5), (8, -1)),
     "Unwrap, Minimum Stretch": ("Minimum Stretch", GREY, (8, 3), (8, 10)),
     "--darts 0": ("no darts", BLUE, (8, 5), (8, 6)),
-    "ours, in parts": ("ours", BLUE, (4, 12), (8, 7)),
-    "--darts 0.5": ("more darts", BLUE, (2, -21), (9, 2)),
-    "--loops round": ("round loops", BLUE, (-7, -10), (-7, -9)),
+    "ours, in parts": ("ours", BLUE, (-8, -4), (-8, -6)),
+    "--darts 0.5": ("more darts", BLUE, (2, -17), (8, -5)),
+    "--loops round": ("round loops", BLUE, (8, 5), (8, 4)),
 }
 CLOUDS = {"ours, in parts": BLUE, "Smart UV": RED, "OptCuts": GREEN}  # drawn model by model
-PANELS = (("spread", "texel density, 95 % over 5 %", (0.85, 4.0), (1, 1.5, 2, 3, 4)),
+PANELS = (("spread", "texel density, 95 % over 5 %", (0.7, 5.0), (0.7, 1, 1.5, 2, 3, 5)),
           ("angle", "mean angle error", (0.3, 100.0), (0.3, 1, 3, 10, 30, 100)))  # fmt: skip
 RIGHT = 2.6  # of cuts; maps with longer ones stand at the border, as do all that leave the picture
 

@@ -134,5 +134,9 @@ UNWRAPS = {
 # Other settings of ours: what the front is drawn from, and what the goals may choose from.
 SETTINGS = {
     "--darts 0": in_parts(darts=0.0),
+    "--darts 0.05": in_parts(darts=0.05),
     "--darts 0.5": in_parts(darts=0.5),
+    "--loops round": in_parts(loops="round"),
+    "--even 0.1 --darts 0.07": in_parts(even=0.1, darts=0.07),
+    "--price 0.015": in_parts(price=0.015),
 }
