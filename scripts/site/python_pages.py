@@ -34,6 +34,7 @@ PAGES = {
     "Shapes": {
         "conformal_module": [
             "conformal_module", "module_names", "module_error", "module_distance", "canonical_order", "match_loops",
+            "separations", "separation_distance",
         ],
         "family": ["family", "Family"],
         "certified_moduli": ["certified_moduli", "CertifiedModuli"],
