@@ -143,7 +143,9 @@ class Job:
     def rows(self) -> list[dict[str, Any]]:
         """The rows of the report in Blender."""
         left_out = [failure_row(name, text) for name, text in self.refused]
-        return [row for outcome in self.outcomes for row in outcome.rows(self.options.layer)] + left_out
+        together = self.options.placement == "together"
+        rows = [row for outcome in self.outcomes for row in outcome.rows(self.options.layer)]
+        return [{**row, "together": together} for row in rows] + left_out
 
     def read_old_uv(self) -> None:
         """Note the present places of the islands, for the placement "keep". Call it before anything changes."""

@@ -69,6 +69,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     density: FloatProperty(description="Texel density at 95 % of the area over the density at 5 %")
     even: FloatProperty(description="How even it was made: 0 is conformal, 1 true to size")
     coverage: FloatProperty(description="Share of the UV square that it takes")
+    together: BoolProperty(description="Whether islands of other objects share the UV square with it")
     cut_edges: StringProperty(description="Of parts: the edges along which the UVs are cut, as JSON, or nothing")
     cut_length: FloatProperty(description="Of parts: the length of all cuts, in units of the root of the area")
     domain: StringProperty(description="The domain: torus, ring, sphere or schottky; else empty")

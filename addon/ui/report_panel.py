@@ -59,8 +59,10 @@ def island_icon(entry: KoebeIslandReport) -> Literal["CANCEL", "CHECKMARK", "ERR
 
 def shared_coverage(context: bpy.types.Context, entry: KoebeIslandReport) -> float:
     """How much of the UV square the islands cover that share it with this one."""
-    together = settings_of(context).placement == "together"
-    islands = report_of(context).islands if together else entries_of_object(context)
+    if entry.parts:
+        return entry.coverage  # of all parts
+    islands = [one for one in report_of(context).islands if one.together] if entry.together else (
+        entries_of_object(context))
     return sum(one.coverage for one in islands if one.shape == entry.shape)
 
 

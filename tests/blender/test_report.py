@@ -394,3 +394,23 @@ def test_content_that_is_no_report_is_passed_over(addon):
         assert not report.islands and report.active == 0, damaged[:200]
     saved.unpack(changed("unknown", 3), report)
     assert len(report.islands) == 1 and saved.packed(report) == text
+
+
+@pytest.mark.parametrize("placement", ["pack", "together"])
+def test_islands_that_share_the_square_are_judged_together_whatever_is_chosen_later(addon, placement):
+    objects = [scenes.add_panel(), scenes.add_panel("Other", size=14)]
+    scenes.select(*objects)
+    assert bpy.ops.uv.koebe_uniformize(placement=placement) == {"FINISHED"}
+    bpy.context.scene.koebe_uv.placement = "together" if placement == "pack" else "pack"
+    islands = bpy.context.window_manager.koebe_uv.islands
+    shared = addon("ui.report_panel").shared_coverage(bpy.context, islands[0])
+    expected = islands[0].coverage + (islands[1].coverage if placement == "together" else 0.0)
+    assert shared == pytest.approx(expected) and 0.0 < shared <= 1.0
+
+
+def test_an_atlas_has_one_coverage(addon):
+    objects = [scenes.add_panel(), scenes.add_panel("Other", size=14)]
+    scenes.select(*objects)
+    assert bpy.ops.uv.koebe_parts(atlas=True, darts=0.0) == {"FINISHED"}
+    islands = bpy.context.window_manager.koebe_uv.islands
+    assert addon("ui.report_panel").shared_coverage(bpy.context, islands[0]) == islands[0].coverage < 1.0
