@@ -1,6 +1,7 @@
 """Patterned Copy in the window: from the panel, with Esc, and again in the redo panel."""
 
 from test_escape import escape
+from window import xdotool
 
 LIFTED = "[obj.name for obj in bpy.context.scene.objects if obj.name.endswith('Pattern')]"
 SETTINGS = "settings = bpy.context.scene.koebe_lift\n"
@@ -21,6 +22,30 @@ def test_a_pattern_is_lifted_from_the_panel(window, open_sample):
     window.picture("70_lift")
     window.key("ctrl+z")
     window.wait(f"{LIFTED} == []")
+
+
+def test_the_copy_follows_the_slider_of_the_redo_panel(window, open_sample):
+    name = open_sample("face_five_holes")
+    window.run(SETTINGS + "settings.pattern, settings.even, settings.size = 'circles', 0.6, 0.3")
+    window.open_part("lift")
+    window.scroll_down()
+    window.click(*window.find_button("VIEW_3D", "koebe_lift"))
+    window.wait(f"{LIFTED} != []", 240.0)
+    window.settle()
+    x, top, _, height = window.region("VIEW_3D", "WINDOW")
+    window.click(x + 130, top + height - 15)  # its folded title
+    window.settle()
+    places = "[list(v.co) for v in bpy.context.active_object.data.vertices][::500]"
+    before = window.ask(places)
+    y = top + height - 70  # Even
+    xdotool("mousemove", x + 270, y, "mousedown", 1)
+    for step in (10, 30, 50):
+        xdotool("mousemove", x + 270 - step, y, "sleep", "0.3")
+    window.wait(f"{places} != {before}", 60.0)
+    window.picture("71_lift_while_dragged")
+    xdotool("mouseup", 1)
+    window.settle()
+    assert window.ask(LIFTED) == [f"{name} Pattern"]
 
 
 def test_escape_leaves_everything_as_it_was(window, open_sample):
