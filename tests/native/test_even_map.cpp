@@ -1,5 +1,6 @@
 #include "circles/circle_fit.h"
 #include "even/even_map.h"
+#include "foldover/newton_system.h"
 #include "foldover/turn_upright.h"
 #include "mesh/topology.h"
 #include "planar/boundary_crossings.h"
@@ -175,6 +176,26 @@ TEST(EvenMap, a_round_hole_stays_round_and_gets_its_true_size)
     for (const Index v : surface.loops[hole]) {
         const Complex arm = Complex(points(v, 0), points(v, 1)) - round[0].track.circle.center;
         EXPECT_NEAR(std::abs(arm), round[0].track.circle.radius, 1e-12);
+    }
+}
+
+TEST(EvenMap, a_kept_pattern_changes_nothing)
+{
+    const auto place = [](double u, double v) { return Complex(2.0 * u, v); };
+    const Strip strip(12, 8, place, as_it_is, [](Complex z) { return std::exp(0.5 * z); });
+    NewtonPattern pattern;
+    for (const Index first : {0, 9 * 12, 0}) {  // one end on a circle, then the other: as many unknowns, others
+        const auto relaxed = [&](NewtonPattern* kept) {
+            PlanarPoints points = strip.mapped;
+            std::vector<RoundLoop> round(1);
+            for (Index v = first; v < first + 9; ++v) round[0].vertices.push_back(v);
+            round[0].track.circle = {0.0, points.row(first).norm()};
+            ExecutionContext context;
+            EXPECT_TRUE(make_even(strip.view(points, round), 0.6, 10.0, context, {2, 0, 2}, kept).moved);
+            return points;
+        };
+        EXPECT_EQ(relaxed(&pattern), relaxed(nullptr)) << first;
+        EXPECT_EQ(relaxed(&pattern), relaxed(nullptr)) << first;
     }
 }
 
