@@ -198,9 +198,8 @@ private:
             if (height(i) < height(first)) first = i;
         GapPolygon polygon;
         for (std::size_t k = n + 1; k-- > 0;) {
-            const std::size_t i = first + k;
-            polygon.add(loop.points.vertices[i % n],
-                        loop.points.places[i % n] + static_cast<double>(i / n) * loop.closing);
+            const std::size_t i = (first + k) % n, turns = (first + k) / n;
+            polygon.add(loop.points.vertices[i], loop.points.places[i] + static_cast<double>(turns) * loop.closing);
         }
         const double y = on_grid((lower ? box_.low.imag() : box_.high.imag()) - way * beyond_);
         const double x = loop.points.places[first].real();
