@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that add and remove the node groups for Geometry Nodes."""
+"""The operators that add and remove the node groups for Geometry Nodes, in this file and in an asset library."""
+
+from pathlib import Path
 
 import bpy
 
+from .. import __name__ as addon_name
+from ..blender import compat
+from ..blender.asset_library import add_library, find_library, remove_library
 from ..blender.node_groups import add_groups, find_groups, remove_groups
 from ..blender.transaction import transaction
 from .tooltip import tooltip
@@ -51,5 +56,53 @@ class NODE_OT_koebe_remove_groups(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (NODE_OT_koebe_add_groups, NODE_OT_koebe_remove_groups)
+def _library_folder() -> Path:
+    return Path(compat.user_folder(addon_name)) / "assets"
+
+
+class NODE_OT_koebe_add_library(bpy.types.Operator):
+    """Add an asset library with the node groups of Koebe UV to the preferences: they are in the Asset Browser of every
+    file. This file stays as it is"""
+
+    bl_idname = "node.koebe_add_library"
+    bl_label = "Add Koebe Asset Library"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "INTERNAL"}
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            with transaction() as run:
+                add_library(run, _library_folder())
+        except (OSError, RuntimeError) as error:
+            self.report({"ERROR"}, f"Koebe UV: the asset library could not be written: {error}")
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"Koebe UV: the asset library is in {_library_folder()}")
+        return {"FINISHED"}
+
+
+class NODE_OT_koebe_remove_library(bpy.types.Operator):
+    """Remove the asset library of Koebe UV from the preferences, and its file. Files that use its node groups keep
+    them if they were appended"""
+
+    bl_idname = "node.koebe_remove_library"
+    bl_label = "Remove Koebe Asset Library"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if find_library(_library_folder()) is None:
+            cls.poll_message_set("The preferences have no asset library of Koebe UV")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        remove_library(_library_folder())
+        self.report({"INFO"}, "Koebe UV: the asset library is removed")
+        return {"FINISHED"}
+
+
+CLASSES = (
+    NODE_OT_koebe_add_groups, NODE_OT_koebe_remove_groups, NODE_OT_koebe_add_library, NODE_OT_koebe_remove_library,
+)  # fmt: skip
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

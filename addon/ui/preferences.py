@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: an optional keyboard shortcut."""
+"""The add-on's preferences: an optional keyboard shortcut, and its asset library."""
 
 from typing import Any
 
 import bpy
 
 from .. import __name__ as addon_name
+from ..operators.node_groups import NODE_OT_koebe_add_library, NODE_OT_koebe_remove_library
 
 OPERATOR = "uv.koebe_unwrap"
 # Where the shortcut Shift Alt U works: keymap and its space type.
@@ -49,6 +50,9 @@ class KoebePreferences(bpy.types.AddonPreferences):
 
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.prop(self, "shortcut")
+        row = self.layout.row(align=True)
+        row.operator(NODE_OT_koebe_add_library.bl_idname, text="Add Node Groups as Asset Library", icon="ASSET_MANAGER")
+        row.operator(NODE_OT_koebe_remove_library.bl_idname, text="", icon="X")
 
 
 def register() -> None:
