@@ -5,6 +5,8 @@
 
 #include "core/tolerances.h"
 
+#include <pybind11/numpy.h>
+
 using namespace koebe::python;
 
 PYBIND11_MODULE(_koebe, m)
@@ -15,6 +17,9 @@ PYBIND11_MODULE(_koebe, m)
 
     translate_errors();
     watch_interpreter();
+    // The first array imports NumPy's functions. On a thread that would end the process if the interpreter ends
+    // meanwhile.
+    const pybind11::array_t<double> first(0);
 
     bind_uniformize(m);
     bind_surface(m);

@@ -337,6 +337,23 @@ def test_the_interpreter_ends_while_daemon_threads_call(target, delay):
     assert (run.returncode, run.stdout, run.stderr) == (5, "", "")
 
 
+def test_no_native_call_imports_numpys_functions_on_its_thread():
+    """An import inside of the native module would let the interpreter end there, and abort."""
+    run = run_script("""
+        import builtins
+        own, imported = builtins.__import__, []
+        def spy(name, *rest, **more):
+            if threading.current_thread() is not threading.main_thread() and "multiarray" in name: imported.append(name)
+            return own(name, *rest, **more)
+        builtins.__import__ = spy
+        thread = threading.Thread(target=lambda: koebe.boundary_loops(SMALL[1]))
+        thread.start()
+        thread.join()
+        sys.exit(5 if not imported else str(imported))
+    """)
+    assert (run.returncode, run.stdout, run.stderr) == (5, "", "")
+
+
 @pytest.mark.slow
 def test_a_callback_that_never_comes_back_holds_up_no_exit():
     run = run_script("""
