@@ -7,37 +7,13 @@ LIFTED = "[obj.name for obj in bpy.context.scene.objects if obj.name.endswith('P
 SETTINGS = "settings = bpy.context.scene.koebe_lift\n"
 
 
-def test_a_pattern_is_lifted_from_the_panel(window, open_sample):
-    name = open_sample("face_five_holes")
-    window.run(SETTINGS + "settings.pattern, settings.even = 'voronoi', 0.6")
-    window.open_part("lift")
-    window.scroll_down()
-    window.click(*window.find_button("VIEW_3D", "koebe_lift"))
-    window.wait(f"{LIFTED} != []", 240.0)
-    window.settle()
-    assert window.ask(LIFTED) == [f"{name} Pattern"]
-    window.move(*window.middle("VIEW_3D"))
-    window.run("for obj in bpy.context.scene.objects: obj.select_set(False)")
-    window.settle()
-    window.picture("70_lift")
-    window.key("ctrl+z")
-    window.wait(f"{LIFTED} == []")
-
-
-def test_the_copy_follows_the_slider_of_the_redo_panel(window, open_sample):
-    name = open_sample("face_five_holes")
-    window.run(SETTINGS + "settings.pattern, settings.even, settings.size = 'circles', 0.6, 0.3")
-    window.open_part("lift")
-    window.scroll_down()
-    window.click(*window.find_button("VIEW_3D", "koebe_lift"))
-    window.wait(f"{LIFTED} != []", 240.0)
-    window.settle()
+def drag_even_in_the_redo_panel(window):
+    """While the slider is dragged the copy follows."""
     x, top, _, height = window.region("VIEW_3D", "WINDOW")
     window.click(x + 130, top + height - 15)  # its folded title
     window.settle()
     places = "[list(v.co) for v in bpy.context.active_object.data.vertices][::500]"
-    before = window.ask(places)
-    y = top + height - 70  # Even
+    before, y = window.ask(places), top + height - 70  # Even
     xdotool("mousemove", x + 270, y, "mousedown", 1)
     for step in (10, 30, 50):
         xdotool("mousemove", x + 270 - step, y, "sleep", "0.3")
@@ -45,7 +21,25 @@ def test_the_copy_follows_the_slider_of_the_redo_panel(window, open_sample):
     window.picture("71_lift_while_dragged")
     xdotool("mouseup", 1)
     window.settle()
+
+
+def test_a_pattern_is_lifted_from_the_panel(window, open_sample):
+    name = open_sample("face_five_holes")
+    window.run(SETTINGS + "settings.pattern, settings.even = 'circles', 0.6")
+    window.open_part("lift")
+    window.scroll_down()
+    window.click(*window.find_button("VIEW_3D", "koebe_lift"))
+    window.wait(f"{LIFTED} != []", 240.0)
+    window.settle()
     assert window.ask(LIFTED) == [f"{name} Pattern"]
+    drag_even_in_the_redo_panel(window)
+    assert window.ask(LIFTED) == [f"{name} Pattern"]
+    window.move(*window.middle("VIEW_3D"))
+    window.run("for obj in bpy.context.scene.objects: obj.select_set(False)")
+    window.settle()
+    window.picture("70_lift")
+    window.key("ctrl+z")
+    window.wait(f"{LIFTED} == []")
 
 
 def test_escape_leaves_everything_as_it_was(window, open_sample):
