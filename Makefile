@@ -119,13 +119,14 @@ test-tools: programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build
 
 test-all: lint test test-long test-fuzz docs $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, the site, and all tests in each bpy that add-ons still meet
 
-# The native tests whole; of the others those that are not marked slow.
+# Slow native tests have names that begin with slow_, slow Python tests have the mark slow.
 check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
 	@begin=$$(date +%s); $(SIDE_BY_SIDE) check-native check-python-a-m check-python-n-z check-form; \
 	    result=$$?; echo "make check: $$(($$(date +%s) - begin)) s"; exit $$result
 
 check-native:
-	@for program in koebe_tests koebe_thread_tests koebe_kernel_tests; do build/tests/native/$$program --gtest_brief=1 || exit 1; done
+	@for program in koebe_tests koebe_thread_tests koebe_kernel_tests; do \
+	    build/tests/native/$$program --gtest_brief=1 --gtest_filter='-*.slow_*' || exit 1; done
 
 # By the first letter of the files: two halves of the time.
 check-python-%:

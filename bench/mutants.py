@@ -4,9 +4,9 @@
 
     bench/mutants.py [--only N,N,...] [--slow]
 
-A mutant is killed where the native tests, or the Python tests that are not marked slow (`make check`), fail. With
---slow the other Python tests run on those that survive. It works in the checkout itself, which must have no changes,
-and takes one to three minutes a mutant. Prints a table; exit 1 if one survives.
+A mutant is killed where one of the fast tests, native or Python, fails (`make check`). With --slow the slow tests run
+on the mutants that survive. It works in the checkout itself, which must have no changes, and
+takes one to three minutes a mutant. Prints a table; exit 1 if one survives.
 """
 
 import argparse
@@ -69,6 +69,7 @@ ENVIRONMENT = os.environ | {
     "CCACHE_SLOPPINESS": "pch_defines,time_macros",
     "PYTHONPATH": str(ROOT / "build" / "python"),
 }
+NATIVE = ["build/tests/native/koebe_tests", "--gtest_brief=1", "--gtest_fail_fast"]
 PYTEST = ["/usr/bin/python3", "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "tests/python"]
 LIMIT = 900  # seconds: a mutant may never end
 
@@ -90,11 +91,12 @@ def fate(file: str, old: str, new: str, slow: bool) -> str:
         path.write_text(text.replace(old, new, 1), encoding="utf-8")
         if fails("ninja", "-C", "build"):
             return "does not compile"
-        for program in ("koebe_thread_tests", "koebe_tests"):
-            if fails(f"build/tests/native/{program}", "--gtest_brief=1", "--gtest_fail_fast"):
-                return "native"
+        if fails(*NATIVE, "--gtest_filter=-*.slow_*") or fails("build/tests/native/koebe_thread_tests"):
+            return "native"
         if fails(*PYTEST, "-m", "not slow"):
             return "Python"
+        if slow and fails(*NATIVE, "--gtest_filter=*.slow_*"):
+            return "slow native"
         return "slow Python" if slow and fails(*PYTEST, "-m", "slow") else "survives"
     finally:
         path.write_text(text, encoding="utf-8")

@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 import scenes
 
+pytestmark = pytest.mark.alike
+
 FAN = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)]
 
 

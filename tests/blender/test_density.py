@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 import scenes
 
+pytestmark = pytest.mark.alike
+
 
 def density(obj, layer="Koebe"):
     """Sides of the UV square per unit of length, in the mean."""

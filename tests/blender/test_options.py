@@ -8,6 +8,8 @@ import zipfile
 import bpy
 import pytest
 
+pytestmark = pytest.mark.alike
+
 
 @pytest.mark.parametrize(
     "values",

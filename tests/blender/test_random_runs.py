@@ -8,6 +8,8 @@ import os
 import pytest
 from random_runs import RandomRun
 
+pytestmark = pytest.mark.alike
+
 COUNT = int(os.environ.get("KOEBE_RANDOM_RUNS", "12"))
 FIRST = int(os.environ.get("KOEBE_RANDOM_FIRST", "0"))
 CALLS = 8

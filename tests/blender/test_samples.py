@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 import scenes
 
+pytestmark = pytest.mark.alike
+
 FOLDER = Path(__file__).resolve().parents[2] / "blend_samples"
 EXPECTED = json.loads((FOLDER / "expected.json").read_text(encoding="utf-8"))["samples"]
 KEPT = [name for name, expected in EXPECTED.items() if not expected["dense"] and "max_parts" not in expected]

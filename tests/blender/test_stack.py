@@ -6,6 +6,8 @@ import pytest
 import scenes
 from scenes import last_run
 
+pytestmark = pytest.mark.alike
+
 
 def seams_of(obj):
     return np.flatnonzero(scenes.read(obj.data.edges, "use_seam", bool))

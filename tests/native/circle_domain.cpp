@@ -58,6 +58,11 @@ CircleDomain make_circle_domain(const std::vector<Circle>& circles, Index target
     return domain;
 }
 
+CircleDomain eccentric_annulus(Index faces)
+{
+    return make_circle_domain({{{0.0, 0.0}, 1.0}, {{0.4, 0.2}, 0.25}}, faces);
+}
+
 CircleDomain make_round_annulus(double inner, Index sectors, Index rings)
 {
     CircleDomain domain;

@@ -25,6 +25,9 @@ std::vector<Circle> five_circles();
 /// @param circles the unit circle first, the others inside it and apart
 CircleDomain make_circle_domain(const std::vector<Circle>& circles, Index target_faces);
 
+/// A hole of radius 0.25 around 0.4 + 0.2i, of about so many faces.
+CircleDomain eccentric_annulus(Index faces);
+
 /// Concentric rings of equal sectors between radius `inner` and 1, each cell cut in two.
 CircleDomain make_round_annulus(double inner, Index sectors, Index rings);
 

@@ -17,7 +17,7 @@ struct Mesh {
     Triangles triangles;
 };
 
-inline constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A surface of revolution: rings of vertices at (radius, height), each pair of neighbours joined; a point closes an
 /// end of radius 0.

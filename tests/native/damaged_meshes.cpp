@@ -12,7 +12,7 @@
 namespace koebe::test {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Cell = std::array<int, 3>;
 
 Triangles to_triangles(const std::vector<Index>& corners)
@@ -83,7 +83,7 @@ NamedMesh plate_with_holes(int holes, int refined)
     return cube_surface(cells, "plate with " + std::to_string(holes) + " holes");
 }
 
-NamedMesh torus(Index m, Index n, double thick)
+NamedMesh coarse_torus(Index m, Index n, double thick)
 {
     Vertices vertices(m * n, 3);
     for (Index i = 0; i < m; ++i)
@@ -94,7 +94,7 @@ NamedMesh torus(Index m, Index n, double thick)
     return {"torus", vertices, grid(m, n, [=](Index i, Index j) { return (i % m) * n + j % n; })};
 }
 
-NamedMesh sphere(Index rings, Index sectors)
+NamedMesh coarse_sphere(Index rings, Index sectors)
 {
     Vertices vertices(2 + (rings - 1) * sectors, 3);
     vertices.row(0) << 0.0, 0.0, 1.0;
@@ -209,12 +209,12 @@ NamedMesh random_mesh(std::uint32_t seed)
     switch (random() % 9) {
     case 0: mesh = random_soup(any(3, 30), any(1, 60), random); break;
     case 1: mesh = random_cubes(any(1, 4), 0.5, random); break;
-    case 2: mesh = torus(any(3, 12), any(3, 9), 0.3); break;
-    case 3: mesh = sphere(any(2, 8), any(3, 10)); break;
+    case 2: mesh = coarse_torus(any(3, 12), any(3, 9), 0.3); break;
+    case 3: mesh = coarse_sphere(any(2, 8), any(3, 10)); break;
     case 4: mesh = moebius_band(any(3, 12), any(1, 4)); break;
     case 5: mesh = klein_bottle(any(3, 10), any(3, 8)); break;
     case 6: mesh = plate_with_holes(any(0, 5)); break;
-    case 7: mesh = together(sphere(any(2, 5), any(3, 6)), torus(any(3, 6), any(3, 6), 0.4)); break;
+    case 7: mesh = together(coarse_sphere(any(2, 5), any(3, 6)), coarse_torus(any(3, 6), any(3, 6), 0.4)); break;
     default: mesh = random_cubes(any(2, 3), 0.8, random); break;
     }
     return random() % 3 == 0 ? mesh : damaged(std::move(mesh), random);

@@ -18,8 +18,8 @@ struct NamedMesh {
 /// The surface of a plate of cubes with so many square holes through it: closed, of that genus.
 NamedMesh plate_with_holes(int holes, int refined = 1);
 /// A torus of m x n cells; its tube is as thick as told, the ring's radius being 1.
-NamedMesh torus(Index m, Index n, double thick);
-NamedMesh sphere(Index rings, Index sectors);
+NamedMesh coarse_torus(Index m, Index n, double thick);
+NamedMesh coarse_sphere(Index rings, Index sectors);
 NamedMesh moebius_band(Index cells, Index width);
 /// Closed and one-sided, m x n cells; it passes through itself in space, but not in its numbers.
 NamedMesh klein_bottle(Index m, Index n);

@@ -18,13 +18,13 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-struct Sample {
+struct RingSample {
     CircleDomain domain;
     EdgeLengths lengths, weights;
     Index vertex_count;
     AnnulusMap map;
 
-    explicit Sample(CircleDomain of, Lift kind = Lift::plane, double scale = 1.0)
+    explicit RingSample(CircleDomain of, Lift kind = Lift::plane, double scale = 1.0)
         : domain(std::move(of)),
           lengths(edge_lengths(Vertices(scale * lift(domain.points, kind)), domain.triangles)),
           weights(half_cotangents(lengths)),
@@ -39,8 +39,6 @@ struct Sample {
     }
 };
 
-CircleDomain eccentric(Index faces) { return make_circle_domain({{{0.0, 0.0}, 1.0}, {{0.4, 0.2}, 0.25}}, faces); }
-
 /// Largest distance from the expected map, the best rotation taken out.
 double distance_up_to_rotation(const VectorXcd& found, const VectorXcd& expected)
 {
@@ -53,7 +51,7 @@ double distance_up_to_rotation(const VectorXcd& found, const VectorXcd& expected
 
 TEST(AnnulusMap, the_cut_is_a_path_of_inner_vertices_from_one_loop_to_the_other)
 {
-    const Sample sample(eccentric(1500), Lift::enneper);
+    const RingSample sample(eccentric_annulus(1500), Lift::enneper);
     std::set<Index> on_loops;
     for (const VertexLoop& loop : sample.domain.loops) on_loops.insert(loop.begin(), loop.end());
     const auto& cut = sample.map.cut;
@@ -71,7 +69,7 @@ TEST(AnnulusMap, the_cut_is_a_path_of_inner_vertices_from_one_loop_to_the_other)
         EXPECT_EQ(on_loops.count(origin(sample.domain.triangles, cut[i])), 0u);
     }
     // No shorter than the gap, and a path of edges of a good mesh is at most 2 / sqrt(3) longer, plus an edge.
-    const Sample plane(eccentric(1500));
+    const RingSample plane(eccentric_annulus(1500));
     double plane_length = 0.0;
     for (const Index h : plane.map.cut) plane_length += plane.lengths.data()[h];
     const double gap = 1.0 - std::abs(Complex(0.4, 0.2)) - 0.25;
@@ -82,7 +80,7 @@ TEST(AnnulusMap, the_cut_is_a_path_of_inner_vertices_from_one_loop_to_the_other)
 
 TEST(AnnulusMap, f_is_harmonic_between_its_boundary_values)
 {
-    const Sample sample(eccentric(1500), Lift::enneper);
+    const RingSample sample(eccentric_annulus(1500), Lift::enneper);
     VectorXd divergence_of_df = divergence(sample.domain.triangles, sample.weights, sample.df(), sample.vertex_count);
     for (int k = 0; k < 2; ++k)
         for (const Index v : sample.domain.loops[k]) {
@@ -96,7 +94,7 @@ TEST(AnnulusMap, f_is_harmonic_between_its_boundary_values)
 
 TEST(AnnulusMap, dg0_is_closed_has_period_one_and_is_one_form_on_the_surface)
 {
-    const Sample sample(eccentric(1500));
+    const RingSample sample(eccentric_annulus(1500));
     const OneForm dg0 = exterior_derivative_of_corners(sample.map.g0);
     EXPECT_EQ(circulation(dg0).cwiseAbs().maxCoeff(), 0.0);
     const std::vector<Index> twin = pair_halfedges(sample.domain.triangles, sample.vertex_count);
@@ -115,7 +113,7 @@ TEST(AnnulusMap, dg0_is_closed_has_period_one_and_is_one_form_on_the_surface)
 
 TEST(AnnulusMap, dg_is_harmonic_and_flows_through_no_loop)
 {
-    const Sample sample(eccentric(1500), Lift::sphere);
+    const RingSample sample(eccentric_annulus(1500), Lift::sphere);
     EXPECT_LT(circulation(sample.dg()).cwiseAbs().maxCoeff(), 1e-15);
     EXPECT_LT(
         divergence(sample.domain.triangles, sample.weights, sample.dg(), sample.vertex_count).cwiseAbs().maxCoeff(),
@@ -125,7 +123,7 @@ TEST(AnnulusMap, dg_is_harmonic_and_flows_through_no_loop)
 TEST(AnnulusMap, df_wedge_dg_is_one_and_lambda_lies_between_the_conjugate_estimates)
 {
     for (const Lift kind : {Lift::plane, Lift::sphere, Lift::enneper}) {
-        const Sample sample(eccentric(1500), kind);
+        const RingSample sample(eccentric_annulus(1500), kind);
         EXPECT_NEAR(wedge_integral(sample.df(), sample.dg()), 1.0, 1e-12);
         const double upper = squared_norm(sample.weights, sample.df());
         const double lower = 1.0 / squared_norm(sample.weights, sample.dg());
@@ -139,7 +137,7 @@ TEST(AnnulusMap, a_round_annulus_maps_to_itself_with_second_order)
 {
     double last = 0.0;
     for (const Index sectors : {32, 64, 128}) {
-        const Sample sample(make_round_annulus(0.3, sectors, sectors / 5));
+        const RingSample sample(make_round_annulus(0.3, sectors, sectors / 5));
         const double error = distance_up_to_rotation(sample.map.positions, sample.domain.points);
         EXPECT_NEAR(sample.map.inner_radius, 0.3, error + 1e-12);
         if (last > 0.0) {
@@ -156,7 +154,7 @@ TEST(AnnulusMap, the_module_is_that_of_the_domain_under_every_conformal_lift)
     for (const Lift kind : {Lift::plane, Lift::polynomial, Lift::sphere, Lift::enneper}) {
         double first = 0.0, last = 0.0;
         for (const Index faces : {1000, 16000}) {
-            const Sample sample(eccentric(faces), kind);
+            const RingSample sample(eccentric_annulus(faces), kind);
             const double module = std::acosh(inversive_distance(sample.domain.circles[0], sample.domain.circles[1]));
             last = std::abs(-std::log(sample.map.inner_radius) / module - 1.0);
             EXPECT_NEAR(-std::log(sample.map.inner_radius), two_pi / sample.map.lambda, 1e-14);
@@ -169,7 +167,7 @@ TEST(AnnulusMap, the_module_is_that_of_the_domain_under_every_conformal_lift)
 
 TEST(AnnulusMap, the_map_is_the_moebius_map_that_centres_the_inner_circle)
 {
-    const Sample sample(eccentric(16000), Lift::polynomial);
+    const RingSample sample(eccentric_annulus(16000), Lift::polynomial);
     const VectorXcd expected = center_circle(sample.domain.circles[1])(sample.domain.points);
     EXPECT_LT(distance_up_to_rotation(sample.map.positions, expected), 1e-3);
     for (const Index v : sample.domain.loops[0]) EXPECT_NEAR(std::abs(sample.map.positions[v]), 1.0, 1e-14);
@@ -179,7 +177,7 @@ TEST(AnnulusMap, the_map_is_the_moebius_map_that_centres_the_inner_circle)
 
 TEST(AnnulusMap, no_triangle_is_flipped)
 {
-    const Sample sample(eccentric(4000), Lift::enneper);
+    const RingSample sample(eccentric_annulus(4000), Lift::enneper);
     for (Eigen::Index f = 0; f < sample.domain.triangles.rows(); ++f) {
         const Complex a = sample.map.positions[sample.domain.triangles(f, 0)];
         EXPECT_GT(std::imag(std::conj(sample.map.positions[sample.domain.triangles(f, 1)] - a) *
@@ -190,16 +188,16 @@ TEST(AnnulusMap, no_triangle_is_flipped)
 
 TEST(AnnulusMap, the_unit_of_length_changes_nothing)
 {
-    const Sample sample(eccentric(800), Lift::enneper);
+    const RingSample sample(eccentric_annulus(800), Lift::enneper);
     for (const double scale : {1e-8, 1e8}) {
-        const Sample scaled(eccentric(800), Lift::enneper, scale);
+        const RingSample scaled(eccentric_annulus(800), Lift::enneper, scale);
         EXPECT_LT((scaled.map.positions - sample.map.positions).cwiseAbs().maxCoeff(), 1e-11);
     }
 }
 
 TEST(AnnulusMap, vertices_of_no_face_are_passed_over)
 {
-    const CircleDomain domain = eccentric(800);
+    const CircleDomain domain = eccentric_annulus(800);
     const Index n = static_cast<Index>(domain.points.size());
     const EdgeLengths lengths = edge_lengths(lift(domain.points, Lift::plane), domain.triangles);
     const AnnulusMap plain = annulus_map(domain.triangles, lengths, n, domain.loops[0], domain.loops[1]);

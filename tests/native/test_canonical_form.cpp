@@ -16,24 +16,24 @@ using namespace koebe::test;
 
 namespace {
 
-struct Mesh {
+struct UnevenMesh {
     Vertices vertices;
     Triangles triangles;
 };
 
-Mesh uneven_mesh()
+UnevenMesh uneven_mesh()
 {
     const CircleDomain domain = make_circle_domain(five_circles(), 600);
     return {lift(domain.points, Lift::enneper), domain.triangles};
 }
 
-CanonicalForm form_of(const Mesh& mesh)
+CanonicalForm form_of(const UnevenMesh& mesh)
 {
     return canonical_form(analyze_surface(mesh.triangles, static_cast<Index>(mesh.vertices.rows())), mesh.vertices);
 }
 
 /// Vertices, faces and the corners of faces in another order. @param name the new vertex of each
-Mesh renumbered(const Mesh& mesh, unsigned seed, std::vector<Index>& name)
+UnevenMesh renumbered(const UnevenMesh& mesh, unsigned seed, std::vector<Index>& name)
 {
     std::mt19937 random(seed);
     name.resize(mesh.vertices.rows());
@@ -42,7 +42,7 @@ Mesh renumbered(const Mesh& mesh, unsigned seed, std::vector<Index>& name)
     std::vector<Index> faces(mesh.triangles.rows());
     std::iota(faces.begin(), faces.end(), 0);
     std::shuffle(faces.begin(), faces.end(), random);
-    Mesh result = mesh;
+    UnevenMesh result = mesh;
     for (std::size_t v = 0; v < name.size(); ++v) result.vertices.row(name[v]) = mesh.vertices.row(v);
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (int k = 0; k < 3; ++k)
@@ -50,7 +50,7 @@ Mesh renumbered(const Mesh& mesh, unsigned seed, std::vector<Index>& name)
     return result;
 }
 
-Mesh moved(const Mesh& mesh, double scale)
+UnevenMesh moved(const UnevenMesh& mesh, double scale)
 {
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(1.234, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
@@ -61,7 +61,7 @@ Mesh moved(const Mesh& mesh, double scale)
 
 TEST(CanonicalForm, is_the_same_surface)
 {
-    const Mesh mesh = uneven_mesh();
+    const UnevenMesh mesh = uneven_mesh();
     const CanonicalForm form = form_of(mesh);
     ASSERT_EQ(form.surface.triangles.rows(), mesh.triangles.rows());
     for (Eigen::Index f = 0; f < form.surface.triangles.rows(); ++f) {
@@ -88,7 +88,7 @@ TEST(CanonicalForm, is_the_same_surface)
 
 TEST(CanonicalForm, does_not_depend_on_numbers)
 {
-    const Mesh mesh = uneven_mesh();
+    const UnevenMesh mesh = uneven_mesh();
     const CanonicalForm expected = form_of(mesh);
     for (const unsigned seed : {1u, 2u, 3u}) {
         std::vector<Index> name;
@@ -102,7 +102,7 @@ TEST(CanonicalForm, does_not_depend_on_numbers)
 
 TEST(CanonicalForm, does_not_depend_on_place_and_size)
 {
-    const Mesh mesh = uneven_mesh();
+    const UnevenMesh mesh = uneven_mesh();
     const CanonicalForm expected = form_of(mesh);
     for (const double scale : {1.0, 0.3, 1e8, 1e-8, 1e-150, 1e150}) {
         const CanonicalForm form = form_of(moved(mesh, scale));
@@ -115,7 +115,7 @@ TEST(CanonicalForm, the_edges_of_a_regular_rim_are_told_apart_by_what_lies_insid
 {
     // A round annulus with one vertex moved: all rim edges are as long.
     const CircleDomain domain = make_round_annulus(0.4, 24, 5);
-    Mesh mesh{lift(domain.points, Lift::plane), domain.triangles};
+    UnevenMesh mesh{lift(domain.points, Lift::plane), domain.triangles};
     mesh.vertices.row(60) *= 1.03;
     const CanonicalForm expected = form_of(mesh);
     for (const unsigned seed : {4u, 5u, 6u}) {
@@ -127,8 +127,8 @@ TEST(CanonicalForm, the_edges_of_a_regular_rim_are_told_apart_by_what_lies_insid
 TEST(CanonicalMesh, takes_any_mesh_there_and_back_whatever_its_numbers_and_place)
 {
     // Two components, one with every third face turned over; a face twice, and one that names a vertex twice.
-    const Mesh one = uneven_mesh();
-    Mesh both{Vertices(2 * one.vertices.rows(), 3), Triangles(2 * one.triangles.rows() + 2, 3)};
+    const UnevenMesh one = uneven_mesh();
+    UnevenMesh both{Vertices(2 * one.vertices.rows(), 3), Triangles(2 * one.triangles.rows() + 2, 3)};
     both.vertices << one.vertices, (0.1 * one.vertices).rowwise() + Eigen::RowVector3d(5.0, 1.0, 0.0);
     both.triangles << one.triangles, one.triangles.array() + static_cast<Index>(one.vertices.rows()),
         one.triangles.row(7), one.triangles.row(8);
@@ -141,7 +141,7 @@ TEST(CanonicalMesh, takes_any_mesh_there_and_back_whatever_its_numbers_and_place
                       both.triangles(expected.original_faces[f], k));
     for (const unsigned seed : {1u, 2u}) {
         std::vector<Index> name;
-        const Mesh other = moved(renumbered(both, seed, name), 1e5);
+        const UnevenMesh other = moved(renumbered(both, seed, name), 1e5);
         const CanonicalMesh mesh = canonical_mesh(other.vertices, other.triangles);
         EXPECT_EQ(mesh.triangles, expected.triangles);
         EXPECT_LT((mesh.vertices - expected.vertices).cwiseAbs().maxCoeff(), 1e-9);
@@ -151,18 +151,18 @@ TEST(CanonicalMesh, takes_any_mesh_there_and_back_whatever_its_numbers_and_place
 
 TEST(CanonicalForm, one_point_is_no_surface)
 {
-    Mesh mesh = uneven_mesh();
+    UnevenMesh mesh = uneven_mesh();
     mesh.vertices.setConstant(2.5);
     EXPECT_THROW(form_of(mesh), InputError);
 }
 
 TEST(Uniformize, renumbering_turning_and_scaling_change_nothing)
 {
-    const Mesh mesh = uneven_mesh();
+    const UnevenMesh mesh = uneven_mesh();
     ExecutionContext context;
     const UniformizeResult expected = uniformize(mesh.vertices, mesh.triangles, {}, context);
     std::vector<Index> name;
-    const Mesh other = moved(renumbered(mesh, 7, name), 0.3);
+    const UnevenMesh other = moved(renumbered(mesh, 7, name), 0.3);
     const UniformizeResult result = uniformize(other.vertices, other.triangles, {}, context);
     EXPECT_LT((result.uv(name, Eigen::all) - expected.uv).cwiseAbs().maxCoeff(), 1e-8);
     EXPECT_EQ(*std::min_element(result.loops[0].vertices.begin(), result.loops[0].vertices.end()),

@@ -10,7 +10,7 @@ using namespace koebe;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// n points of a circle; skew 0 spaces them evenly, skew towards 1 crowds them at angle pi.
 VectorXcd points_on(const Circle& circle, int n, double skew = 0.0)

@@ -8,7 +8,7 @@ using namespace koebe;
 
 namespace {
 
-VectorXcd ring(const Circle& circle, Index count, int turn)
+VectorXcd circle_points(const Circle& circle, Index count, int turn)
 {
     VectorXcd points(count);
     for (Index i = 0; i < count; ++i)
@@ -22,7 +22,7 @@ TEST(CircleProjection, points_in_order_go_radially)
 {
     const Circle circle{{0.3, -0.1}, 0.2};
     for (const int turn : {1, -1}) {
-        VectorXcd points = ring(circle, 40, turn);
+        VectorXcd points = circle_points(circle, 40, turn);
         const VectorXcd expected = points;
         for (Index i = 0; i < 40; ++i) points[i] += 0.05 * std::sin(3.0 * i) * (points[i] - circle.center);
         EXPECT_LT((project_onto_circle(circle, points, turn) - expected).cwiseAbs().maxCoeff(), 1e-15);
@@ -34,7 +34,7 @@ TEST(CircleProjection, points_that_turn_back_are_put_in_order_and_the_others_sta
     const Circle circle{{0.3, -0.1}, 0.2};
     for (const int turn : {1, -1})
         for (const Index place : {0, 17, 38}) {
-            VectorXcd points = ring(circle, 40, turn);
+            VectorXcd points = circle_points(circle, 40, turn);
             const VectorXcd even = points;
             std::swap(points[place], points[place + 1]);
             const VectorXcd result = project_onto_circle(circle, points, turn);
@@ -54,7 +54,7 @@ TEST(CircleProjection, a_rim_that_turns_back_or_runs_round_twice_does_not_run_on
 {
     const Circle unit;
     for (const int turn : {1, -1}) {
-        VectorXcd points = ring(unit, 12, turn);
+        VectorXcd points = circle_points(unit, 12, turn);
         EXPECT_TRUE(run_once_round(points, turn));
         EXPECT_FALSE(run_once_round(points, -turn));
         // All on a part of the circle: the last step is more than half of it.
@@ -63,7 +63,7 @@ TEST(CircleProjection, a_rim_that_turns_back_or_runs_round_twice_does_not_run_on
         std::swap(points[4], points[5]);
         EXPECT_FALSE(run_once_round(points, turn));
         VectorXcd twice(24);
-        twice << ring(unit, 12, turn), ring(unit, 12, turn);
+        twice << circle_points(unit, 12, turn), circle_points(unit, 12, turn);
         EXPECT_FALSE(run_once_round(twice, turn));
     }
 }

@@ -11,8 +11,8 @@ using namespace koebe::test;
 
 namespace {
 
-struct Sample {
-    explicit Sample(Index face_count = 3000)
+struct CondensedSample {
+    explicit CondensedSample(Index face_count = 3000)
         : domain(make_circle_domain(five_circles(), face_count)),
           plane(lift(domain.points, Lift::plane)),
           laplacian(cotan_laplacian(domain.triangles, half_cotangents(edge_lengths(plane, domain.triangles)),
@@ -30,7 +30,7 @@ struct Sample {
 
 TEST(CondensedLaplacian, sigma_is_the_schur_complement)
 {
-    const Sample sample(600);
+    const CondensedSample sample(600);
     CondensedLaplacian condensed(sample.laplacian, sample.boundary);
     std::vector<char> on_boundary(sample.plane.rows(), 0);
     for (const Index v : sample.boundary) on_boundary[v] = 1;
@@ -45,7 +45,7 @@ TEST(CondensedLaplacian, sigma_is_the_schur_complement)
 
 TEST(CondensedLaplacian, extension_of_linear_boundary_values_is_linear)
 {
-    const Sample sample;
+    const CondensedSample sample;
     CondensedLaplacian condensed(sample.laplacian, sample.boundary);
     const MatrixXd linear = sample.plane.leftCols<2>();
     const MatrixXd values = linear(sample.boundary, Eigen::all);
@@ -58,7 +58,7 @@ TEST(CondensedLaplacian, extension_of_linear_boundary_values_is_linear)
 
 TEST(CondensedLaplacian, what_a_source_gives_arrives_at_the_boundary)
 {
-    const Sample sample;
+    const CondensedSample sample;
     CondensedLaplacian condensed(sample.laplacian, sample.boundary);
     VectorXd load = VectorXd::Random(sample.plane.rows());
     for (const Index v : sample.boundary) load[v] = 0.0;
@@ -74,7 +74,7 @@ TEST(CondensedLaplacian, what_a_source_gives_arrives_at_the_boundary)
 
 TEST(FilledLaplacian, has_the_disks_and_without_them_what_every_other_has)
 {
-    const Sample sample;
+    const CondensedSample sample;
     CondensedLaplacian with_sigma(sample.laplacian, sample.boundary);
     FilledLaplacian filled(sample.laplacian, sample.domain.loops);
     EXPECT_EQ(filled.boundary_size(), with_sigma.boundary_size());

@@ -103,13 +103,13 @@ TEST(CutUniformize, what_needs_no_cut_is_mapped_as_without)
 
 TEST(CutUniformize, closed_surfaces_are_nearly_conformal)
 {
-    EXPECT_LT(mapped_by_law(sphere(30, 40)).distortion.angle_error_deg.mean, 4.0);
-    EXPECT_LT(mapped_by_law(torus(60, 30, 0.3)).distortion.angle_error_deg.mean, 4.0);
+    EXPECT_LT(mapped_by_law(coarse_sphere(30, 40)).distortion.angle_error_deg.mean, 4.0);
+    EXPECT_LT(mapped_by_law(coarse_torus(60, 30, 0.3)).distortion.angle_error_deg.mean, 4.0);
 }
 
 TEST(CutUniformize, pieces_lie_side_by_side_by_their_area)
 {
-    NamedMesh both = together(sphere(8, 9), sphere(8, 9));
+    NamedMesh both = together(coarse_sphere(8, 9), coarse_sphere(8, 9));
     both.vertices.bottomRows(both.vertices.rows() / 2) *= 2.0;
     const CutUniformizeResult result = mapped_by_law(both);
     ASSERT_EQ(result.pieces.size(), 2u);
@@ -147,7 +147,7 @@ TEST(CutUniformize, disks_are_packed_apart_within_the_square)
 
 TEST(CutUniformize, warnings_name_the_faces_of_the_input)
 {
-    NamedMesh both = together(sphere(8, 9), torus(6, 6, 0.4));
+    NamedMesh both = together(coarse_sphere(8, 9), coarse_torus(6, 6, 0.4));
     const Index first = 2 * 30;  // of the sphere: its faces are every other one
     std::swap(both.triangles(first, 0), both.triangles(first, 1));
     const CutUniformizeResult result = mapped_by_law(both);
@@ -158,7 +158,7 @@ TEST(CutUniformize, warnings_name_the_faces_of_the_input)
 
 TEST(CutUniformize, a_named_vertex_goes_where_it_shall)
 {
-    const NamedMesh both = together(sphere(8, 9), torus(6, 6, 0.4));
+    const NamedMesh both = together(coarse_sphere(8, 9), coarse_torus(6, 6, 0.4));
     UniformizeOptions options;
     options.center = 40;  // of the sphere, off the slit
     const CutUniformizeResult result = uniformize_with_cuts(both.vertices, both.triangles, {}, options);
@@ -174,10 +174,10 @@ TEST(CutUniformize, a_named_vertex_goes_where_it_shall)
 
 TEST(CutUniformize, no_extent_is_an_input_error_but_of_one_piece_among_others_a_warning)
 {
-    NamedMesh both = together(sphere(6, 6), sphere(5, 5));
+    NamedMesh both = together(coarse_sphere(6, 6), coarse_sphere(5, 5));
     both.vertices.setZero();
     EXPECT_THROW(uniformize_with_cuts(both.vertices, both.triangles), InputError);
-    both.vertices.topRows(sphere(6, 6).vertices.rows()) = sphere(6, 6).vertices;
+    both.vertices.topRows(coarse_sphere(6, 6).vertices.rows()) = coarse_sphere(6, 6).vertices;
     const CutUniformizeResult result = mapped_by_law(both);
     EXPECT_TRUE(has(result, WarningKind::not_mapped));
     EXPECT_FALSE(result.converged);
@@ -185,7 +185,7 @@ TEST(CutUniformize, no_extent_is_an_input_error_but_of_one_piece_among_others_a_
 
 TEST(CutUniformize, a_raised_token_ends_it)
 {
-    const NamedMesh mesh = sphere(40, 40);
+    const NamedMesh mesh = coarse_sphere(40, 40);
     CancelToken token;
     token.cancel();
     ExecutionContext context({}, token);
@@ -200,7 +200,7 @@ TEST(CutUniformize, rounding_turns_no_face_over_in_a_small_disk)
     }
 }
 
-TEST(CutUniformize, random_meshes_get_a_map_without_flips)
+TEST(CutUniformize, slow_random_meshes_get_a_map_without_flips)
 {
     for (std::uint32_t seed = 0; seed < 250; ++seed) {
         SCOPED_TRACE(seed);

@@ -14,7 +14,7 @@ using namespace koebe;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr Index rings = 12, around = 48;
 constexpr double area_of_cone = 0.25;
 

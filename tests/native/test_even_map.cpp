@@ -17,7 +17,7 @@ using namespace koebe;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A grid of the plane, rolled up without stretching, and a conformal map of it that is anything but even.
 struct Strip {

@@ -16,7 +16,7 @@ using namespace koebe::test;
 
 namespace {
 
-struct Sample {
+struct FilledSample {
     CircleDomain domain = make_circle_domain(five_circles(), 1200);
     Vertices vertices = lift(domain.points, Lift::sphere);
 };
@@ -43,7 +43,7 @@ TEST(HoleFilling, a_fan_has_its_centre_at_the_mean_of_the_vertices)
 
 TEST(HoleFilling, the_filled_surface_is_a_sphere_of_one_orientation)
 {
-    const Sample sample;
+    const FilledSample sample;
     const Surface before = analyze_surface(sample.domain.triangles, static_cast<Index>(sample.vertices.rows()));
     const FilledSurface filled = fill_holes(sample.vertices, sample.domain.triangles);
     const Surface after = analyze_surface(filled.triangles, static_cast<Index>(filled.vertices.rows()));
@@ -71,7 +71,7 @@ TEST(HoleFilling, the_filled_surface_is_a_sphere_of_one_orientation)
 
 TEST(HoleFilling, only_the_loops_asked_for_are_filled)
 {
-    const Sample sample;
+    const FilledSample sample;
     const FilledSurface filled = fill_holes(sample.vertices, sample.domain.triangles, std::vector<Index>{3, 1, 3});
     const Surface before = analyze_surface(sample.domain.triangles, static_cast<Index>(sample.vertices.rows()));
     const Surface after = analyze_surface(filled.triangles, static_cast<Index>(filled.vertices.rows()));
@@ -84,7 +84,7 @@ TEST(HoleFilling, only_the_loops_asked_for_are_filled)
 
 TEST(HoleFilling, faces_against_the_others_are_turned_first)
 {
-    Sample sample;
+    FilledSample sample;
     sample.domain.triangles.row(7).reverseInPlace();
     const FilledSurface filled = fill_holes(sample.vertices, sample.domain.triangles);
     EXPECT_TRUE(analyze_surface(filled.triangles, static_cast<Index>(filled.vertices.rows())).reoriented.empty());

@@ -21,7 +21,7 @@ KoebeMeshResult run(const CircleDomain& domain, Lift kind, const UniformizeOptio
     return koebe_mesh(lift(domain.points, kind), surface, domain.loops, options, context, mesh_options);
 }
 
-std::vector<Circle> circles_of(const KoebeMeshResult& result)
+std::vector<Circle> mapped_circles(const KoebeMeshResult& result)
 {
     std::vector<Circle> circles;
     for (const VectorXcd& loop : result.outcome.loops) circles.push_back(fit_circle_least_squares(loop));
@@ -30,7 +30,7 @@ std::vector<Circle> circles_of(const KoebeMeshResult& result)
 
 double error_of(const CircleDomain& domain, const KoebeMeshResult& result)
 {
-    return inversive_distance_error(circles_of(result), domain.circles);
+    return inversive_distance_error(mapped_circles(result), domain.circles);
 }
 
 std::vector<Circle> six_circles()
@@ -55,7 +55,7 @@ int steps_to(const KoebeMeshResult& result, double roundness_excess)
 
 class KoebeMeshMethod : public testing::TestWithParam<Method> {};
 
-TEST_P(KoebeMeshMethod, finds_the_circles_of_a_lifted_circle_domain)
+TEST_P(KoebeMeshMethod, slow_finds_the_circles_of_a_lifted_circle_domain)
 {
     UniformizeOptions options;
     options.method = GetParam();
@@ -81,7 +81,7 @@ TEST_P(KoebeMeshMethod, the_outer_loop_is_on_the_unit_circle_and_the_others_are_
     const KoebeMeshResult result = run(domain, Lift::polynomial, options);
     for (const Complex z : result.outcome.loops[0]) EXPECT_NEAR(std::abs(z), 1.0, 1e-14);
     for (std::size_t k = 1; k < domain.loops.size(); ++k) {
-        EXPECT_LT(deviation_from(circles_of(result)[k], result.outcome.loops[k]), 2e-3);
+        EXPECT_LT(deviation_from(mapped_circles(result)[k], result.outcome.loops[k]), 2e-3);
         EXPECT_EQ(result.outcome.loops[k], gather_loop(result.positions, domain.loops[k]));
     }
     for (Eigen::Index f = 0; f < domain.triangles.rows(); ++f) {
@@ -99,7 +99,7 @@ TEST_P(KoebeMeshMethod, a_circle_domain_is_a_fixed_point)
     options.method = GetParam();
     const CircleDomain domain = make_circle_domain(six_circles(), 8000);
     const KoebeMeshResult result = run(domain, Lift::plane, options);
-    const std::vector<Circle> found = circles_of(result);
+    const std::vector<Circle> found = mapped_circles(result);
     const Moebius to_first = center_circle(domain.circles[1]), found_to_first = center_circle(found[1]);
     const Complex turn = to_first(domain.circles[2]).center / found_to_first(found[2]).center;
     const VectorXcd expected = to_first(domain.points);
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, KoebeMeshMethod, testing::Values(Method::gk, M
                              return method.param == Method::gk ? "gk" : method.param == Method::ck ? "ck" : "outer";
                          });
 
-TEST(KoebeMesh, all_methods_find_the_same_circles_and_gk_in_the_fewest_steps)
+TEST(KoebeMesh, slow_all_methods_find_the_same_circles_and_gk_in_the_fewest_steps)
 {
     const CircleDomain domain = make_circle_domain(six_circles(), 3000);
     for (const Lift kind : curved_lifts) {
@@ -148,7 +148,7 @@ TEST(KoebeMesh, all_methods_find_the_same_circles_and_gk_in_the_fewest_steps)
             UniformizeOptions options;
             options.method = method;
             const KoebeMeshResult other = run(domain, kind, options);
-            EXPECT_LT(inversive_distance_error(circles_of(gk), circles_of(other)), 1e-3) << to_string(kind);
+            EXPECT_LT(inversive_distance_error(mapped_circles(gk), mapped_circles(other)), 1e-3) << to_string(kind);
             EXPECT_LT(gk.outcome.steps, other.outcome.steps);
             EXPECT_LT(steps_to(gk, 1e-3), steps_to(other, 1e-3)) << to_string(kind);
             EXPECT_LT(steps_to(gk, 1e-5), steps_to(other, 1e-5)) << to_string(kind);
@@ -339,7 +339,7 @@ TEST(KoebeMesh, one_loop_is_the_riemann_map)
     EXPECT_LT((result.positions.array() - turn * disk.points.array()).abs().maxCoeff(), 2e-3);
 }
 
-TEST(KoebeMesh, the_metric_of_the_image_in_print_drifts)
+TEST(KoebeMesh, slow_the_metric_of_the_image_in_print_drifts)
 {
     // What the paper writes, and why it is not the default: each sweep adds an error of the size of the first.
     const CircleDomain domain = make_circle_domain(five_circles(), 2000);
@@ -402,7 +402,7 @@ TEST(KoebeMesh, a_loop_opened_twice_in_a_row_needs_no_reflection)
     EXPECT_LT(error_of(domain, run(domain, Lift::polynomial, options, in_print)), 0.1);
 }
 
-TEST(KoebeMesh, the_yamabe_flow_maps_the_annuli_as_the_one_form_does)
+TEST(KoebeMesh, slow_the_yamabe_flow_maps_the_annuli_as_the_one_form_does)
 {
     // The first step starts from the surface, and the two maps differ by O(h^2).
     for (const Method method : {Method::gk, Method::ck, Method::against_outer}) {

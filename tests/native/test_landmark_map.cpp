@@ -27,7 +27,7 @@ MappedSurface flat_domain(Index faces)
     return surface;
 }
 
-double signed_area(const PlanarPoints& uv, const Triangles& triangles, Eigen::Index f)
+double face_area(const PlanarPoints& uv, const Triangles& triangles, Eigen::Index f)
 {
     const Eigen::RowVector2d a = uv.row(triangles(f, 1)) - uv.row(triangles(f, 0));
     const Eigen::RowVector2d b = uv.row(triangles(f, 2)) - uv.row(triangles(f, 0));
@@ -59,8 +59,8 @@ TEST(CutMesh, pieces_fill_their_faces_and_points_are_vertices)
         EXPECT_LT((uv.row(mesh.vertex[i]) - points[i].of(surface.uv, surface.triangles)).norm(), 1e-8);
     VectorXd area = VectorXd::Zero(surface.triangles.rows());
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
-        EXPECT_GT(signed_area(uv, mesh.triangles, f), 0.0);
-        area[mesh.face[f]] += signed_area(uv, mesh.triangles, f);
+        EXPECT_GT(face_area(uv, mesh.triangles, f), 0.0);
+        area[mesh.face[f]] += face_area(uv, mesh.triangles, f);
         const SurfacePoint middle = mesh.on_mesh(static_cast<Index>(f), Eigen::RowVector3d::Constant(1.0 / 3.0),
                                                  surface.triangles, static_cast<Index>(surface.uv.rows()));
         const Eigen::RowVector2d expected =
@@ -68,7 +68,7 @@ TEST(CutMesh, pieces_fill_their_faces_and_points_are_vertices)
         EXPECT_LT((middle.of(surface.uv, surface.triangles) - expected).norm(), 1e-12);
     }
     for (Eigen::Index f = 0; f < area.size(); ++f)
-        EXPECT_NEAR(area[f], signed_area(surface.uv, surface.triangles, f), 1e-12);
+        EXPECT_NEAR(area[f], face_area(surface.uv, surface.triangles, f), 1e-12);
     // Euler: two triangles for each point, and one for each on a rim.
     EXPECT_EQ(mesh.triangles.rows() + rim_edges(mesh.triangles, uv.rows()),
               surface.triangles.rows() + rim_edges(surface.triangles, surface.uv.rows()) +

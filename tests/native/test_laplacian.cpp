@@ -10,7 +10,7 @@ using namespace koebe::test;
 
 namespace {
 
-struct Sample {
+struct LaplacianSample {
     CircleDomain domain = make_circle_domain(five_circles(), 2000);
     Vertices vertices = lift(domain.points, Lift::enneper);
     SparseMatrix laplacian(const Vertices& v) const
@@ -24,7 +24,7 @@ struct Sample {
 
 TEST(Laplacian, is_symmetric_semidefinite_and_kills_constants)
 {
-    const Sample sample;
+    const LaplacianSample sample;
     const SparseMatrix k = sample.laplacian(sample.vertices);
     EXPECT_LT((SparseMatrix(k.transpose()) - k).norm(), 1e-14 * k.norm());
     EXPECT_LT((k * VectorXd::Ones(k.cols())).cwiseAbs().maxCoeff(), 1e-12);
@@ -37,7 +37,7 @@ TEST(Laplacian, is_symmetric_semidefinite_and_kills_constants)
 TEST(Laplacian, a_plane_has_the_energy_of_its_linear_functions)
 {
     // |grad (2x - y)|^2 = 5 and linear functions are exact: u' K u = 5 area.
-    const Sample sample;
+    const LaplacianSample sample;
     const SparseMatrix k = sample.laplacian(lift(sample.domain.points, Lift::plane));
     const VectorXd u = 2.0 * sample.domain.points.real() - sample.domain.points.imag();
     double area = 0.0;
@@ -57,7 +57,7 @@ TEST(Laplacian, a_plane_has_the_energy_of_its_linear_functions)
 
 TEST(Laplacian, does_not_depend_on_the_unit)
 {
-    const Sample sample;
+    const LaplacianSample sample;
     const SparseMatrix k = sample.laplacian(sample.vertices);
     for (const double scale : {1e-8, 1e8}) {
         const SparseMatrix scaled = sample.laplacian(scale * sample.vertices);
@@ -74,7 +74,7 @@ TEST(Laplacian, weights_of_a_degenerate_face_are_finite)
 
 TEST(DirichletSolver, reproduces_linear_functions_of_a_plane)
 {
-    const Sample sample;
+    const LaplacianSample sample;
     const Vertices plane = lift(sample.domain.points, Lift::plane);
     std::vector<char> fixed(plane.rows(), 0);
     for (const VertexLoop& loop : sample.domain.loops)
@@ -86,7 +86,7 @@ TEST(DirichletSolver, reproduces_linear_functions_of_a_plane)
 
 TEST(Laplacian, places_filled_anew_give_that_of_other_positions)
 {
-    const Sample sample;
+    const LaplacianSample sample;
     SparseMatrix k = sample.laplacian(sample.vertices);
     const LaplacianPlaces places(sample.domain.triangles, k);
     for (const Lift kind : {Lift::sphere, Lift::polynomial}) {

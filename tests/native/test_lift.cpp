@@ -22,7 +22,7 @@ using namespace koebe;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A conformal surface with its exact map, as a sheet.
 FlatSheet exact_sheet(const test::CircleDomain& domain, test::Lift kind)

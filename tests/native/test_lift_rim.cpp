@@ -22,7 +22,7 @@ using namespace koebe;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The plane of circles as a sheet: lengths in the UVs are lengths on the surface.
 FlatSheet plane_sheet(const test::CircleDomain& domain)

@@ -72,7 +72,7 @@ TEST(LoopMatching, finds_five_hundred_loops_of_a_shape_that_has_changed_a_little
     EXPECT_FALSE(match.exhaustive);
 }
 
-TEST(LoopMatching, finds_another_outer_loop_among_many)
+TEST(LoopMatching, slow_finds_another_outer_loop_among_many)
 {
     const std::vector<Circle> circles = random_domain(40, 8);
     std::vector<int> order = shuffle(circles.size(), 3);

@@ -128,7 +128,7 @@ TEST(ModuleEnclosure, the_linear_function_is_as_near_as_it_says)
 }
 
 // Polygons with their corners on known circles: with n edges their module differs from the circles' by O(1/n^2).
-TEST(ModuleEnclosure, polygons_have_nearly_the_module_of_their_circles)
+TEST(ModuleEnclosure, slow_polygons_have_nearly_the_module_of_their_circles)
 {
     for (const std::size_t count : {3, 4}) {
         const std::vector<Circle> circles = first_circles(count);
@@ -153,7 +153,7 @@ TEST(ModuleEnclosure, polygons_have_nearly_the_module_of_their_circles)
 }
 
 // The same surface in another unit, its triangles cut.
-TEST(ModuleEnclosure, enclosures_of_one_surface_meet)
+TEST(ModuleEnclosure, slow_enclosures_of_one_surface_meet)
 {
     for (const std::size_t count : {3, 4}) {
         const CircleDomain domain = make_circle_domain(first_circles(count), 500);

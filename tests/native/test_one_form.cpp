@@ -8,7 +8,7 @@ using namespace koebe::test;
 
 namespace {
 
-struct Sample {
+struct FormSample {
     CircleDomain domain = make_circle_domain(five_circles(), 1500);
     Index vertex_count = static_cast<Index>(domain.points.size());
     EdgeLengths weights = half_cotangents(edge_lengths(lift(domain.points, Lift::plane), domain.triangles));
@@ -31,7 +31,7 @@ struct Sample {
 
 TEST(OneForm, derivatives_are_closed)
 {
-    const Sample sample;
+    const FormSample sample;
     EXPECT_LT(circulation(exterior_derivative(sample.domain.triangles, sample.f)).cwiseAbs().maxCoeff(), 1e-15);
     const VectorXd corners = VectorXd::Random(sample.domain.triangles.size());
     EXPECT_LT(circulation(exterior_derivative_of_corners(corners)).cwiseAbs().maxCoeff(), 1e-15);
@@ -39,7 +39,7 @@ TEST(OneForm, derivatives_are_closed)
 
 TEST(OneForm, a_function_by_corners_has_the_derivative_of_the_function_by_vertices)
 {
-    const Sample sample;
+    const FormSample sample;
     VectorXd corners(sample.domain.triangles.size());
     for (Eigen::Index c = 0; c < corners.size(); ++c) corners[c] = sample.f[sample.domain.triangles.data()[c]];
     EXPECT_EQ(exterior_derivative_of_corners(corners), exterior_derivative(sample.domain.triangles, sample.f));
@@ -47,7 +47,7 @@ TEST(OneForm, a_function_by_corners_has_the_derivative_of_the_function_by_vertic
 
 TEST(OneForm, the_divergence_of_a_gradient_is_minus_the_laplacian)
 {
-    const Sample sample;
+    const FormSample sample;
     const OneForm df = exterior_derivative(sample.domain.triangles, sample.f);
     const SparseMatrix k = cotan_laplacian(sample.domain.triangles, sample.weights, sample.vertex_count);
     const VectorXd divergence_of_df = divergence(sample.domain.triangles, sample.weights, df, sample.vertex_count);
@@ -58,7 +58,7 @@ TEST(OneForm, the_divergence_of_a_gradient_is_minus_the_laplacian)
 
 TEST(OneForm, dx_wedge_dy_is_the_area_and_the_wedge_is_antisymmetric)
 {
-    const Sample sample;
+    const FormSample sample;
     const OneForm dx = exterior_derivative(sample.domain.triangles, sample.domain.points.real());
     const OneForm dy = exterior_derivative(sample.domain.triangles, sample.domain.points.imag());
     EXPECT_NEAR(wedge_integral(dx, dy), sample.area(), 1e-13);
@@ -71,7 +71,7 @@ TEST(OneForm, dx_wedge_dy_is_the_area_and_the_wedge_is_antisymmetric)
 TEST(OneForm, the_wedge_of_exact_forms_depends_on_boundary_values_only)
 {
     // Stokes: integral df ^ dg = integral over the boundary of f dg.
-    const Sample sample;
+    const FormSample sample;
     const auto wedge = [&](const VectorXd& f) {
         return wedge_integral(exterior_derivative(sample.domain.triangles, f),
                               exterior_derivative(sample.domain.triangles, sample.g));

@@ -77,7 +77,7 @@ std::size_t cuts_of(const OpenedSurface& opened, CutKind kind)
 
 TEST(OpenSurface, a_closed_sphere_is_opened_by_one_slit_from_end_to_end)
 {
-    const OpenedSurface opened = opened_by_law(sphere(10, 12));
+    const OpenedSurface opened = opened_by_law(coarse_sphere(10, 12));
     ASSERT_EQ(opened.pieces.size(), 1u);
     ASSERT_EQ(opened.cuts.size(), 1u);
     EXPECT_EQ(opened.cuts[0].kind, CutKind::opening);
@@ -86,7 +86,7 @@ TEST(OpenSurface, a_closed_sphere_is_opened_by_one_slit_from_end_to_end)
 
 TEST(OpenSurface, a_short_slit_has_two_edges)
 {
-    const OpenedSurface opened = opened_by_law(sphere(10, 12), {.long_slit = false});
+    const OpenedSurface opened = opened_by_law(coarse_sphere(10, 12), {.long_slit = false});
     ASSERT_EQ(opened.cuts.size(), 1u);
     EXPECT_EQ(opened.cuts[0].vertices.size(), 3u);
 }
@@ -103,7 +103,7 @@ TEST(OpenSurface, as_many_handles_are_cut_as_the_genus)
 
 TEST(OpenSurface, a_handle_is_cut_along_its_shortest_loop)
 {
-    const NamedMesh ring = torus(24, 9, 0.2);
+    const NamedMesh ring = coarse_torus(24, 9, 0.2);
     const OpenedSurface opened = opened_by_law(ring, {.long_slit = false});
     ASSERT_EQ(opened.cuts.size(), 1u);
     EXPECT_EQ(opened.cuts[0].vertices.size(), 10u);  // nine edges round the tube, closed
@@ -112,7 +112,7 @@ TEST(OpenSurface, a_handle_is_cut_along_its_shortest_loop)
 
 TEST(OpenSurface, what_can_be_mapped_already_stays_whole)
 {
-    NamedMesh cap = sphere(8, 9);
+    NamedMesh cap = coarse_sphere(8, 9);
     cap.triangles = cap.triangles.bottomRows(cap.triangles.rows() - 1).eval();
     const OpenedSurface opened = opened_by_law(cap);
     EXPECT_TRUE(opened.cuts.empty());
@@ -130,7 +130,7 @@ TEST(OpenSurface, one_sided_surfaces_are_cut_where_the_side_changes)
 
 TEST(OpenSurface, disagreeing_faces_are_turned_and_nothing_is_cut)
 {
-    NamedMesh cap = sphere(8, 9);
+    NamedMesh cap = coarse_sphere(8, 9);
     cap.triangles = cap.triangles.bottomRows(cap.triangles.rows() - 1).eval();
     for (const Index f : {3, 20, 21}) std::swap(cap.triangles(f, 0), cap.triangles(f, 1));
     const OpenedSurface opened = opened_by_law(cap);
@@ -180,7 +180,8 @@ TEST(OpenSurface, duplicates_and_collapsed_faces_are_left_out)
 
 TEST(OpenSurface, polygons_are_not_cut_apart)
 {
-    for (const NamedMesh& mesh : {plate_with_holes(3), torus(4, 4, 0.3), klein_bottle(5, 4), moebius_band(5, 2)}) {
+    for (const NamedMesh& mesh :
+         {plate_with_holes(3), coarse_torus(4, 4, 0.3), klein_bottle(5, 4), moebius_band(5, 2)}) {
         OpenOptions options;
         for (Index f = 0; f < static_cast<Index>(mesh.triangles.rows()); ++f) options.polygon.push_back(f / 2);
         const OpenedSurface opened = opened_by_law(mesh, options);

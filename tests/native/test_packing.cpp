@@ -86,7 +86,7 @@ TEST(Packing, a_hole_takes_in_an_island)
     EXPECT_GE(test::least_gap(outlines, packing), margin);
 }
 
-TEST(Packing, many_islands_have_room_and_less_margin)
+TEST(Packing, slow_many_islands_have_room_and_less_margin)
 {
     const std::vector<Outline> outlines(5000, test::rectangle(2.0, 1.0, 0.0));
     const IslandPacking packing = pack_islands(outlines, margin);

@@ -375,7 +375,7 @@ TEST(Parts, a_closed_surface_is_cut_along_closed_curves_alone)
     EXPECT_NEAR(result.cut_length, around + result.slit_length, 1e-6);
 }
 
-TEST(Parts, any_number_of_threads_gives_the_same)
+TEST(Parts, slow_any_number_of_threads_gives_the_same)
 {
     const Mesh one = finger(8.0);
     // Fingers of many sizes beside each other.
@@ -533,7 +533,7 @@ TEST(Evenness, finds_the_best_window)
     EXPECT_NEAR(rough_overflow(u, areas), least, 2e-2 * least);
 }
 
-TEST(Parts, a_large_closed_surface_is_cut_in_two_as_well)
+TEST(Parts, slow_a_large_closed_surface_is_cut_in_two_as_well)
 {
     // An ellipsoid of more than 100,000 faces: no slit but those of tubes.
     std::vector<std::pair<double, double>> profile;

@@ -12,7 +12,7 @@ using namespace koebe;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 VectorXcd regular_polygon(Complex center, double radius, int n, double skew = 0.0)
 {

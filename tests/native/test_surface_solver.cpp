@@ -19,7 +19,7 @@ using namespace koebe::test;
 namespace {
 
 /// The exact domain, lifted; its vertices swell by a smooth field.
-struct Sample {
+struct SolverSample {
     CircleDomain domain = make_circle_domain(five_circles(), 4000);
     Vertices still = lift(domain.points, Lift::sphere);
 
@@ -55,7 +55,7 @@ double difference(const UniformizeResult& a, const UniformizeResult& b)
 
 TEST(SurfaceSolver, first_map_is_that_of_uniformize_to_the_bit)
 {
-    const Sample sample;
+    const SolverSample sample;
     SurfaceSolver surface(sample.still, sample.domain.triangles);
     const UniformizeResult fresh = uniformize(sample.still, sample.domain.triangles);
     EXPECT_TRUE(surface.uniformize(sample.still).uv == fresh.uv);
@@ -63,7 +63,7 @@ TEST(SurfaceSolver, first_map_is_that_of_uniformize_to_the_bit)
 
 TEST(SurfaceSolver, moved_map_is_that_of_uniformize_up_to_an_automorphism)
 {
-    const Sample sample;
+    const SolverSample sample;
     SurfaceSolver surface(sample.still, sample.domain.triangles);
     const Index outer = surface.uniformize(sample.still).loops[0].vertices[0];
     for (const double amount : {0.001, 0.02, 0.2, 0.02, 0.0}) {
@@ -80,7 +80,7 @@ TEST(SurfaceSolver, moved_map_is_that_of_uniformize_up_to_an_automorphism)
 
 TEST(SurfaceSolver, a_small_step_takes_one_sweep)
 {
-    const Sample sample;
+    const SolverSample sample;
     SurfaceSolver surface(sample.still, sample.domain.triangles);
     EXPECT_GT(surface.uniformize(sample.still).sweeps, 1);
     EXPECT_EQ(surface.uniformize(sample.moved(2e-5)).sweeps, 1);
@@ -88,7 +88,7 @@ TEST(SurfaceSolver, a_small_step_takes_one_sweep)
 
 TEST(SurfaceSolver, a_motion_takes_one_sweep_a_frame_and_is_as_near_as_by_many)
 {
-    const Sample sample;
+    const SolverSample sample;
     SurfaceSolver surface(sample.still, sample.domain.triangles);
     UniformizeOptions exact;
     exact.tolerance = 1e-12;
@@ -107,7 +107,7 @@ TEST(SurfaceSolver, a_motion_takes_one_sweep_a_frame_and_is_as_near_as_by_many)
 
 TEST(SurfaceSolver, a_motion_gives_the_same_bits_again_and_on_any_number_of_threads)
 {
-    const Sample sample;
+    const SolverSample sample;
     const auto maps = [&](int threads) {
         UniformizeOptions options;
         options.threads = threads;
@@ -123,7 +123,7 @@ TEST(SurfaceSolver, a_motion_gives_the_same_bits_again_and_on_any_number_of_thre
 
 TEST(SurfaceSolver, other_triangles_and_the_same_ones_again)
 {
-    const Sample sample;
+    const SolverSample sample;
     for (const bool two_loops : {false, true}) {
         const CircleDomain domain = two_loops ? make_circle_domain({Circle{}, {{0.2, 0.1}, 0.3}}, 2000) : sample.domain;
         const Vertices still = lift(domain.points, Lift::sphere);
@@ -143,7 +143,7 @@ TEST(SurfaceSolver, other_triangles_and_the_same_ones_again)
 
 TEST(SurfaceSolver, maps_are_laid_over_the_first)
 {
-    const Sample sample;
+    const SolverSample sample;
     SurfaceSolver surface(sample.still, sample.domain.triangles);
     const UniformizeResult first = surface.uniformize(sample.still);
     // A turn and a scale change no shape.
@@ -196,7 +196,7 @@ TEST(SurfaceSolver, the_first_outer_loop_stays)
 
 TEST(SurfaceSolver, errors_leave_it_usable)
 {
-    const Sample sample;
+    const SolverSample sample;
     SurfaceSolver surface(sample.still, sample.domain.triangles);
     const UniformizeResult first = surface.uniformize(sample.still);
     EXPECT_THROW(surface.uniformize(sample.still.topRows(10)), InputError);
@@ -217,7 +217,7 @@ TEST(SurfaceSolver, errors_leave_it_usable)
 
 TEST(SurfaceSolver, surfaces_that_flatten_or_fold_keep_the_promises)
 {
-    const Sample sample;
+    const SolverSample sample;
     SurfaceSolver surface(sample.still, sample.domain.triangles);
     surface.uniformize(sample.still);
     std::srand(5);
@@ -234,7 +234,7 @@ TEST(SurfaceSolver, surfaces_that_flatten_or_fold_keep_the_promises)
 
 TEST(IntrinsicMetric, the_same_flips_on_other_positions_give_the_same_triangles)
 {
-    const Sample sample;
+    const SolverSample sample;
     const Surface topology = analyze_surface(sample.domain.triangles, static_cast<Index>(sample.still.rows()));
     const Vertices there = sample.moved(0.3);
     const IntrinsicMetric first = intrinsic_metric(there, topology);

@@ -11,7 +11,7 @@ using namespace koebe;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double even = 0.1;
 
 /// A part of two loops, drawn as a ring: what a turn of `radius(height)` sweeps out, of area 1.

@@ -12,7 +12,7 @@ using namespace koebe;
 namespace {
 
 /// A torus grid of n x n cells, two triangles each; cells listed in `removed` are left out.
-Triangles torus(Index n, const std::set<Index>& removed = {})
+Triangles grid_torus(Index n, const std::set<Index>& removed = {})
 {
     std::vector<Index> corners;
     const auto vertex = [n](Index i, Index j) { return (i % n) * n + j % n; };
@@ -60,7 +60,7 @@ TEST(Topology, one_triangle_is_a_disk_with_its_own_loop)
 TEST(Topology, euler_characteristic_is_two_minus_two_genus_minus_loops)
 {
     for (const auto& removed : {std::set<Index>{}, std::set<Index>{0}, std::set<Index>{0, 14, 28}}) {
-        const Surface surface = analyze_surface(torus(6, removed), 36);
+        const Surface surface = analyze_surface(grid_torus(6, removed), 36);
         EXPECT_EQ(surface.genus, 1);
         EXPECT_EQ(surface.loops.size(), removed.size());
         EXPECT_EQ(surface.euler_characteristic, 2 - 2 - static_cast<int>(removed.size()));
@@ -69,7 +69,7 @@ TEST(Topology, euler_characteristic_is_two_minus_two_genus_minus_loops)
 
 TEST(Topology, loops_keep_the_surface_on_their_left)
 {
-    const Surface surface = analyze_surface(torus(5, {7}), 25);
+    const Surface surface = analyze_surface(grid_torus(5, {7}), 25);
     const VertexLoop& loop = surface.loops.at(0);
     std::set<std::pair<Index, Index>> directed;
     for (Index h = 0; h < surface.triangles.size(); ++h)
@@ -83,7 +83,7 @@ TEST(Topology, loops_keep_the_surface_on_their_left)
 
 TEST(Topology, faces_are_turned_to_the_majority)
 {
-    Triangles mesh = torus(6, {0});
+    Triangles mesh = grid_torus(6, {0});
     std::vector<Index> turned;
     for (Index f = 3; f < mesh.rows(); f += f % 5 == 3 ? 1 : 4) {  // two of five
         std::swap(mesh(f, 0), mesh(f, 1));
@@ -99,7 +99,7 @@ TEST(Topology, faces_are_turned_to_the_majority)
 
 TEST(Topology, a_handle_is_named_by_a_loop_through_it)
 {
-    const Triangles mesh = torus(6, {0, 14});
+    const Triangles mesh = grid_torus(6, {0, 14});
     const TopologyError error = topology_error([&] { require_bordered_genus_zero(mesh, 36); });
     EXPECT_EQ(error.kind(), TopologyKind::genus);
     // A closed edge path, and one that does not separate: the faces stay connected when it is cut.

@@ -59,9 +59,9 @@ struct ExactCase {
     double limit;  ///< relative error of the inversive distances at 36,000 faces
 };
 
-}  // namespace
-
 class ExactDomain : public testing::TestWithParam<ExactCase> {};
+
+}  // namespace
 
 TEST_P(ExactDomain, circles_converge_with_second_order)
 {

@@ -19,9 +19,7 @@ using namespace koebe::test;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
-CircleDomain eccentric(Index faces) { return make_circle_domain({{{0.0, 0.0}, 1.0}, {{0.4, 0.2}, 0.25}}, faces); }
+using std::numbers::pi;
 
 EdgeLengths lengths_of(const CircleDomain& domain, Lift kind)
 {
@@ -50,15 +48,15 @@ double module_error(double inner_radius, const CircleDomain& domain)
 }
 
 /// The part of a triangular lattice inside a square of n x n steps: regular but for its boundary.
-struct Lattice {
+struct TriangleLattice {
     EdgeLengths lengths;
     Triangles triangles;
     Index vertex_count;
 };
 
-Lattice lattice(Index n)
+TriangleLattice lattice(Index n)
 {
-    Lattice mesh{EdgeLengths::Ones(2 * n * n, 3), Triangles(2 * n * n, 3), (n + 1) * (n + 1)};
+    TriangleLattice mesh{EdgeLengths::Ones(2 * n * n, 3), Triangles(2 * n * n, 3), (n + 1) * (n + 1)};
     Index f = 0;
     for (Index i = 0; i < n; ++i)
         for (Index j = 0; j < n; ++j) {
@@ -98,7 +96,7 @@ TEST(YamabeFlow, curvature_sums_to_two_pi_chi_at_every_scale)
 
 TEST(YamabeFlow, the_hessian_is_the_derivative_of_the_gradient_and_positive_semidefinite)
 {
-    const CircleDomain domain = eccentric(300);
+    const CircleDomain domain = eccentric_annulus(300);
     const Eigen::Index n = domain.points.size();
     for (const bool flips : {false, true}) {
         YamabeEnergy energy(domain.triangles, lengths_of(domain, Lift::enneper), VectorXd::Zero(n), flips);
@@ -119,7 +117,7 @@ TEST(YamabeFlow, the_hessian_is_the_derivative_of_the_gradient_and_positive_semi
 TEST(YamabeFlow, the_gradient_is_monotone_where_faces_collapse_too)
 {
     // A differentiable function is convex if and only if its gradient is monotone.
-    const CircleDomain domain = eccentric(300);
+    const CircleDomain domain = eccentric_annulus(300);
     const Eigen::Index n = domain.points.size();
     for (const bool flips : {false, true})
         for (const double spread : {0.1, 2.0, 6.0}) {
@@ -132,7 +130,7 @@ TEST(YamabeFlow, the_gradient_is_monotone_where_faces_collapse_too)
 namespace {
 
 /// The vertices on the rim of lattice(8).
-std::vector<char> rim_of_lattice(const Lattice& mesh)
+std::vector<char> rim_of_lattice(const TriangleLattice& mesh)
 {
     std::vector<char> boundary(mesh.vertex_count, 0);
     for (Index v = 0; v < mesh.vertex_count; ++v)
@@ -144,7 +142,7 @@ std::vector<char> rim_of_lattice(const Lattice& mesh)
 
 TEST(YamabeFlow, a_metric_that_has_its_curvature_already_stays)
 {
-    const Lattice mesh = lattice(8);
+    const TriangleLattice mesh = lattice(8);
     const std::vector<char> boundary = rim_of_lattice(mesh);
     const VectorXd own = discrete_curvature(mesh.triangles, mesh.lengths, boundary);
     for (Index v = 0; v < mesh.vertex_count; ++v)
@@ -160,7 +158,7 @@ TEST(YamabeFlow, a_metric_that_has_its_curvature_already_stays)
 
 TEST(YamabeFlow, it_undoes_a_conformal_change_of_the_metric)
 {
-    const Lattice mesh = lattice(8);
+    const TriangleLattice mesh = lattice(8);
     const std::vector<char> boundary = rim_of_lattice(mesh);
     const VectorXd own = discrete_curvature(mesh.triangles, mesh.lengths, boundary);
     VectorXd u = random_factors(mesh.vertex_count, 0.5);
@@ -179,7 +177,7 @@ TEST(YamabeFlow, it_undoes_a_conformal_change_of_the_metric)
 
 TEST(YamabeFlow, a_target_that_breaks_gauss_bonnet_is_refused)
 {
-    const Lattice mesh = lattice(3);
+    const TriangleLattice mesh = lattice(3);
     ExecutionContext context;
     EXPECT_THROW(yamabe_flow(mesh.triangles, mesh.lengths, VectorXd::Zero(mesh.vertex_count), {}, context), InputError);
 }
@@ -219,12 +217,12 @@ TEST(YamabeAnnulus, a_round_annulus_maps_to_itself_with_second_order)
     EXPECT_LT(last, 1e-3);
 }
 
-TEST(YamabeAnnulus, the_module_converges_under_every_conformal_lift)
+TEST(YamabeAnnulus, slow_the_module_converges_under_every_conformal_lift)
 {
     for (const Lift kind : {Lift::plane, Lift::polynomial, Lift::sphere, Lift::enneper}) {
         double error[2];
         for (int i = 0; i < 2; ++i) {
-            const CircleDomain domain = eccentric(i == 0 ? 1000 : 16000);
+            const CircleDomain domain = eccentric_annulus(i == 0 ? 1000 : 16000);
             const AnnulusMap map = yamabe_map(domain, lengths_of(domain, kind));
             EXPECT_TRUE(map.converged);
             error[i] = module_error(map.inner_radius, domain);
@@ -237,7 +235,7 @@ TEST(YamabeAnnulus, the_module_converges_under_every_conformal_lift)
 TEST(YamabeAnnulus, inverse_stereographic_projection_changes_nothing)
 {
     // A Moebius map of space scales every length by factors of its two ends: the same discrete conformal class.
-    const CircleDomain domain = eccentric(1000);
+    const CircleDomain domain = eccentric_annulus(1000);
     const AnnulusMap plane = yamabe_map(domain, lengths_of(domain, Lift::plane));
     const AnnulusMap sphere = yamabe_map(domain, lengths_of(domain, Lift::sphere));
     EXPECT_LT((plane.positions - sphere.positions).cwiseAbs().maxCoeff(), 1e-9);
@@ -247,7 +245,7 @@ TEST(YamabeAnnulus, it_agrees_with_the_harmonic_backend_to_second_order)
 {
     double difference[2];
     for (int i = 0; i < 2; ++i) {
-        const CircleDomain domain = eccentric(i == 0 ? 1000 : 16000);
+        const CircleDomain domain = eccentric_annulus(i == 0 ? 1000 : 16000);
         const EdgeLengths lengths = lengths_of(domain, Lift::enneper);
         const AnnulusMap yamabe = yamabe_map(domain, lengths);
         const AnnulusMap harmonic = annulus_map(domain.triangles, lengths, static_cast<Index>(domain.points.size()),

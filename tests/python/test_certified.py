@@ -226,6 +226,7 @@ def test_developable_surfaces(count):
             assert found.converged and holds(found.capacities[0], exact), k
 
 
+@pytest.mark.slow
 def test_the_capacities_of_more_loops():
     """All loops held: a surface with n loops has n (n - 1) / 2 numbers, and unions of loops follow from them."""
     points, faces = grid(12, lambda i, j: (i, j) not in {(2, 2), (8, 3), (5, 8)})

@@ -39,6 +39,7 @@ def test_every_command_keeps_its_promises_and_gives_one_surface_one_map(name):
             assert commands.difference(name, result, again, other) < 1e-6, (kind, other.name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scan", "degrees"), [("nikolov_Angel", 3.4), ("nikolov_blackVase", 6.0)])
 def test_scans_that_need_many_repairs_keep_their_promises_and_their_circles(scan, degrees):
     # Vertices that slide along a small circle could pass each other, and the map covered the hole. Where circles
