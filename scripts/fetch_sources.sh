@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 source_packages=(suitesparse=1:5.12.0+dfsg-2 openmesh=9.0-4 libuv1=1.44.2-1+deb12u1 libsodium=1.0.18-1+deb12u1)
 header_packages=(libeigen3-dev=3.4.0-4 libcgal-dev=5.5.1-2 libcli11-dev=2.1.2+ds-1 libboost1.74-dev=1.74.0+ds1-21 liblemon-dev=1.3.1+dfsg-6
     libfast-float-dev=3.9.0-1 nlohmann-json3-dev=3.11.2-2 libsvgpp-dev=1.3.0+dfsg1-6
-    libstb-dev=0.0~git20220908.8b5f1f3+ds-1)
+    libstb-dev=0.0~git20220908.8b5f1f3+ds-1 libtinygltf-dev=2.7.0+dfsg-2)
 pythons=(3.10.8-1.5.8 3.11.3-1.5.9 3.12.1-1.5.10 3.13.5-1.5.12 3.14.3-1.5.13) # of org.bytedeco:cpython
 
 target=$PWD/build/sources

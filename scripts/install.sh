@@ -7,7 +7,7 @@ declare -A groups=(
     # compilers, libraries, and Python with NumPy, pytest and Hypothesis
     [build]="build-essential cmake ninja-build ccache
         libopenmesh-dev libeigen3-dev libsuitesparse-dev libcgal-dev liblemon-dev libfast-float-dev libsvgpp-dev
-        libstb-dev nlohmann-json3-dev libcli11-dev libuv1-dev libsodium-dev libgtest-dev libbenchmark-dev
+        libstb-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libuv1-dev libsodium-dev libgtest-dev libbenchmark-dev
         python3-dev python3-venv python3-numpy python3-pytest python3-hypothesis ca-certificates"
     # what `make bench` compares with
     [bench]="libopenblas-pthread-dev"

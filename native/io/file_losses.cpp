@@ -13,6 +13,7 @@ FileLosses contents_of(const MeshFile& filed)
     if (filed.extension == ".off") return off_contents(filed.bytes);
     if (filed.extension == ".ply") return ply_contents(filed.bytes);
     if (filed.extension == ".stl") return stl_contents(filed.bytes);
+    if (filed.extension == ".glb") return {.others = {"materials, skins and other contents of the GLB file"}};
     return {};
 }
 

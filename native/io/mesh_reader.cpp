@@ -1,13 +1,16 @@
 #include "io/mesh_reader.h"
 
+#include "core/sort_unique.h"
 #include "execution/thread_share.h"
 #include "io/extension.h"
 #include "io/file_bytes.h"
 #include "io/format_readers.h"
+#include "io/gltf_meshes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace koebe {
 namespace {
@@ -17,6 +20,26 @@ using Reader = PolygonMesh (*)(std::string_view);
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
+/// The mesh without the vertices that are in no face.
+PolygonMesh with_used_vertices(const PolygonMesh& mesh)
+{
+    std::vector<Index> used(mesh.corners);
+    sort_unique(used);
+    PolygonMesh result{mesh.vertices(used, Eigen::all), mesh.corners, mesh.face_begin};
+    for (Index& vertex : result.corners)
+        vertex = static_cast<Index>(std::ranges::lower_bound(used, vertex) - used.begin());
+    return result;
+}
+
+PolygonMesh read_only_mesh(std::string_view glb)
+{
+    const std::vector<GltfMesh> meshes = read_gltf_meshes(glb);
+    if (meshes.size() > 1)
+        throw InputError("the GLB file has " + std::to_string(meshes.size()) +
+                         " meshes: only maps that are written as GLB take several");
+    return with_used_vertices(meshes.front().polygons);
+}
+
 Reader reader_for(const std::string& filed)
 {
     const std::string extension = io::lower(filed);
@@ -24,7 +47,8 @@ Reader reader_for(const std::string& filed)
     if (extension == ".off") return io::read_off;
     if (extension == ".ply") return io::read_ply;
     if (extension == ".stl") return io::read_stl;
-    throw InputError("format not supported: '" + extension + "'; supported are OBJ, OFF, PLY, STL");
+    if (extension == ".glb") return read_only_mesh;
+    throw InputError("format not supported: '" + extension + "'; supported are OBJ, OFF, PLY, STL, GLB");
 }
 
 std::vector<Index> not_finite(const Vertices& vertices)

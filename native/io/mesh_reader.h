@@ -1,4 +1,4 @@
-// Reads mesh files: OBJ, OFF, PLY and STL, to polygons in 64 bits.
+// Reads mesh files: OBJ, OFF, PLY, STL and GLB, to polygons in 64 bits.
 #pragma once
 
 #include "core/api.h"
@@ -22,7 +22,8 @@ MeshFile read_mesh_file(const std::filesystem::path& path);
 /// Reads a mesh file. The extension, in any case, gives the format.
 ///
 /// OBJ; OFF, text only; PLY, text and binary of both byte orders; STL, text and binary: corners at identical positions
-/// become one vertex, numbered by first appearance. Unused vertices stay. Numbers in text are read to the nearest
+/// become one vertex, numbered by first appearance; GLB likewise, with one
+/// mesh (gltf_meshes.h). Unused vertices stay, but for GLB. Numbers in text are read to the nearest
 /// 64-bit float. Normals, colours, texture coordinates, groups and materials are ignored here, and kept by the writers
 /// (mesh_writer.h).
 ///

@@ -1,14 +1,13 @@
 #include "core/errors.h"
 #include "io/format_readers.h"
+#include "io/point_numbers.h"
 #include "io/refusals.h"
 #include "io/text_lines.h"
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <cstring>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -17,15 +16,6 @@ namespace {
 
 constexpr std::size_t header_bytes = 84, facet_bytes = 50;  // the header ends with the number of facets
 constexpr std::size_t normal_bytes = 12;
-
-/// A point in an order where -0 is 0 and a NaN equals no number.
-struct Point : std::array<double, 3> {
-    friend bool operator<(const Point& a, const Point& b)
-    {
-        return std::is_lt(
-            std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end(), std::weak_order));
-    }
-};
 
 /// Triangles whose equal corners are one vertex, numbered as they first appear.
 class Facets {
@@ -54,7 +44,7 @@ public:
     }
 
 private:
-    std::map<Point, Index> vertices_;
+    PointNumbers vertices_;
     std::vector<double> coordinates_;
     PolygonMesh mesh_;
 };

@@ -451,7 +451,8 @@ TEST(MeshReader, RefusesWhatIsNoMeshAndSaysWhere)
         {"a.stl", "solid a\nfacet\nvertex 0 0 x\nendfacet\nendsolid\n", "facet 0 is missing", {0}},
         {"a.stl", std::string(80, ' ') + "\xff\xff\xff\x7f" + std::string(50, '\0'), "as its header says", {}},
         {"a.stl", binary_stl("", {{0, 0, 0}, {0, nan, 0}, {0, 1, 0}}), "NaN or infinite", {1}},
-        {"a.glb", "glTF", "format not supported: '.glb'; supported are OBJ, OFF, PLY, STL", {}},
+        {"a.gltf", "{}", "format not supported: '.gltf'; supported are OBJ, OFF, PLY, STL, GLB", {}},
+        {"a.glb", "glTF", "this is no GLB file", {}},
         {"mesh", "v 0 0 0\n", "format not supported: ''", {}},
     };
     for (const Refused& refused : cases) {

@@ -350,7 +350,7 @@ def hostile_meshes():
         ("binary_noise", "in.stl", bytes(range(256)) * 8, "InputError"),
         ("huge_counts", "in.off", "OFF\n2000000000 2000000000 0\n", "InputError: the header's count"),
         ("cut_short", "in.ply", ply_bytes(vertices, triangles)[:-7], r"InputError: face \d+ is missing"),
-        ("format", "in.glb", b"glTF\2\0\0\0", "InputError: format not supported: '.glb'; supported are OBJ"),
+        ("format", "in.gltf", b"glTF\2\0\0\0", "InputError: format not supported: '.gltf'; supported are OBJ"),
         ("all_collapsed", "in.obj", "v 0 0 0\nv 1 0 0\nf 1 1 2\n", "InputError"),
         ("wound_polygon", "in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf" + " 1 2 4 3" * 234 + "\n", "InputError"),
         ("one_point", "in.obj", re.sub(r"v .*", "v 1 1 1", good), "InputError: all vertices lie on one point"),

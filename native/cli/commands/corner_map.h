@@ -17,11 +17,13 @@ namespace koebe::cli {
 
 /// Writes the mesh with UVs per corner.
 template <typename Result>
-auto corner_writer(WrittenFormat format)
+void write_corners(MapKind<Result>& kind, WrittenFormat format)
 {
-    return [format](AtomicFile& file, const MeshInput& input, const Result& result) {
-        return write_with_corner_uvs(file, format, input.polygons,
-                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv), {input.file});
+    kind.corner_uvs = [](const MeshInput& input, const Result& result) {
+        return polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
+    };
+    kind.write_mesh = [format, uvs = kind.corner_uvs](AtomicFile& file, const MeshInput& input, const Result& result) {
+        return write_with_corner_uvs(file, format, input.polygons, uvs(input, result), {input.file});
     };
 }
 
@@ -40,7 +42,7 @@ MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen
         add_input_warnings(input, result.warnings);
         return result;
     };
-    kind.write_mesh = corner_writer<Result>(request.format);
+    write_corners(kind, request.format);
     kind.report = [](const Result& result) { return to_json(result); };
     return kind;
 }

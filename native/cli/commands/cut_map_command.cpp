@@ -48,9 +48,9 @@ int run_cut_map(const MapRequest& request)
         name_filed_faces(input, result);
         return result;
     };
-    kind.write_mesh = corner_writer<CutUniformizeResult>(request.format);
-    kind.draw = [](const MeshInput& input, const CutUniformizeResult& result) {
-        return to_svg(result, input.polygons, polygon_corner_uvs(input.polygons, input.triangulation, result.uv));
+    write_corners(kind, request.format);
+    kind.draw = [uvs = kind.corner_uvs](const MeshInput& input, const CutUniformizeResult& result) {
+        return to_svg(result, input.polygons, uvs(input, result));
     };
     kind.report = [](const CutUniformizeResult& result) { return to_json(result); };
     kind.first_words = [](const CutUniformizeResult& result) {

@@ -34,6 +34,7 @@ int run_fit(const FitRequest& request)
         return result;
     };
     kind.write_mesh = disk.write_mesh;
+    kind.corner_uvs = disk.corner_uvs;
     kind.draw = disk.draw;
     kind.report = [](const FitResult& result) { return to_json(result); };
     kind.first_words = [](const FitResult& result) {
@@ -49,12 +50,13 @@ Subcommand add_fit(CLI::App& app)
 {
     auto request = std::make_shared<FitRequest>();
     CLI::App* options = app.add_subcommand("fit", "map a surface with holes to circles at given places");
-    options->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY or STL")->required();
+    options->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY, STL or GLB")->required();
     options->add_option("TEMPLATE", request->wanted, "JSON file: centres and radii of the circles (docs/fit.md)")
         ->required();
     options
-        ->add_option("OUT", request->output,
-                     "OBJ or PLY to write: the same vertices and faces, with texture coordinates in [0, 1]^2")
+        ->add_option(
+            "OUT", request->output,
+            "OBJ or PLY to write (GLB from GLB): the same vertices and faces, with texture coordinates in [0, 1]^2")
         ->required();
     options->add_flag("--extremal", request->extremal, "least largest |mu|, nearly; takes longer");
     add_options(*options, "shapes", request->options);

@@ -38,6 +38,9 @@ MapKind<UniformizeResult> disk_map(const MapRequest& request)
                                                 const UniformizeResult& result) {
         return write_with_uvs(file, format, input.polygons, result.uv, {input.file});
     };
+    kind.corner_uvs = [](const MeshInput& input, const UniformizeResult& result) {
+        return PlanarPoints(0.5 * (1.0 + result.uv(input.polygons.corners, Eigen::all).array()));
+    };
     kind.draw = [](const MeshInput& input, const UniformizeResult& result) { return to_svg(result, input.polygons); };
     kind.report = [](const UniformizeResult& result) { return to_json(result); };
     kind.first_words = [](const UniformizeResult& result) {

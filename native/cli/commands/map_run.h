@@ -1,57 +1,23 @@
 // Runs any kind of map from an input file to the written files: reads, computes, writes all files or none, reports.
 #pragma once
 
-#include "cli/files/mesh_input.h"
-#include "cli/options/map_request.h"
+#include "cli/commands/map_kind.h"
+#include "cli/commands/scene_run.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "cli/process/result_line.h"
 #include "cli/process/roomy_heap.h"
 #include "cli/process/standard_streams.h"
-#include "core/counted.h"
-#include "core/warning.h"
 #include "execution/thread_share.h"
-#include "io/atomic_file.h"
-#include "pipeline/result.h"
-#include "quality/distortion.h"
+#include "io/extension.h"
 #include "report/json.h"
 
 #include <chrono>
 #include <filesystem>
-#include <functional>
-#include <string>
 #include <vector>
 
 namespace koebe::cli {
-
-/// The differences between kinds of maps. The result has `seconds`, `converged`, `warnings` and `distortion`.
-template <typename Result>
-struct MapKind {
-    bool any_polygon = false;  ///< see ReadOptions
-    bool many_pieces = false;  ///< threads work on several pieces side by side
-    /// Computes the map. All numbers in the result are the file's.
-    std::function<Result(const MeshInput&, ExecutionContext&)> compute;
-    /// Writes the mesh. Returns warnings about replaced or lost contents of the file.
-    std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
-    /// Writes the mesh of --sphere, if requested; returns such warnings.
-    std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_sphere;
-    /// Writes more files than the request names, if there are any.
-    std::function<void(std::vector<AtomicFile>&, const Result&)> write_more;
-    std::function<std::string(const MeshInput&, const Result&)> draw;
-    std::function<nlohmann::ordered_json(const Result&)> report;
-    std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
-};
-
-/// The kind of a map to the disk, without its computation.
-MapKind<UniformizeResult> disk_map(const MapRequest& request);
-
-/// The result line: the file, the first words, and the figures that all maps have.
-std::string map_line(const MapRequest& request, const std::string& first_words, const Distortion& distortion,
-                     double seconds, bool converged, const std::vector<Warning>& warnings);
-
-/// Adds warnings about contents that a written file does not keep. @param file put before each sentence
-void add_losses(const std::string& file, const std::vector<Warning>& losses, std::vector<Warning>& warnings);
 
 /// Writes the files of a map. All are complete before the first one gets its name.
 template <typename Result>
@@ -88,6 +54,7 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
 template <typename Result>
 int run_map_of(const MapRequest& request, const MapKind<Result>& kind)
 {
+    if (io::lower_extension(request.output) == glb_extension) return run_scene_of(request, kind);
     const auto begin = std::chrono::steady_clock::now();
     const CancelToken token = cancel_on_signal();
     if (!kind.many_pieces) take_roomy_heap();

@@ -25,7 +25,7 @@ bool is_mesh_file(const fs::path& path)
 {
     std::string extension = path.extension().string();
     std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return std::set<std::string>{".obj", ".off", ".ply", ".stl"}.contains(extension);
+    return std::set<std::string>{".obj", ".off", ".ply", ".stl", ".glb"}.contains(extension);
 }
 
 /// The shape's loops that correspond to the reference's, in the wanted order.
@@ -84,7 +84,7 @@ std::vector<std::string> mesh_files(const std::vector<std::string>& paths)
         for (fs::directory_iterator entry(path, failed), end; !failed && entry != end; entry.increment(failed))
             if (is_mesh_file(entry->path()) && !entry->is_directory()) found.push_back(entry->path().string());
         if (failed) throw FileError("cannot read " + path + " (" + failed.message() + ")");
-        if (found.empty()) throw InputError("the folder " + path + " holds no OBJ, OFF, PLY or STL file");
+        if (found.empty()) throw InputError("the folder " + path + " holds no OBJ, OFF, PLY, STL or GLB file");
         std::ranges::sort(found);
         files.insert(files.end(), found.begin(), found.end());
     }

@@ -20,14 +20,28 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     const auto begin = std::chrono::steady_clock::now();
     const ThreadShare threads(options.threads);
     MeshInput input;
-    // Hash before reading: if the file changes in between, the hash belongs to no mesh, and the map is not taken for
-    // another mesh's.
-    std::error_code error;
-    if (options.hash && std::filesystem::is_regular_file(path, error)) input.sha256 = batch::sha256_of_file(path);
+    if (options.hash) input.sha256 = input_hash(path);
     input.file = read_mesh_file(path);
     input.polygons = parse_mesh(input.file.bytes, input.file.extension);
     if (!options.keep_file) input.file = {};
-    input.triangulation = triangulate(input.polygons, !options.any_polygon);
+    triangulate_input(input, options.any_polygon);
+    input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return input;
+}
+
+}  // namespace
+
+std::string input_hash(const std::filesystem::path& path)
+{
+    // Hash before reading: if the file changes in between, the hash belongs to no mesh, and the map is not taken for
+    // another mesh's.
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error) ? batch::sha256_of_file(path) : "";
+}
+
+void triangulate_input(MeshInput& input, bool any_polygon)
+{
+    input.triangulation = triangulate(input.polygons, !any_polygon);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;
     if (!collapsed.empty())
         input.warnings.push_back(
@@ -41,11 +55,7 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
                                   uncut});
     if (input.triangulation.triangles.rows() == 0)
         throw InputError("no face has three different vertices", ElementKind::faces, collapsed);
-    input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return input;
 }
-
-}  // namespace
 
 MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options)
 {

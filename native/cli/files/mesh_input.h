@@ -32,6 +32,12 @@ struct ReadOptions {
 /// @throws FileError, InputError, Cancelled
 MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options = {});
 
+/// The hash of a file before it is read; empty for a pipe or a device.
+std::string input_hash(const std::filesystem::path& path);
+
+/// Triangulates the polygons, and adds warnings about left out ones. @throws InputError
+void triangulate_input(MeshInput& input, bool any_polygon);
+
 /// The faces of the file that contain these triangles, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);
 

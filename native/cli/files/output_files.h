@@ -16,6 +16,8 @@ struct OutputFile {
 /// @throws CLI::ValidationError OUT does not have an extension of a format that can be written
 WrittenFormat required_format(const std::string& out);
 
+inline constexpr const char* glb_extension = ".glb";
+
 /// Requires different files. Files are compared on the disk, not by name; OUT may be an input.
 /// @param inputs files that only OUT may replace
 /// @param has_line whether a line goes to standard output

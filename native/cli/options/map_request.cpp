@@ -1,14 +1,27 @@
 #include "cli/options/map_request.h"
 
+#include "io/extension.h"
+
 #include <string>
 #include <vector>
 
 namespace koebe::cli {
+namespace {
+
+/// Requires files that a map of a GLB file can have.
+void require_glb_files(const MapRequest& request)
+{
+    if (io::lower_extension(request.input) != glb_extension)
+        throw CLI::ValidationError("OUT", "only a GLB file is written as GLB: IN must end in .glb, too");
+    if (!request.sphere.empty()) throw CLI::ValidationError("--sphere", "needs an OUT that ends in .obj or .ply");
+}
+
+}  // namespace
 
 CLI::Option* add_input(CLI::App& app, std::string& path, const std::string& surface, const std::string& name,
                        const std::string& more)
 {
-    return app.add_option(name, path, surface + ": OBJ, OFF, PLY or STL" + more)->required();
+    return app.add_option(name, path, surface + ": OBJ, OFF, PLY, STL or GLB" + more)->required();
 }
 
 void add_output(CLI::App& app, std::string& path, const std::string& description)
@@ -19,7 +32,8 @@ void add_output(CLI::App& app, std::string& path, const std::string& description
 void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface, const std::string& coordinates)
 {
     add_input(app, request.input, surface);
-    add_output(app, request.output, "OBJ or PLY to write: the same vertices and faces, with " + coordinates);
+    add_output(app, request.output,
+               "OBJ or PLY to write (GLB from GLB): the same vertices and faces, with " + coordinates);
 }
 
 void add_report_options(CLI::App& app, MapRequest& request, const std::string& picture)
@@ -36,7 +50,10 @@ std::vector<OutputFile> map_files(const MapRequest& request)
 
 void check_map_files(MapRequest& request)
 {
-    request.format = required_format(request.output);
+    if (io::lower_extension(request.output) == glb_extension)
+        require_glb_files(request);
+    else
+        request.format = required_format(request.output);
     require_different_files(map_files(request), {request.input}, !request.quiet);
 }
 

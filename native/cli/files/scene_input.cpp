@@ -1,0 +1,39 @@
+#include "cli/files/scene_input.h"
+
+#include "execution/detachable_run.h"
+#include "execution/thread_share.h"
+
+#include <chrono>
+
+namespace koebe::cli {
+namespace {
+
+SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const ThreadShare threads(options.threads);
+    SceneInput scene;
+    if (options.hash) scene.sha256 = input_hash(path);
+    scene.file = read_mesh_file(path);
+    scene.meshes = read_gltf_meshes(scene.file.bytes);
+    for (GltfMesh& mesh : scene.meshes)
+        with_mesh_name(scene, scene.inputs.size(), [&] {
+            MeshInput input;
+            input.polygons = std::move(mesh.polygons);
+            triangulate_input(input, options.any_polygon);
+            scene.inputs.push_back(std::move(input));
+        });
+    scene.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return scene;
+}
+
+}  // namespace
+
+SceneInput read_scene_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options)
+{
+    ExecutionContext context({}, token);
+    return run_detachable<SceneInput>(context,
+                                      [path, options](ExecutionContext&) { return read_scene(path, options); });
+}
+
+}  // namespace koebe::cli

@@ -1,0 +1,178 @@
+#include "io/gltf_meshes.h"
+
+#include "core/errors.h"
+#include "io/gltf_model.h"
+#include "io/point_numbers.h"
+#include "io/refusals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+template <typename Number>
+double component_at(const char* bytes)
+{
+    Number number;
+    std::memcpy(&number, bytes, sizeof number);
+    return static_cast<double>(number);
+}
+
+/// A component as a number. Normalized integers are parts of their largest value (glTF 2.0, section 3.6.2.2).
+double component(const char* bytes, int type, bool normalized)
+{
+    const auto scaled = [&](double number, double largest) {
+        return normalized ? std::max(number / largest, -1.0) : number;
+    };
+    switch (type) {
+    case TINYGLTF_COMPONENT_TYPE_FLOAT: return component_at<float>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_BYTE: return scaled(component_at<std::int8_t>(bytes), 127.0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return scaled(component_at<std::uint8_t>(bytes), 255.0);
+    case TINYGLTF_COMPONENT_TYPE_SHORT: return scaled(component_at<std::int16_t>(bytes), 32767.0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return scaled(component_at<std::uint16_t>(bytes), 65535.0);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return component_at<std::uint32_t>(bytes);
+    default: throw InputError("the GLB file has positions or indices of a type that glTF does not allow");
+    }
+}
+
+std::vector<io::Point> positions_of(const tinygltf::Model& model, int number)
+{
+    const std::string bytes = io::accessor_elements(model, number);
+    const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(number)];
+    if (accessor.type != TINYGLTF_TYPE_VEC3) throw InputError("the GLB file has positions without three coordinates");
+    if (accessor.count >= io::most_elements) io::refuse_size();
+    const std::size_t size = io::accessor_element_bytes(accessor), width = size / 3;
+    std::vector<io::Point> points(accessor.count);
+    for (std::size_t v = 0; v < points.size(); ++v)
+        for (std::size_t c = 0; c < 3; ++c)
+            points[v][c] = component(bytes.data() + v * size + c * width, accessor.componentType, accessor.normalized);
+    return points;
+}
+
+/// The vertices of corners or strips, one after the other.
+std::vector<Index> indices_of(const tinygltf::Model& model, int number, std::size_t vertex_count)
+{
+    std::vector<Index> indices;
+    if (number < 0) {
+        for (std::size_t v = 0; v < vertex_count; ++v) indices.push_back(static_cast<Index>(v));
+        return indices;
+    }
+    const std::string bytes = io::accessor_elements(model, number);
+    const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(number)];
+    const std::size_t size = io::accessor_element_bytes(accessor);
+    if (accessor.type != TINYGLTF_TYPE_SCALAR || accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
+        throw InputError("the GLB file has indices that are no whole numbers");
+    if (accessor.count >= io::most_elements) io::refuse_size();
+    for (std::size_t i = 0; i < accessor.count; ++i) {
+        const double index = component(bytes.data() + i * size, accessor.componentType, false);
+        indices.push_back(index < io::most_elements ? static_cast<Index>(index) : -1);
+    }
+    return indices;
+}
+
+/// The corners of triangles from a list, a strip or a fan (glTF 2.0, section 3.7.2.1).
+std::vector<Index> triangle_corners(const std::vector<Index>& indices, int mode)
+{
+    const std::size_t n = indices.size();
+    if (mode == TINYGLTF_MODE_TRIANGLES) return {indices.begin(), indices.end() - static_cast<std::ptrdiff_t>(n % 3)};
+    std::vector<Index> corners;
+    for (std::size_t i = 0; i + 2 < n; ++i) {
+        const bool strip = mode == TINYGLTF_MODE_TRIANGLE_STRIP;
+        const std::size_t a = strip ? i : i + 1, b = strip ? i + 1 + i % 2 : i + 2, c = strip ? i + 2 - i % 2 : 0;
+        corners.insert(corners.end(), {indices[a], indices[b], indices[c]});
+    }
+    return corners;
+}
+
+bool has_triangles(const tinygltf::Primitive& primitive)
+{
+    return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN &&
+           primitive.attributes.contains("POSITION");
+}
+
+/// Joins the primitives of a mesh at identical positions.
+class MeshBuilder {
+public:
+    void add(const std::vector<io::Point>& points, const std::vector<Index>& corners)
+    {
+        const std::size_t first = coordinates_.size() / 3;
+        if (first + points.size() >= io::most_elements || mesh_.corners.size() + corners.size() >= io::most_elements)
+            io::refuse_size();
+        std::vector<Index> joined;
+        for (std::size_t v = 0; v < points.size(); ++v) {
+            coordinates_.insert(coordinates_.end(), points[v].begin(), points[v].end());
+            const bool finite =
+                std::isfinite(points[v][0]) && std::isfinite(points[v][1]) && std::isfinite(points[v][2]);
+            if (!finite) not_finite_.push_back(static_cast<Index>(first + v));
+            joined.push_back(numbers_.try_emplace(points[v], static_cast<Index>(first + v)).first->second);
+        }
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const bool exists = corners[k] >= 0 && static_cast<std::size_t>(corners[k]) < points.size();
+            const Index face = static_cast<Index>(mesh_.corners.size() / 3);
+            if (!exists && (out_of_range_.empty() || out_of_range_.back() != face)) out_of_range_.push_back(face);
+            mesh_.corners.push_back(exists ? joined[static_cast<std::size_t>(corners[k])] : 0);
+            if (k % 3 == 2) mesh_.face_begin.push_back(static_cast<Index>(mesh_.corners.size()));
+        }
+    }
+
+    PolygonMesh take(const std::string& name)
+    {
+        if (!out_of_range_.empty())
+            throw InputError(name + ": faces name a vertex that does not exist (faces listed)", ElementKind::faces,
+                             out_of_range_);
+        if (!not_finite_.empty())
+            throw InputError(name + ": vertices have a coordinate that is NaN or infinite (vertices listed)",
+                             ElementKind::vertices, not_finite_);
+        mesh_.vertices =
+            Eigen::Map<const Vertices>(coordinates_.data(), static_cast<Eigen::Index>(coordinates_.size() / 3), 3);
+        return std::move(mesh_);
+    }
+
+private:
+    io::PointNumbers numbers_;
+    std::vector<double> coordinates_;
+    std::vector<Index> not_finite_, out_of_range_;
+    PolygonMesh mesh_;
+};
+
+GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
+{
+    GltfMesh mesh{place, model.meshes[place].name, {}, {}};
+    MeshBuilder builder;
+    const auto& primitives = model.meshes[place].primitives;
+    for (std::size_t k = 0; k < primitives.size(); ++k) {
+        if (!has_triangles(primitives[k])) continue;
+        const std::vector<io::Point> points = positions_of(model, primitives[k].attributes.at("POSITION"));
+        GltfPrimitive primitive{k, static_cast<Index>(points.size()), {}};
+        primitive.corner_vertex =
+            triangle_corners(indices_of(model, primitives[k].indices, points.size()), primitives[k].mode);
+        if (primitive.corner_vertex.empty()) continue;
+        builder.add(points, primitive.corner_vertex);
+        mesh.primitives.push_back(std::move(primitive));
+    }
+    mesh.polygons = builder.take(mesh_name(mesh));
+    return mesh;
+}
+
+}  // namespace
+
+std::string mesh_name(const GltfMesh& mesh)
+{
+    return "mesh " + std::to_string(mesh.place) + (mesh.name.empty() ? "" : " (" + mesh.name + ")");
+}
+
+std::vector<GltfMesh> read_gltf_meshes(std::string_view glb)
+{
+    const tinygltf::Model model = io::read_gltf_model(glb);
+    std::vector<GltfMesh> meshes;
+    for (std::size_t m = 0; m < model.meshes.size(); ++m)
+        if (GltfMesh mesh = mesh_of(model, m); !mesh.primitives.empty()) meshes.push_back(std::move(mesh));
+    if (meshes.empty()) throw InputError("the GLB file has no triangles");
+    return meshes;
+}
+
+}  // namespace koebe

@@ -1,0 +1,34 @@
+// Writes UVs into a GLB file and keeps everything else.
+#pragma once
+
+#include "io/gltf_meshes.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace koebe {
+
+/// A point of the UV square as a GLB file stores it: 32-bit floats, v from the top down (glTF 2.0, section 3.8.2).
+struct GltfPoint {
+    float u, v;
+    auto operator<=>(const GltfPoint&) const = default;
+};
+
+/// @param uv (N, 2) u and v in [0, 1], v from the bottom up
+std::vector<GltfPoint> gltf_points(const PlanarPoints& uv);
+
+/// The GLB file with these UVs as TEXCOORD_0 of its meshes.
+///
+/// Materials, skins, morph targets, animations and all other contents stay, and the old binary data stays in its place,
+/// bit for bit. The new data follow it. Where a vertex has several UVs, the primitive gets copies of the vertex, with
+/// all of its attributes and morph targets, behind its vertices; strips and fans become lists then.
+/// @param meshes of read_gltf_meshes @param uvs for each of them: (C) of the corners of its faces
+/// @throws InputError the file would have more than 4 GiB, or too many vertices
+std::string glb_with_corner_uvs(std::string_view glb, const std::vector<GltfMesh>& meshes,
+                                const std::vector<std::vector<GltfPoint>>& uvs);
+
+/// Whether a mesh of the file has texture coordinates, which the new ones replace.
+bool has_gltf_uvs(std::string_view glb);
+
+}  // namespace koebe

@@ -1,0 +1,300 @@
+"""GLB files: each mesh gets UVs, everything else stays bit for bit, and damaged files are refused."""
+
+import json
+
+import numpy as np
+import pytest
+from cli_support import CANNOT_BE_MAPPED, USAGE, koebe, obj_text, perforated
+from glb_support import GlbBuilder, GlbReader
+
+
+def plate(n=12):
+    """A wavy plate with a hole, in triangles: vertices (V, 3) as 32-bit floats, faces (F, 3)."""
+    vertices, quads = perforated(n, holes=((0.5, 0.5, 0.2),))
+    quads = np.array(quads)
+    return np.asarray(vertices, "<f4"), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def cube():
+    vertices = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], "<f4")
+    quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    return vertices, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def indexed(scene, vertices, faces, dtype="<u2", **more):
+    indices = scene.accessor(np.asarray(faces, dtype).reshape(-1, 1), "SCALAR")
+    return {"attributes": {"POSITION": scene.positions(vertices)}, "indices": indices, **more}
+
+
+def flipped(corners):
+    """Faces without a positive area as stored: v goes down, so that a face is clockwise in it."""
+    b, c = np.moveaxis(corners[:, 1:].astype(float) - corners[:, :1], 1, 0)
+    return np.flatnonzero(b[:, 0] * c[:, 1] - c[:, 0] * b[:, 1] >= 0)
+
+
+def kinds_in(report):
+    return {warning["kind"] for warning in report["warnings"]}
+
+
+def mapped(folder, data, *words):
+    """The result of a command on a GLB file, and its report."""
+    (folder / "in.glb").write_bytes(data)
+    run = koebe(*words[:1], "in.glb", "out.glb", "--json", "out.json", *words[1:], cwd=folder)
+    assert run.returncode == 0, run.stderr
+    return GlbReader((folder / "out.glb").read_bytes()), json.loads((folder / "out.json").read_text())
+
+
+def full_scene():
+    """A scene with all that a mesh can have: two primitives on the same vertices, normals in bytes, colours, joints,
+    morph targets (one sparse), a material, a skin, extras, and a second mesh in strips."""
+    scene = GlbBuilder()
+    vertices, faces = cube()
+    rng = np.random.default_rng(1)
+    first = indexed(scene, vertices, faces[:6], material=0)
+    first["attributes"] |= {
+        "NORMAL": scene.accessor(
+            rng.integers(-127, 127, (8, 4), "i1")[:, :3], "VEC3", scene.view(rng.bytes(32), byteStride=4)
+        ),
+        "COLOR_0": scene.accessor(rng.integers(0, 255, (8, 4), "u1"), "VEC4", normalized=True),
+        "JOINTS_0": scene.accessor(np.zeros((8, 4), "u1"), "VEC4"),
+        "WEIGHTS_0": scene.accessor(np.tile(np.array([1, 0, 0, 0], "<f4"), (8, 1)), "VEC4"),
+        "TEXCOORD_0": scene.accessor(rng.random((8, 2)).astype("<f4"), "VEC2"),
+        "TEXCOORD_1": scene.accessor(rng.random((8, 2)).astype("<f4"), "VEC2"),
+    }
+    sparse = scene.accessor(np.zeros((8, 3), "<f4"), "VEC3")
+    indices, values = (
+        scene.view(np.array([2, 5], "<u2").tobytes()),
+        scene.view(rng.random((2, 3)).astype("<f4").tobytes()),
+    )
+    scene.json["accessors"][sparse] |= {
+        "sparse": {
+            "count": 2,
+            "indices": {"bufferView": indices, "componentType": 5123},
+            "values": {"bufferView": values},
+        }
+    }
+    del scene.json["accessors"][sparse]["bufferView"], scene.json["accessors"][sparse]["byteOffset"]
+    first["targets"] = [{"POSITION": scene.positions(rng.random((8, 3)))}, {"POSITION": sparse}]
+    second = {
+        **first,
+        "indices": scene.accessor(faces[6:].astype("<u1").reshape(-1, 1), "SCALAR"),
+        "extras": {"tag": [1, 0.1]},
+    }
+    scene.mesh(first, second, name="Cube", weights=[0.5, 0.0])
+    strip = np.concatenate([np.stack([np.arange(9), np.zeros(9), np.arange(9) ** 2 / 9], 1), np.zeros((9, 3))])
+    strip[9:] = strip[:9] + [0, 1, 0]
+    order = np.arange(18).reshape(2, 9).T.reshape(-1)
+    scene.mesh(indexed(scene, strip, order, mode=5), {"attributes": {"POSITION": 0}, "mode": 0}, name="Strip")
+    scene.json |= {
+        "materials": [{"name": "Red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0.1, 0, 1]}}],
+        "nodes": [{"mesh": 0, "skin": 0}, {"mesh": 1, "translation": [1e-7, 0.1, 3]}, {"name": "Bone"}],
+        "skins": [{"joints": [2]}],
+        "scenes": [{"nodes": [0, 1, 2]}],
+        "extensionsUsed": ["VENDOR_anything"],
+        "extensions": {"VENDOR_anything": {"deep": [[{"a": None}]], "text": "é"}},
+    }
+    return scene
+
+
+@pytest.mark.parametrize("words", [("parts",), ("uniformize", "--cut")])
+def test_everything_else_stays_bit_for_bit(tmp_path, words):
+    data = full_scene().bytes()
+    old = GlbReader(data)
+    new, report = mapped(tmp_path, data, *words)
+    assert new.binary.startswith(old.binary)
+    for name in old.json.keys() - {"accessors", "bufferViews", "buffers", "meshes"}:
+        assert new.json[name] == old.json[name], name
+    for name in ("accessors", "bufferViews"):
+        assert new.json[name][: len(old.json[name])] == old.json[name]
+    split = 0
+    for before, after in zip(old.json["meshes"], new.json["meshes"], strict=True):
+        assert {**before, "primitives": 0} == {**after, "primitives": 0}
+        for one, other in zip(before["primitives"], after["primitives"], strict=True):
+            if one.get("mode") == 0:
+                assert one == other
+                continue
+            moving = {"attributes", "indices", "targets", "mode"}
+            assert {k: v for k, v in one.items() if k not in moving} == {
+                k: v for k, v in other.items() if k not in moving
+            }
+            for name in one["attributes"].keys() - {"TEXCOORD_0"}:
+                assert np.array_equal(old.of_corners(one, name), new.of_corners(other, name)), name
+            for k, target in enumerate(one.get("targets", [])):
+                for name in target:
+                    assert np.array_equal(old.of_corners(one, name, k), new.of_corners(other, name, k))
+            split += len(new.array(other["attributes"]["POSITION"])) > len(old.array(one["attributes"]["POSITION"]))
+            uv = new.of_corners(other, "TEXCOORD_0")
+            assert uv.min() >= 0 and uv.max() <= 1 and flipped(uv).size == 0
+    assert split >= 2  # the cube's two primitives, on the same vertices
+    cube_now = new.json["meshes"][0]["primitives"]
+    assert cube_now[0]["attributes"] == cube_now[1]["attributes"] and cube_now[0]["targets"] == cube_now[1]["targets"]
+    assert [mesh["name"] for mesh in report["meshes"]] == ["Cube", "Strip"] and report["converged"]
+    assert [mesh["flipped"] for mesh in report["meshes"]] == [0, 0]
+    assert "replaced_uvs" in kinds_in(report)
+
+
+def test_a_vertex_without_a_cut_keeps_its_place_and_has_the_uvs_of_obj(tmp_path):
+    vertices, faces = plate()
+    scene = GlbBuilder()
+    scene.mesh(indexed(scene, vertices, faces))
+    new, report = mapped(tmp_path, scene.bytes(), "uniformize")
+    (tmp_path / "in.obj").write_text(obj_text(vertices.astype(float), faces))
+    assert koebe("uniformize", "in.obj", "out.obj", cwd=tmp_path).returncode == 0
+    uv = np.array(
+        [line.split()[1:] for line in (tmp_path / "out.obj").read_text().splitlines() if line[:3] == "vt "], float
+    )
+    primitive = new.json["meshes"][0]["primitives"][0]
+    assert primitive["indices"] == 0 and primitive["attributes"]["POSITION"] == 1
+    expected = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
+    assert np.abs(new.array(primitive["attributes"]["TEXCOORD_0"]) - expected).max() < 1e-7
+    assert report["flipped"] == 0 and len(report["loops"]) == 2 and "meshes" not in report
+
+
+def test_vertices_that_old_uvs_cut_are_one_surface(tmp_path):
+    vertices, faces = plate()
+    scene = GlbBuilder()
+    loose = vertices[faces].reshape(-1, 3)  # each corner has a vertex of its own
+    scene.mesh({"attributes": {"POSITION": scene.positions(loose)}})
+    new, report = mapped(tmp_path, scene.bytes(), "uniformize")
+    assert len(report["loops"]) == 2 and report["flipped"] == 0 and kinds_in(report) <= {"flaps"}
+    uv = new.array(new.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"])
+    places = {}
+    for position, point in zip(map(tuple, loose), map(tuple, uv), strict=True):
+        assert places.setdefault(position, point) == point
+
+
+@pytest.mark.parametrize("dtype", ["<u1", "<u2", "<u4"])
+def test_indices_grow_with_the_copies(tmp_path, dtype):
+    """250 vertices fit into bytes, and their copies do not."""
+    turn = np.linspace(0, 2 * np.pi, 25, endpoint=False)
+    rings = [np.stack([np.cos(turn), np.sin(turn), np.full(25, z)], 1) for z in np.linspace(0, 2, 10)]
+    vertices = np.concatenate(rings).astype("<f4")
+    quads = np.array(
+        [
+            [25 * i + j, 25 * i + (j + 1) % 25, 25 * i + 25 + (j + 1) % 25, 25 * i + 25 + j]
+            for i in range(9)
+            for j in range(25)
+        ]
+    )
+    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    scene = GlbBuilder()
+    scene.mesh(indexed(scene, vertices, faces, dtype))
+    new, report = mapped(tmp_path, scene.bytes(), "parts")
+    primitive = new.json["meshes"][0]["primitives"][0]
+    assert len(new.array(primitive["attributes"]["POSITION"])) > 255 and new.corners(primitive).max() > 255
+    assert np.array_equal(new.of_corners(primitive), vertices[faces])
+    assert report["flipped"] == flipped(new.of_corners(primitive, "TEXCOORD_0")).size == 0
+
+
+def test_quantized_positions_have_the_same_map(tmp_path):
+    """Normalized 16-bit integers (KHR_mesh_quantization)."""
+    vertices, faces = plate()
+    short = np.round(vertices * 32767).astype("<i2")
+    scenes = GlbBuilder(), GlbBuilder()
+    padded = np.concatenate([short, np.zeros((len(short), 1), "<i2")], 1)
+    scenes[0].mesh(indexed(scenes[0], vertices, faces))
+    scenes[0].json["accessors"][1] = {
+        "bufferView": scenes[0].view(padded.tobytes(), byteStride=8), "componentType": 5122, "normalized": True,
+        "count": len(short), "type": "VEC3",
+    }  # fmt: skip
+    scenes[1].mesh(indexed(scenes[1], short / 32767, faces))
+    (a, first), (b, second) = (mapped(tmp_path, scene.bytes(), "uniformize") for scene in scenes)
+    uvs = [one.of_corners(one.json["meshes"][0]["primitives"][0], "TEXCOORD_0") for one in (a, b)]
+    assert np.abs(uvs[0] - uvs[1]).max() < 1e-5 and first["loops"][1]["vertices"] == second["loops"][1]["vertices"]
+
+
+def test_a_mesh_that_cannot_be_mapped_is_named_and_nothing_is_written(tmp_path):
+    scene = GlbBuilder()
+    scene.mesh(indexed(scene, *plate()), name="Plate")
+    scene.mesh(indexed(scene, *cube()), name="Box")
+    (tmp_path / "in.glb").write_bytes(scene.bytes())
+    run = koebe("uniformize", "in.glb", "out.glb", cwd=tmp_path)
+    assert run.returncode == CANNOT_BE_MAPPED and run.stderr.startswith("TopologyError(closed): mesh 1 (Box): ")
+    run = koebe("parts", "in.glb", "out.glb", "--svg", "out.svg", cwd=tmp_path)
+    assert run.returncode == CANNOT_BE_MAPPED and "--svg draws one mesh, and the GLB file has 2" in run.stderr
+    run = koebe("parts", "in.glb", "out.obj", cwd=tmp_path)
+    assert run.returncode == CANNOT_BE_MAPPED and "only maps that are written as GLB take several" in run.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["in.glb"]
+
+
+def test_a_scene_of_one_mesh_is_an_input_of_every_command(tmp_path):
+    vertices, faces = plate()
+    scene = GlbBuilder()
+    scene.mesh({"attributes": {"POSITION": scene.positions(vertices[faces].reshape(-1, 3))}})
+    (tmp_path / "in.glb").write_bytes(scene.bytes())
+    run = koebe("uniformize", "in.glb", "out.obj", "--json", "out.json", cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    lines = (tmp_path / "out.obj").read_text().splitlines()
+    assert sum(line.startswith("v ") for line in lines) == len(vertices)
+    assert kinds_in(json.loads((tmp_path / "out.json").read_text())) == {"flaps", "not_kept"}
+
+
+def test_wrong_usage_is_refused(tmp_path):
+    (tmp_path / "in.obj").write_text(obj_text(*perforated()))
+    scene = GlbBuilder()
+    scene.mesh(indexed(scene, *plate()))
+    (tmp_path / "in.glb").write_bytes(scene.bytes())
+    for words, sentence in (
+        (("parts", "in.obj", "out.glb"), "only a GLB file is written as GLB: IN must end in .glb, too"),
+        (("sphere", "in.glb", "out.glb", "--sphere", "s.obj"), "--sphere: needs an OUT that ends in .obj or .ply"),
+        (("fill", "in.glb", "out.glb"), "the format '.glb' cannot be written"),
+    ):
+        run = koebe(*words, cwd=tmp_path)
+        assert run.returncode == USAGE and sentence in run.stderr, run.stderr
+    run = koebe("fill", "in.glb", "out.obj", cwd=tmp_path)
+    assert run.returncode == 0 and sorted(path.name for path in tmp_path.iterdir()) == ["in.glb", "in.obj", "out.obj"]
+
+
+def broken(change):
+    """A scene after a change of its JSON."""
+    scene = GlbBuilder()
+    scene.mesh(indexed(scene, *plate()))
+    change(scene.json)
+    return scene.bytes()
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda j: j["accessors"][0].update(count=10**9), "buffer view 0 of the GLB file is too short"),
+        (lambda j: j["accessors"][1].update(count=20), "faces name a vertex that does not exist (faces listed)"),
+        (lambda j: j["accessors"][1].update(bufferView=99), "the GLB file names buffer view 99, and has 2"),
+        (lambda j: j["accessors"][1].update(type="VEC2"), "positions without three coordinates"),
+        (lambda j: j["accessors"][0].update(componentType=5126, count=9), "indices that are no whole numbers"),
+        (
+            lambda j: j["meshes"][0]["primitives"][0].update(indices=7),
+            "damaged: primitive indices accessor out of bounds",
+        ),
+        (lambda j: j["meshes"][0]["primitives"][0].update(mode=1), "the GLB file has no triangles"),
+        (lambda j: j["buffers"].append({"byteLength": 4, "uri": "other.bin"}), "has its data in another file"),
+        (lambda j: j["buffers"].append({"byteLength": 0}), "the GLB file is damaged: empty data"),
+        (lambda j: j["bufferViews"].append(7), "damaged"),
+        (lambda j: j.update(extras=json.loads("[" * 300 + "]" * 300)), "nested too deeply"),
+        (
+            lambda j: j.update(extensionsRequired=["KHR_draco_mesh_compression"]),
+            "the GLB file is compressed (KHR_draco_mesh_compression): save it without compression",
+        ),
+    ],
+)
+def test_bad_files_are_refused_with_the_reason(tmp_path, change, sentence):
+    (tmp_path / "in.glb").write_bytes(broken(change))
+    run = koebe("uniformize", "in.glb", "out.glb", cwd=tmp_path)
+    assert run.returncode == CANNOT_BE_MAPPED and sentence in run.stderr, run.stderr
+    assert not (tmp_path / "out.glb").exists()
+
+
+def test_damaged_files_are_mapped_or_refused(tmp_path):
+    data = full_scene().bytes()
+    rng = np.random.default_rng(2)
+    ends = set()
+    for k in range(60):
+        bad = bytearray(data[: rng.integers(len(data))] if k % 4 == 0 else data)
+        for place in rng.integers(min(len(bad), 2500), size=rng.integers(1, 4)):
+            bad[place] = rng.choice(list(b'0123456789{}[]",:-e') if place > 20 else range(256))
+        (tmp_path / "in.glb").write_bytes(bad)
+        run = koebe("parts", "in.glb", "out.glb", cwd=tmp_path)
+        ends.add(run.returncode)
+        assert run.returncode in (0, CANNOT_BE_MAPPED, 4), (k, run.returncode, run.stderr)
+        assert (tmp_path / "out.glb").exists() == (run.returncode != CANNOT_BE_MAPPED)
+        (tmp_path / "out.glb").unlink(missing_ok=True)
+    assert ends >= {0, CANNOT_BE_MAPPED}
