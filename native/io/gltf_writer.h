@@ -12,7 +12,9 @@ namespace koebe {
 /// A point of the UV square as a GLB file stores it: 32-bit floats, v from the top down (glTF 2.0, section 3.8.2).
 struct GltfPoint {
     float u, v;
-    auto operator<=>(const GltfPoint&) const = default;
+
+    friend bool operator==(const GltfPoint& a, const GltfPoint& b) { return a.u == b.u && a.v == b.v; }
+    friend bool operator<(const GltfPoint& a, const GltfPoint& b) { return a.u < b.u || (a.u == b.u && a.v < b.v); }
 };
 
 /// @param uv (N, 2) u and v in [0, 1], v from the bottom up

@@ -1,5 +1,6 @@
 #include "io/mesh_reader.h"
 
+#include "core/errors.h"
 #include "core/sort_unique.h"
 #include "execution/thread_share.h"
 #include "io/extension.h"
@@ -15,7 +16,6 @@
 namespace koebe {
 namespace {
 
-namespace fs = std::filesystem;
 using Reader = PolygonMesh (*)(std::string_view);
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";

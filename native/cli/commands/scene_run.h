@@ -16,6 +16,7 @@
 namespace koebe::cli {
 
 /// A mesh of the file after its map.
+// NOLINTNEXTLINE(bugprone-exception-escape): JSON is moved without exceptions, by functions that could throw some
 struct MappedMesh {
     nlohmann::ordered_json report;
     std::string first_words, picture;
