@@ -20,7 +20,7 @@ constexpr double first_even = 0.02, least_even = 0.005;  // start and end of the
 constexpr EvenEffort search{.most_steps = 12};           // for an E of the search, and before it for
 constexpr EvenEffort look{4, 1, 8};                      // a first look, which ends the trial if
 constexpr double clearly_worse = 1.02;                   // angles are worse by this factor
-constexpr double roomy_piece = 0.05;                     // price of one more part, if that saves room
+constexpr double roomy_piece = 0.1;                      // price of one more part, if that saves room
 constexpr double step = 1.5;                             // factor from one E to the next
 constexpr double even_with_darts = 0.1;                  // E with darts, if no E is given,
 constexpr std::array less_even_with_darts{0.06, 0.03};   // and if angles are then worse

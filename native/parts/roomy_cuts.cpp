@@ -298,7 +298,7 @@ private:
 
 }  // namespace
 
-double square_for(const std::vector<const FlatPart*>& parts)
+double square_for_all(const std::vector<const FlatPart*>& parts)
 {
     double sum = 0.0;
     for (const FlatPart* flat : parts) {

@@ -8,7 +8,7 @@
 namespace koebe {
 
 /// About the area of the square into which parts can be packed: their convex hulls, of which a packing covers a share.
-double square_for(const std::vector<const FlatPart*>& parts);
+double square_for_all(const std::vector<const FlatPart*>& parts);
 
 /// A few cuts of a part whose two pieces need less room, first the cut worth most of its cost. A part needs the area of
 /// its convex hull, and as much as the smallest square round it is larger than the square for all parts. The `forecast`

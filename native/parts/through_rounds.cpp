@@ -15,6 +15,7 @@ namespace koebe {
 namespace {
 
 constexpr EvenEffort trial_effort{6, 2};
+constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room
 
 /// A cut as vertices of the whole: cuts of other parts have numbers of their own.
 struct NamedCut {
@@ -117,10 +118,17 @@ private:
     bool save_room_once(std::size_t k, double square)
     {
         for (const ThroughCut& cut : roomy_cuts(pieces_[k].flat, square, price_))
-            if (std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut))) {
+            if (std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut)); trial && !has_crumbs(*trial)) {
                 take(std::move(*trial));
                 return true;
             }
+        return false;
+    }
+
+    static bool has_crumbs(const Trial& trial)
+    {
+        for (std::size_t k = 0; k < trial.pieces.size(); ++k)
+            if (trial.changed[k] && trial.pieces[k].flat.faces.size() < fewest_faces) return true;
         return false;
     }
 
@@ -259,7 +267,7 @@ bool cut_parts_for_room(std::vector<HeldPart>& parts, const ThroughPrice& price,
 {
     std::vector<const FlatPart*> flats;
     for (const HeldPart& part : parts) flats.push_back(&part.flat);
-    const double square = square_for(flats);
+    const double square = square_for_all(flats);
     return cut_groups(parts, threads, context, [&](std::vector<HeldPart> group, ExecutionContext&) {
         return MirrorGroup(std::move(group), price).cut_for_room(square);
     });
