@@ -105,7 +105,7 @@ def test_automatic_makes_parts_of_all():
 
 def test_an_object_too_small_beside_the_others_is_left_out():
     objects = [scenes.add_panel(size=8), scenes.add_panel("Tiny", size=8)]
-    objects[1].scale = (1e-9,) * 3
+    objects[1].scale = (1e-25,) * 3
     scenes.select(*objects)
     assert bpy.ops.uv.koebe_parts(**ATLAS) == {"FINISHED"}
     row = next(row for row in bpy.context.window_manager.koebe_uv.islands if row.object_name == "Tiny")
