@@ -184,7 +184,8 @@ def one_atlas(
     surface = _joined_task(tasks)
     whole = cut_into_parts(koebe, surface, choice, progress, cancel).islands[0]
     lost = _lost_shares(whole, surface.surface, tasks)
-    suspects = range(len(tasks)) if whole.result is None else np.flatnonzero(lost > choice.solver_arguments()["most_lost"])
+    most_lost = choice.solver_arguments()["most_lost"]
+    suspects = range(len(tasks)) if whole.result is None else np.flatnonzero(lost > most_lost)
     left_out = {int(k): cut_into_parts(koebe, tasks[k], choice, None, cancel) for k in suspects}
     if whole.result is None:
         failed = {k: outcome for k, outcome in left_out.items() if not _is_mapped(outcome)}

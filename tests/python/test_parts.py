@@ -130,7 +130,8 @@ def test_cuts_are_round_where_that_is_asked_for(tmp_path):
     assert free.angle_error_deg["mean"] < straight.angle_error_deg["mean"]
     source, report = tmp_path / "in.obj", tmp_path / "out.json"
     source.write_text(obj_text(rough, TRIANGLES), encoding="utf-8")
-    assert command("parts", source, tmp_path / "out.obj", "--round-cuts", "--darts", "0", "--json", report).returncode == 0
+    words = (source, tmp_path / "out.obj", "--round-cuts", "--darts", "0", "--json", report)
+    assert command("parts", *words).returncode == 0
     filed = json.loads(report.read_text(encoding="utf-8"))
     assert [part["off_round"] for part in filed["parts"]] == [part["off_round"] for part in straight.parts]
 
