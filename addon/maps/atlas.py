@@ -8,11 +8,16 @@ from typing import Any
 
 import numpy as np
 
+from .errors import MapError
 from .options import PartsChoice
 from .outcomes import LATER, Progress, Task
 from .parts import OTHERS, Numbers, PartsIsland, PartsOutcome, cut_into_parts
+from .stored import LostAreaError
 from .surface import Surface
 from .wording import in_mesh
+
+
+TINY = 1e-5  # of the largest surface's extent: about a hundred steps of UVs in 32 bits
 
 
 @dataclasses.dataclass(frozen=True)
@@ -75,6 +80,15 @@ def _joined_task(tasks: Sequence[Task]) -> Task:
     )  # fmt: skip
 
 
+class TooSmallError(LostAreaError):
+    """A surface that can be mapped alone, but whose faces have no area at the texel density of the others."""
+
+    def __init__(self) -> None:
+        MapError.__init__(self, "it is too small beside the other objects of the atlas: faces have no area in the UVs. "
+                                "Unwrap it by itself")  # fmt: skip
+        self.elements, self.offer = (), ()
+
+
 @dataclasses.dataclass
 class AtlasOutcome(PartsOutcome):
     """The outcome of one surface of several. Its figures are of all of them.
@@ -131,24 +145,60 @@ class AtlasOutcome(PartsOutcome):
         return entry
 
 
+def _is_mapped(outcome: PartsOutcome) -> bool:
+    return outcome.islands[0].error is None
+
+
+def _is_tiny(tasks: Sequence[Task], index: int) -> bool:
+    """Whether one surface is so small beside another one that faces have the size of a texel's rounding."""
+    extents = [float(np.ptp(task.surface.positions, axis=0).max()) for task in tasks]
+    return extents[index] < TINY * max(extents)
+
+
+def _lost_shares(whole: PartsIsland, surface: Surface, tasks: Sequence[Task]) -> np.ndarray:
+    """The share of each surface's area in triangles without area in the UVs."""
+    if whole.result is None:
+        return np.zeros(len(tasks))
+    points = surface.positions[surface.corner_vertex[surface.triangle_corners[surface.selected[surface.triangle_face]]]]
+    points = points / max(float(np.abs(points).max(initial=0.0)), 1e-300)
+    sides = points[:, 1:] - points[:, :1]
+    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    ends = [begin.face for begin in _begins([task.surface for task in tasks])]
+    owner = np.searchsorted(ends, whole.numbers.triangle_face, side="right") - 1
+    lost = np.zeros(len(area), dtype=bool)
+    lost[whole.result.flipped_faces] = True
+    total = np.bincount(owner, area, len(tasks))
+    return np.bincount(owner[lost], area[lost], len(tasks)) / np.where(total > 0.0, total, 1.0)
+
+
 def one_atlas(
     koebe: ModuleType, tasks: Sequence[Task], choice: PartsChoice, progress: Progress | None = None, cancel: Any = None
 ) -> list[PartsOutcome]:
     """Cut the selected faces of all surfaces into parts that share one UV square, or its tiles, at one texel density.
 
-    A surface that cannot be mapped is left out, with its own error. Errors are stored in the outcomes;
-    `koebe.Cancelled` is raised.
+    A surface that cannot be mapped is left out, with its own error. So is one that would lose too much of its area,
+    because it is too small beside the others. Errors are stored in the outcomes; `koebe.Cancelled` is raised.
     """
     if len(tasks) < 2:
         return [cut_into_parts(koebe, task, choice, progress, cancel) for task in tasks]
-    whole = cut_into_parts(koebe, _joined_task(tasks), choice, progress, cancel).islands[0]
+    surface = _joined_task(tasks)
+    whole = cut_into_parts(koebe, surface, choice, progress, cancel).islands[0]
+    lost = _lost_shares(whole, surface.surface, tasks)
+    most_lost = choice.solver_arguments()["most_lost"]
+    suspects = range(len(tasks)) if whole.result is None else np.flatnonzero(lost > most_lost)
+    left_out = {int(k): cut_into_parts(koebe, tasks[k], choice, None, cancel) for k in suspects}
     if whole.result is None:
-        alone = [cut_into_parts(koebe, task, choice, None, cancel) for task in tasks]
-        good = [task for task, outcome in zip(tasks, alone, strict=True) if outcome.islands[0].result is not None]
-        if len(good) == len(tasks):
+        failed = {k: outcome for k, outcome in left_out.items() if not _is_mapped(outcome)}
+        left_out = failed or {k: outcome for k, outcome in left_out.items() if _is_tiny(tasks, k)}
+        if not left_out:
             return [PartsOutcome(task, [PartsIsland(error=whole.error)]) for task in tasks]
-        each = iter(one_atlas(koebe, good, choice, progress, cancel))
-        return [next(each) if outcome.islands[0].result is not None else outcome for outcome in alone]
+    if left_out:
+        for k, outcome in left_out.items():
+            if _is_mapped(outcome):  # but not beside the others
+                left_out[k] = PartsOutcome(tasks[k], [PartsIsland(error=TooSmallError())])
+        others = [task for k, task in enumerate(tasks) if k not in left_out]
+        each = iter(one_atlas(koebe, others, choice, progress, cancel))
+        return [left_out[k] if k in left_out else next(each) for k in range(len(tasks))]
     begins = _begins([task.surface for task in tasks])
     return [_share(task, tasks, whole, begin, end)
             for task, begin, end in zip(tasks, begins, begins[1:], strict=False)]  # fmt: skip

@@ -191,7 +191,7 @@ FlatMesh cut_and_flat(const Vertices& vertices, const Triangles& triangles, cons
         PartsOptions uncut = cutting;
         uncut.price = fewest_cuts;
         uncut.darts = 0.0;
-        FlatMesh mesh = flat_mesh(vertices, triangles, uncut, context);
+        FlatMesh mesh = flat_mesh(vertices, triangles, uncut, false, context);
         side_by_side(mesh.parts.size(), options.threads, context, [&](std::size_t k, ExecutionContext& own) {
             if (options.darts > 0.0) cut_to_bends(mesh.parts[k]);
             unfold(mesh.parts[k], own);
@@ -200,7 +200,7 @@ FlatMesh cut_and_flat(const Vertices& vertices, const Triangles& triangles, cons
         if (std::ranges::all_of(mesh.parts, lies_well) && mean_stretch(mesh.parts) < true_to_size) return mesh;
     }
     if (options.price) cutting.price = *options.price;
-    FlatMesh mesh = flat_mesh(vertices, triangles, cutting, context);
+    FlatMesh mesh = flat_mesh(vertices, triangles, cutting, false, context);
     side_by_side(mesh.parts.size(), options.threads, context,
                  [&](std::size_t k, ExecutionContext& own) { unfold(mesh.parts[k], own); });
     return mesh;

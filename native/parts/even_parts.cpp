@@ -20,6 +20,7 @@ constexpr double first_even = 0.02, least_even = 0.005;  // start and end of the
 constexpr EvenEffort search{.most_steps = 12};           // for an E of the search, and before it for
 constexpr EvenEffort look{4, 1, 8};                      // a first look, which ends the trial if
 constexpr double clearly_worse = 1.02;                   // angles are worse by this factor
+constexpr double roomy_piece = 0.1;                      // price of one more part, if that saves room
 constexpr double step = 1.5;                             // factor from one E to the next
 constexpr double even_with_darts = 0.1;                  // E with darts, if no E is given,
 constexpr std::array less_even_with_darts{0.06, 0.03};   // and if angles are then worse
@@ -113,7 +114,8 @@ public:
         const bool joined = cut_through(even, {});
         cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
         if (joined || std::ranges::any_of(parts_, has_darts)) relax_cut(even, effort);
-        if (cut_through(even, options_.piece * dart_price(options_.darts))) relax_cut(even, effort);
+        const bool is_split = cut_through(even, options_.piece * dart_price(options_.darts));
+        if (cut_for_room() || is_split) relax_cut(even, effort);
     }
 
     /// Tries darts first. If they do not help, goes from one E to the next, as long as angles are no worse than at 0.
@@ -156,6 +158,13 @@ private:
         if (options_.loops != LoopForm::free) return false;
         const ThroughPrice price{dart_price(options_.darts), piece};
         return cut_parts_through(parts_, even, price, options_.threads, context_);
+    }
+
+    bool cut_for_room()
+    {
+        if (options_.loops != LoopForm::free || !options_.roomy) return false;
+        const double price = dart_price(options_.darts);
+        return cut_parts_for_room(parts_, {price, roomy_piece * options_.piece * price}, options_.threads, context_);
     }
 
     /// Relaxes parts that are one to one as stored, and keeps them so.

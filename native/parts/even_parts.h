@@ -16,6 +16,7 @@ struct EvenOptions {
     LoopForm loops = LoopForm::round;  ///< round: held vertices stay on the circles and lines of their rims
     double darts = 0.0;                ///< from 0 (no darts) to 1 (many)
     double piece = 1.0;                ///< price of one more part, as the length of a cut
+    bool roomy = true;                 ///< parts are also cut so that they can be packed more densely
     int threads = 0;
 };
 
@@ -25,8 +26,8 @@ struct EvenParts {
 };
 
 /// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, it also
-/// cuts parts through (through_rounds.h): first it joins loops, then it splits parts that darts did not help. New parts
-/// come last. A part that is not one to one is not changed.
+/// cuts parts through (through_rounds.h): first it joins loops, then it splits parts that darts did not help, and last
+/// it cuts for room (roomy_cuts.h). New parts come last. A part that is not one to one is not changed.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
 
 }  // namespace koebe

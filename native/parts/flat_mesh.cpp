@@ -324,7 +324,7 @@ double root_of_area(const Vertices& vertices, const Triangles& triangles)
     return of_area_one(vertices, triangles).length_of_unit;
 }
 
-FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
+FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options, bool roomy,
                    ExecutionContext& context)
 {
     context.begin_stage("topology", 0.0, 0.05);
@@ -343,8 +343,9 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     ask_for_sizes(layout, options.importance, mesh.parts);
     context.begin_stage("even", 0.8, 0.9);
     const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
-    const EvenOptions evening{options.even, round ? LoopForm::round : LoopForm::free, options.darts,
-                              options.price / SplitOptions{}.part_price, options.threads};
+    const EvenOptions evening{options.even,  round ? LoopForm::round : LoopForm::free,
+                              options.darts, options.price / SplitOptions{}.part_price,
+                              roomy,         options.threads};
     const EvenParts even = make_parts_even(mesh.parts, evening, context);
     layout.even = even.even;
     for (const std::size_t k : even.left)

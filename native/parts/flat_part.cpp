@@ -171,13 +171,23 @@ FlatPart unopened(const PartMesh& mesh)
     return flat;
 }
 
+/// A map that is one to one, for any part. The longest loop is the outer loop.
+PlanarPoints embedded_anew(const Vertices& vertices, const Surface& surface, const ExecutionContext& context)
+{
+    std::vector<VertexLoop> loops = surface.loops;
+    std::ranges::stable_sort(loops, std::ranges::greater(),
+                             [&](const VertexLoop& loop) { return loop_edges(vertices, loop).sum(); });
+    return freely_embedded(vertices, surface, loops, context);
+}
+
 FlatPart as_disk(const Part& part, const FlatOptions& options, ExecutionContext& context)
 {
     FlatPart flat = unopened(part.mesh);
     DiskPoints points(part.mesh);
     points.consider(part.map.positions);
     flat.points = points.best();
-    if (flat.points.rows() == 0) throw SolverError("the map of a part is not finite");
+    if (flat.points.rows() == 0) flat.points = embedded_anew(part.mesh.vertices, part.mesh.surface, context);
+    if (!flat.points.allFinite()) throw SolverError("the map of a part is not finite");
     std::vector<Index> own(flat.original.size());
     std::iota(own.begin(), own.end(), 0);
     settle(part.mesh, own, options, flat, context);
@@ -361,12 +371,9 @@ void embed_safely(FlatPart& part, PlanarPoints& uv, ExecutionContext& context)
     };
     const auto before = flaws_of(uv);
     if (before.first == 0 && !before.second) return;
-    std::vector<VertexLoop> loops = part.surface.loops;
-    std::ranges::stable_sort(loops, std::ranges::greater(),
-                             [&](const VertexLoop& loop) { return loop_edges(part.vertices, loop).sum(); });
     PlanarPoints disk;
     try {
-        disk = freely_embedded(part.vertices, part.surface, loops, context);
+        disk = embedded_anew(part.vertices, part.surface, context);
     } catch (const SolverError&) {
         return;
     }

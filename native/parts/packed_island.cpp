@@ -1,12 +1,12 @@
 #include "parts/packed_island.h"
 
 #include "core/errors.h"
+#include "planar/convex_hull.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -21,28 +21,6 @@ constexpr std::array<Complex, 4> quarters = {Complex(1, 0), Complex(0, 1), Compl
 
 double across(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// Indices of the corners of the convex hull, counter-clockwise.
-std::vector<Eigen::Index> hull(const PlanarPoints& points)
-{
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {}, [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1)}; });
-    std::vector<Eigen::Index> corners;
-    for (int side = 0; side < 2; ++side) {
-        const std::size_t first = corners.size();
-        for (const Eigen::Index i : order) {
-            while (corners.size() >= first + 2 &&
-                   !(across(points.row(corners.back()) - points.row(corners[corners.size() - 2]),
-                            points.row(i) - points.row(corners.back())) > 0.0))
-                corners.pop_back();
-            corners.push_back(i);
-        }
-        corners.pop_back();
-        std::ranges::reverse(order);
-    }
-    return corners;
-}
-
 PlanarPoints turned_by(const PlanarPoints& points, const Complex& turn)
 {
     PlanarPoints at(points.rows(), 2);
@@ -54,7 +32,7 @@ PlanarPoints turned_by(const PlanarPoints& points, const Complex& turn)
 /// The turn that lays the smallest rectangle round the points along the axes, its long side upright.
 Complex upright_turn(const Outline& outline)
 {
-    const PlanarPoints corners = outline.points(hull(outline.points), Eigen::all);
+    const PlanarPoints corners = outline.points(convex_hull(outline.points), Eigen::all);
     const auto count = outline.along_axes ? 0 : static_cast<std::size_t>(corners.rows());
     Complex best = 1.0;
     Eigen::RowVector2d size = box_size(corners);

@@ -31,8 +31,8 @@ constexpr std::int64_t tests_a_point = 1200;  // tests on the board, after which
 constexpr std::int64_t fewest_tests = 1'000'000, most_tests = 40'000'000;
 constexpr std::int64_t tests_an_attempt = 4000;  // to empty the board
 constexpr std::size_t most_tight = 100;          // islands that are packed more tightly,
-constexpr std::int64_t words_a_point = 12'000;   // with so much work
-constexpr std::int64_t fewest_words = 20'000'000, most_words = 100'000'000;
+constexpr std::int64_t words_a_point = 24'000;   // with so much work
+constexpr std::int64_t fewest_words = 20'000'000, most_words = 200'000'000;
 constexpr std::size_t few_islands = 3;   // other turns are tried for so few islands,
 constexpr double held = 0.8;             // or if one is that long, in sides of the square, in the first packing
 constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that

@@ -163,7 +163,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     if (options.tiles == 0 && !options.density) throw InputError("as many tiles as needed (0) needs a density");
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
-    FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
+    FlatMesh mesh = flat_mesh(vertices, triangles, options, true, context);
     const double unit = length_of_unit();
     context.begin_stage("pack", 0.9, 1.0);
     PackOptions packing{.tiles = options.tiles, .threads = options.threads};

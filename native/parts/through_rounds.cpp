@@ -3,6 +3,7 @@
 #include "even/even_forces.h"
 #include "execution/side_by_side.h"
 #include "mesh/connectivity.h"
+#include "parts/roomy_cuts.h"
 #include "parts/tension.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace koebe {
 namespace {
 
 constexpr EvenEffort trial_effort{6, 2};
+constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room
 
 /// A cut as vertices of the whole: cuts of other parts have numbers of their own.
 struct NamedCut {
@@ -58,19 +60,21 @@ struct CutGroup {
 /// A part and its mirror image, which may be the part itself, or a part without one. And the pieces cut from them.
 class MirrorGroup {
 public:
-    MirrorGroup(std::vector<HeldPart> parts, double even, const ThroughPrice& price, ExecutionContext& context)
-        : even_(even), price_(price), context_(context)
+    MirrorGroup(std::vector<HeldPart> parts, const ThroughPrice& price) : price_(price)
     {
         for (HeldPart& part : parts) pieces_.push_back({std::move(part.flat), false});
     }
 
-    CutGroup cut()
+    /// Cuts by what they release in parts that are relaxed for this E.
+    CutGroup cut(double even, ExecutionContext& context)
     {
-        for (std::size_t k = 0; k < pieces_.size();)
-            if (pieces_[k].settled || !cut_once(k)) pieces_[k++].settled = true;
-        CutGroup group{{}, cuts_};
-        for (Piece& piece : pieces_) group.parts.push_back({std::move(piece.flat), {}});
-        return group;
+        return cut_while([&](std::size_t k) { return release_once(k, even, context); });
+    }
+
+    /// Cuts by the room that they save.
+    CutGroup cut_for_room(double square)
+    {
+        return cut_while([&](std::size_t k) { return save_room_once(k, square); });
     }
 
 private:
@@ -80,24 +84,58 @@ private:
     };
     struct Trial {
         std::vector<Piece> pieces;
+        std::vector<char> changed;  ///< (pieces)
         double surplus = 0.0;
     };
 
-    double energy(const FlatPart& flat) const { return forces_in(flat, even_).energy.sum(); }
+    template <typename CutOnce>
+    CutGroup cut_while(const CutOnce& cut_once)
+    {
+        for (std::size_t k = 0; k < pieces_.size();)
+            if (pieces_[k].settled || !cut_once(k)) pieces_[k++].settled = true;
+        CutGroup group{{}, cuts_};
+        for (Piece& piece : pieces_) group.parts.push_back({std::move(piece.flat), {}});
+        return group;
+    }
+
+    static double energy(const FlatPart& flat, double even) { return forces_in(flat, even).energy.sum(); }
 
     /// Makes the best cut of a piece, and its mirror image. @return whether a cut pays
-    bool cut_once(std::size_t k)
+    bool release_once(std::size_t k, double even, ExecutionContext& context)
     {
         std::optional<Trial> best;
-        for (const ThroughCut& cut : promising_through_cuts(pieces_[k].flat, even_, price_)) {
+        for (const ThroughCut& cut : promising_through_cuts(pieces_[k].flat, even, price_)) {
             if (best && best->surplus >= cut.forecast - cut.cost) break;  // the cuts come by falling forecasts
-            std::optional<Trial> trial = tried(named_cuts(pieces_[k].flat, cut));
-            if (trial && trial->surplus > (best ? best->surplus : 0.0)) best = std::move(trial);
+            std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut));
+            if (!trial || !release(*trial, even, context)) continue;
+            if (trial->surplus > (best ? best->surplus : 0.0)) best = std::move(trial);
         }
-        if (!best) return false;
-        pieces_ = std::move(best->pieces);
+        if (best) take(std::move(*best));
+        return best.has_value();
+    }
+
+    /// Makes the first cut that can be made, and its mirror image. @return whether there is one
+    bool save_room_once(std::size_t k, double square)
+    {
+        for (const ThroughCut& cut : roomy_cuts(pieces_[k].flat, square, price_))
+            if (std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut)); trial && !has_crumbs(*trial)) {
+                take(std::move(*trial));
+                return true;
+            }
+        return false;
+    }
+
+    static bool has_crumbs(const Trial& trial)
+    {
+        for (std::size_t k = 0; k < trial.pieces.size(); ++k)
+            if (trial.changed[k] && trial.pieces[k].flat.faces.size() < fewest_faces) return true;
+        return false;
+    }
+
+    void take(Trial trial)
+    {
+        pieces_ = std::move(trial.pieces);
         ++cuts_;
-        return true;
     }
 
     static std::vector<NamedCut> named_cuts(const FlatPart& flat, const ThroughCut& cut)
@@ -114,46 +152,49 @@ private:
         return {std::move(named), std::move(image)};
     }
 
-    /// The pieces after these cuts; nothing if one of them cannot be made.
-    std::optional<Trial> tried(const std::vector<NamedCut>& cuts) const
+    /// The pieces after these cuts, not relaxed yet; nothing if one of the cuts cannot be made.
+    std::optional<Trial> opened(const std::vector<NamedCut>& cuts) const
     {
-        Trial trial{pieces_};
-        std::vector<char> changed(pieces_.size(), 0);
+        Trial trial{pieces_, std::vector<char>(pieces_.size(), 0)};
         for (const NamedCut& named : cuts) {
             std::vector<FlatPart> parts;
             for (std::size_t k = 0; k < trial.pieces.size() && parts.empty(); ++k) {
                 const auto cut = cut_in(trial.pieces[k].flat, named);
                 if (!cut) continue;
-                if (!changed[k]) trial.surplus += energy(trial.pieces[k].flat);
                 parts = cut_through(trial.pieces[k].flat, *cut);
                 if (parts.empty()) return {};
                 trial.pieces[k] = {std::move(parts.front()), false};
-                changed[k] = 1;
+                trial.changed[k] = 1;
             }
             if (parts.empty()) return {};
             if (parts.size() > 1) {
                 trial.pieces.push_back({std::move(parts.back()), false});
-                changed.push_back(1);
+                trial.changed.push_back(1);
             }
             trial.surplus -= named.cost;
-        }
-        for (std::size_t k = 0; k < trial.pieces.size(); ++k) {
-            if (!changed[k]) continue;
-            FlatPart& flat = trial.pieces[k].flat;
-            std::vector<RoundLoop> none;
-            if (!make_even(flat_surface(flat, none), even_, packed_side, context_, trial_effort).moved ||
-                !survives_storing(flat))
-                return {};
-            trial.surplus -= energy(flat);
         }
         return trial;
     }
 
+    /// Relaxes the pieces that are new, and adds the energy that they release. @return whether they are one to one
+    bool release(Trial& trial, double even, ExecutionContext& context) const
+    {
+        for (std::size_t k = 0; k < trial.pieces.size(); ++k) {
+            if (!trial.changed[k]) continue;
+            if (k < pieces_.size()) trial.surplus += energy(pieces_[k].flat, even);
+            FlatPart& flat = trial.pieces[k].flat;
+            std::vector<RoundLoop> none;
+            if (!make_even(flat_surface(flat, none), even, packed_side, context, trial_effort).moved ||
+                !survives_storing(flat))
+                return false;
+            trial.surplus -= energy(flat, even);
+        }
+        return true;
+    }
+
     std::vector<Piece> pieces_;
     int cuts_ = 0;
-    double even_;
     ThroughPrice price_;
-    ExecutionContext& context_;
 };
 
 /// The groups of parts, by their numbers. A part with an image that is no part by itself is in no group.
@@ -188,17 +229,16 @@ std::vector<std::vector<std::size_t>> mirror_groups(const std::vector<HeldPart>&
     return groups;
 }
 
-}  // namespace
-
-bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughPrice& price, int threads,
-                       ExecutionContext& context)
+/// Cuts the groups, on several threads. @return whether any cut was made
+template <typename CutGroupOf>
+bool cut_groups(std::vector<HeldPart>& parts, int threads, ExecutionContext& context, const CutGroupOf& cut_group)
 {
     const auto groups = mirror_groups(parts);
     std::vector<CutGroup> pieces(groups.size());
     side_by_side(groups.size(), threads, context, [&](std::size_t g, ExecutionContext& own) {
         std::vector<HeldPart> group;
         for (const std::size_t k : groups[g]) group.push_back(parts[k]);
-        pieces[g] = MirrorGroup(std::move(group), even, price, own).cut();
+        pieces[g] = cut_group(std::move(group), own);
     });
     bool is_cut = false;
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -211,6 +251,26 @@ bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughP
         }
     }
     return is_cut;
+}
+
+}  // namespace
+
+bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughPrice& price, int threads,
+                       ExecutionContext& context)
+{
+    return cut_groups(parts, threads, context, [&](std::vector<HeldPart> group, ExecutionContext& own) {
+        return MirrorGroup(std::move(group), price).cut(even, own);
+    });
+}
+
+bool cut_parts_for_room(std::vector<HeldPart>& parts, const ThroughPrice& price, int threads, ExecutionContext& context)
+{
+    std::vector<const FlatPart*> flats;
+    for (const HeldPart& part : parts) flats.push_back(&part.flat);
+    const double square = square_for_all(flats);
+    return cut_groups(parts, threads, context, [&](std::vector<HeldPart> group, ExecutionContext&) {
+        return MirrorGroup(std::move(group), price).cut_for_room(square);
+    });
 }
 
 }  // namespace koebe

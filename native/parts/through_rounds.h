@@ -17,4 +17,10 @@ namespace koebe {
 bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughPrice& price, int threads,
                        ExecutionContext& context);
 
+/// Cuts parts into pieces that can be packed more densely (roomy_cuts.h), as long as a cut saves more room than it
+/// costs. The pieces keep their map. Mirror images are cut alike. Parts with round loops are not cut.
+/// @param price its `piece` must have a value @return whether any cut was made
+bool cut_parts_for_room(std::vector<HeldPart>& parts, const ThroughPrice& price, int threads,
+                        ExecutionContext& context);
+
 }  // namespace koebe

@@ -101,3 +101,16 @@ def test_automatic_makes_parts_of_all():
     objects = three_objects()
     assert bpy.ops.uv.koebe_unwrap(shape="AUTO", **ATLAS) == {"FINISHED"}
     assert times_covered(np.concatenate([triangles_in_uv(obj) for obj in objects])).max() == 1
+
+
+def test_an_object_too_small_beside_the_others_is_left_out():
+    objects = [scenes.add_panel(size=8), scenes.add_panel("Tiny", size=8)]
+    objects[1].scale = (1e-25,) * 3
+    scenes.select(*objects)
+    assert bpy.ops.uv.koebe_parts(**ATLAS) == {"FINISHED"}
+    row = next(row for row in bpy.context.window_manager.koebe_uv.islands if row.object_name == "Tiny")
+    assert not row.mapped and "too small beside the other objects" in row.message
+    assert "Koebe" in objects[0].data.uv_layers and "Koebe" not in objects[1].data.uv_layers
+    objects[1].scale = (1e-3,) * 3
+    assert bpy.ops.uv.koebe_parts(**ATLAS) == {"FINISHED"}
+    assert density(objects[1]) == pytest.approx(density(objects[0]), rel=0.1)

@@ -1,9 +1,12 @@
 #include "mesh/topology.h"
+#include "part_maps/part_map.h"
+#include "part_maps/part_mesh.h"
 #include "parts/pack_parts.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace koebe;
@@ -49,4 +52,19 @@ TEST(PackParts, a_part_that_overlaps_itself_is_drawn_anew_and_says_so)
         EXPECT_TRUE(flats[0].one_to_one);
         EXPECT_TRUE(loops_apart(flats[0], packed.places[0]));
     }
+}
+
+TEST(FlatPart, a_part_whose_map_is_not_finite_is_drawn_anew_and_is_one_to_one)
+{
+    const FlatPart flat = strip(1.0);
+    const CutSurface whole = cut_surface(flat.vertices, flat.surface.triangles, {});
+    ExecutionContext context;
+    Part part{part_mesh(whole, flat.faces), {}};
+    part.map = map_part(part.mesh, context);
+    part.map.positions[7] = std::numeric_limits<double>::quiet_NaN();
+    for (const VertexLoop& loop : part.mesh.surface.loops)
+        for (const Index v : loop) part.map.positions[v] = part.map.positions[7];
+    const FlatPart anew = flat_part(part, {}, context);
+    EXPECT_EQ(anew.faces, flat.faces);
+    EXPECT_TRUE(lies_one_to_one(anew, anew.points));
 }

@@ -598,7 +598,7 @@ TEST(Parts, a_mirror_image_of_itself_is_cut_alike_on_both_sides)
     }
 }
 
-TEST(Parts, darts_make_texels_more_even_at_no_island_and_are_what_the_cuts_grow_by)
+TEST(Parts, darts_make_texels_more_even_and_cuts_grow_by_them_at_least)
 {
     const Mesh mesh = figure();
     const PartsResult without = parts(mesh, {.even = 0.1, .darts = 0.0});
@@ -606,10 +606,14 @@ TEST(Parts, darts_make_texels_more_even_at_no_island_and_are_what_the_cuts_grow_
     for (const double darts : {0.05, 0.5}) {
         const PartsResult result = parts(mesh, {.even = 0.1, .darts = darts});
         expect_sound(result, static_cast<Index>(mesh.triangles.rows()));
-        EXPECT_EQ(result.parts.size(), without.parts.size());
+        EXPECT_GE(result.parts.size(), without.parts.size());
         EXPECT_GT(result.darts, 0);
         const double slits = result.slit_length - without.slit_length;  // these join loops
-        EXPECT_NEAR(result.cut_length, without.cut_length + slits + result.dart_length, 1e-9);
+        const double cut = without.cut_length + slits + result.dart_length;
+        if (result.parts.size() == without.parts.size())
+            EXPECT_NEAR(result.cut_length, cut, 1e-9);
+        else  // parts were cut for room too
+            EXPECT_GT(result.cut_length, cut);
         EXPECT_GT(result.cut_length, cuts);
         EXPECT_LT(result.density_ratio_5_95, without.density_ratio_5_95);
         EXPECT_LT(result.distortion.angle_error_deg.mean, without.distortion.angle_error_deg.mean);

@@ -1,4 +1,5 @@
 #include "even/even_forces.h"
+#include "parts/packing.h"
 #include "parts/through_rounds.h"
 
 #include <gtest/gtest.h>
@@ -40,6 +41,45 @@ FlatPart ring_part(int around, int rows, double (*radius)(double))
     part.held.assign(part.original.size(), 0);
     part.vertices /= std::sqrt(face_areas(part.vertices, part.surface.triangles).sum());
     return part;
+}
+
+/// A flat strip of area 1, of so many squares along and across.
+FlatPart strip_part(int along, int across)
+{
+    FlatPart part;
+    const auto at = [&](int i, int j) { return static_cast<Index>(j * (along + 1) + i); };
+    const double side = 1.0 / std::sqrt(static_cast<double>(along * across));
+    part.points.resize((along + 1) * (across + 1), 2);
+    for (int j = 0; j <= across; ++j)
+        for (int i = 0; i <= along; ++i) part.points.row(at(i, j)) << side * i, side * j;
+    part.vertices = Vertices::Zero(part.points.rows(), 3);
+    part.vertices.leftCols<2>() = part.points;
+    Triangles triangles(2 * along * across, 3);
+    for (int j = 0; j < across; ++j)
+        for (int i = 0; i < along; ++i) {
+            triangles.row(2 * (j * along + i)) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
+            triangles.row(2 * (j * along + i) + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
+        }
+    part.surface = require_bordered_genus_zero(triangles, static_cast<Index>(part.vertices.rows()));
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) part.faces.push_back(f);
+    for (Index v = 0; v < part.surface.vertex_count; ++v) part.original.push_back(v);
+    part.held.assign(part.original.size(), 0);
+    return part;
+}
+
+std::vector<HeldPart> cut_for_room(const FlatPart& part, const ThroughPrice& price)
+{
+    std::vector<HeldPart> parts{{part, {}}};
+    ExecutionContext context;
+    cut_parts_for_room(parts, price, 1, context);
+    return parts;
+}
+
+double packed_scale(const std::vector<HeldPart>& parts)
+{
+    std::vector<Outline> outlines;
+    for (const HeldPart& part : parts) outlines.push_back({part.flat.points, part.flat.surface.loops, false});
+    return pack_islands(outlines, 0.004).scale;
 }
 
 double energy(const FlatPart& flat)
@@ -120,4 +160,60 @@ TEST(ThroughCuts, pieces_are_the_part_and_without_a_price_of_pieces_nothing_is_s
     }
     EXPECT_EQ(faces, std::multiset<Index>(part.faces.begin(), part.faces.end()));
     EXPECT_LT(after, 0.5 * energy(part));
+}
+
+TEST(RoomyCuts, a_long_strip_is_cut_across_and_its_pieces_keep_their_map)
+{
+    const FlatPart part = strip_part(96, 6);
+    const ThroughPrice price{5e-4, 2.5e-5};
+    const std::vector<HeldPart> parts = cut_for_room(part, price);
+    ASSERT_GT(parts.size(), 2U);
+    EXPECT_GT(packed_scale(parts), 2.0 * packed_scale({{part, {}}}));
+    std::multiset<Index> faces;
+    for (const HeldPart& held : parts) {
+        const FlatPart& flat = held.flat;
+        faces.insert(flat.faces.begin(), flat.faces.end());
+        EXPECT_TRUE(lies_one_to_one(flat, flat.points));
+        for (Index v = 0; v < flat.surface.vertex_count; ++v)
+            EXPECT_EQ(flat.points.row(v), part.points.row(flat.original[v]));
+    }
+    EXPECT_EQ(faces, std::multiset<Index>(part.faces.begin(), part.faces.end()));
+}
+
+TEST(RoomyCuts, neither_a_square_nor_a_part_with_dear_cuts_is_cut)
+{
+    EXPECT_EQ(cut_for_room(strip_part(12, 12), {5e-6, 2.5e-7}).size(), 1U);
+    EXPECT_EQ(cut_for_room(strip_part(96, 6), {1.0, 0.05}).size(), 1U);
+    FlatPart held = strip_part(96, 6);
+    std::vector<HeldPart> parts{{held, {RoundLoop{}}}};
+    ExecutionContext context;
+    EXPECT_FALSE(cut_parts_for_room(parts, {5e-4, 2.5e-5}, 1, context));
+}
+
+TEST(RoomyCuts, a_strip_and_its_mirror_image_are_cut_alike)
+{
+    FlatPart one = strip_part(96, 6), other = one;
+    other.points.col(0) *= -1.0;
+    other.vertices.col(0) *= -1.0;
+    for (auto face : other.surface.triangles.rowwise()) std::swap(face[1], face[2]);
+    const Index count = one.surface.vertex_count;
+    other.surface = require_bordered_genus_zero(other.surface.triangles, count);
+    for (Index v = 0; v < count; ++v) {
+        other.original[v] = v + count;
+        one.image.push_back(v + count);
+        other.image.push_back(v);
+    }
+    for (Index& f : other.faces) f += static_cast<Index>(one.faces.size());
+    std::vector<HeldPart> parts{{one, {}}, {other, {}}};
+    ExecutionContext context;
+    ASSERT_TRUE(cut_parts_for_room(parts, {5e-4, 2.5e-5}, 1, context));
+    std::multiset<std::set<Index>> sides[2];
+    for (const HeldPart& part : parts) {
+        const bool is_image = part.flat.faces.front() >= static_cast<Index>(one.faces.size());
+        std::set<Index> own;
+        for (const Index f : part.flat.faces) own.insert(is_image ? f - static_cast<Index>(one.faces.size()) : f);
+        sides[is_image].insert(own);
+    }
+    EXPECT_GT(sides[0].size(), 1U);
+    EXPECT_EQ(sides[0], sides[1]);
 }

@@ -101,11 +101,11 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
 
     >>> import koebe
-    >>> result = koebe.parts("docs/link.obj")
+    >>> result = koebe.parts("docs/link.obj", darts=0)
     >>> [part["kind"] for part in result.parts]
     ['tube']
-    >>> print(result.uv.shape, result.flipped, bool(result.density_ratio_5_95 < 1.2))
-    (1024, 3, 2) 0 True
+    >>> print(result.uv.shape, result.flipped)
+    (1024, 3, 2) 0
     """
     options, said = filled("parts", _koebe.PartsOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
