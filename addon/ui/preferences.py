@@ -42,7 +42,7 @@ class KoebePreferences(bpy.types.AddonPreferences):
     bl_idname = addon_name
 
     shortcut: bpy.props.BoolProperty(
-        name="Shortcut Shift Alt U",
+        name="Shift Alt U Unwraps",
         default=False,
         update=update_shortcut,
         description="Shift Alt U unwraps in Object Mode, in Edit Mode and in the UV Editor",
