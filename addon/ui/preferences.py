@@ -49,6 +49,7 @@ class KoebePreferences(bpy.types.AddonPreferences):
     )
 
     def draw(self, context: bpy.types.Context) -> None:
+        self.layout.label(text="In the 3D View press N and open the tab Koebe", icon="INFO")
         self.layout.prop(self, "shortcut")
         row = self.layout.row(align=True)
         row.operator(NODE_OT_koebe_add_library.bl_idname, text="Add Node Groups as Asset Library", icon="ASSET_MANAGER")
