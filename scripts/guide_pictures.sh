@@ -24,11 +24,11 @@ window)
     cut circles 44_disk_held_OBJECT 1057x772+0+28 800
     cut flat 51_flat_copy 588x420+225+178 560
     cut lift 70_lift 1057x692+0+28 800
-    cut scatter 71_scatter 600x520+228+126 480
+    cut scatter 71_scatter 466x520+362+126 480
     cut loops 72_loops 460x330+300+290 460
     cut parts 62_hand_in_parts 1057x772+0+28 800
     # without the row that names the folder of the tests
-    convert out/gui/15_preferences.png -crop 884x286+170+61 +repage -gravity North -chop 0x23+0+126 +repage \
+    convert out/gui/15_preferences.png -crop 884x340+170+61 +repage -gravity North -chop 0x23+0+126 +repage \
         -strip "$images/guide_install.png"
     ;;
 film)

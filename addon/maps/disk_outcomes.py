@@ -15,7 +15,7 @@ from .rounding import RESOLUTION, rounded
 from .stored import Stored
 from .surface import Island
 from .triangles import as_complex, as_points, covered, density_ratio, even_share, longest_edges, signed_areas
-from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, few, in_mesh, own_warning, too_uneven
+from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, density_text, few, in_mesh, own_warning, too_uneven
 
 if TYPE_CHECKING:
     from koebe import UniformizeResult
@@ -154,12 +154,11 @@ class SurfaceOutcome(Outcome):
         return list({id(one.opening): one.opening for one in self.islands if one.opening is not None}.values())
 
     def line(self) -> str:
-        """One line: loops, sweeps, roundness, angle error, flips, seconds."""
+        """One line: loops, evenness, angle error, flips, seconds."""
         results = [one.result for one in self.mapped]
         words = [
             counted(sum(len(r.loops) for r in results), "loop"),
-            counted(max(r.sweeps for r in results), "sweep"),
-            f"roundness {max(float(np.max(r.roundness)) for r in results):.1e}",
+            f"evenness 1 : {density_text(max(one.density_ratio for one in self.mapped))}",
             f"angle error {self.mean_angle_error:.2f}°",
             counted(sum(len(one.flipped) for one in self.mapped), "flip"),
             f"{sum(r.seconds['total'] for r in results):.2f} s",

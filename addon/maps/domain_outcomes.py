@@ -19,7 +19,10 @@ from .seams import cut_edges
 from .stored import LostAreaError, Stored, flipped_corners, judge_corners
 from .surface import Island, Surface
 from .triangles import density_ratio, signed_areas
-from .wording import UNEVEN_TEXELS, counted, in_mesh, too_uneven
+from .verdicts import TRUE
+from .wording import UNEVEN_TEXELS, counted, density_text, in_mesh, too_uneven
+
+COARSE = "coarse_mesh"  # the kind of a warning
 
 
 @dataclasses.dataclass
@@ -121,7 +124,9 @@ class DomainOutcome(Outcome):
     choice: Chosen
 
     def warnings(self, one: Any) -> list[dict[str, Any]]:
-        found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # already reported
+        left = {LostAreaError.kind}  # already reported
+        left |= {COARSE} if one.angle_error <= TRUE else set()  # this is about the disk before this domain
+        found = [warning for warning in one.result.warnings if warning.kind not in left]
         return [*(in_mesh(one.island, warning) for warning in found), *self._own_warnings()]
 
     def figures(self) -> list[str]:
@@ -129,11 +134,12 @@ class DomainOutcome(Outcome):
         raise NotImplementedError
 
     def line(self) -> str:
-        """One line: domains and their figures, angles, flips, seconds."""
+        """One line: domains and their figures, evenness, angles, flips, seconds."""
         mapped = self.mapped
         words = [
             counted(len(mapped), self.choice.domain.title),
             *self.figures(),
+            f"evenness 1 : {density_text(max(one.density_ratio for one in mapped))}",
             f"angle error {max(one.angle_error for one in mapped):.2f}°",
             counted(sum(len(one.flipped) for one in mapped), "flip"),
             f"{sum(one.result.seconds['total'] for one in mapped):.2f} s",

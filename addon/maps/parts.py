@@ -72,14 +72,13 @@ class PartsOutcome(Outcome):
         return []
 
     def line(self) -> str:
-        """One line: parts, cuts, evenness, angles, flips, seconds."""
+        """One line: parts, evenness, angles, flips, seconds."""
         result = self.mapped[0].result
         kinds = [part["kind"] for part in result.parts]
         of_kind = ", ".join(counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
         words = [
             f"{counted(len(kinds), 'part')} ({of_kind})",
-            f"cuts {result.cut_length:.1f} times the root of the area",
-            f"texel density 1 : {density_text(result.density_ratio_5_95)} on nine tenths of the area",
+            f"evenness 1 : {density_text(result.density_ratio_5_95)}",
             f"angle error {result.angle_error_stored_deg['mean']:.2f}°",
             counted(result.flipped, "flip"),
             f"{result.seconds:.2f} s",

@@ -88,12 +88,10 @@ class SequenceOutcome(Outcome):
 
     def figures(self) -> str:
         """Figures over all maps."""
-        results = [one.result for made in self.maps for one in made.mapped]
-        sweeps, angles = [result.sweeps for result in results], [made.mean_angle_error for made in self.maps]
+        angles = [made.mean_angle_error for made in self.maps]
         return ", ".join([
             counted(len(self.maps), "shape"),
             counted(sum(len(one.result.loops) for one in self.maps[0].mapped), "loop"),
-            f"{_from_to(min(sweeps), max(sweeps))} {'sweep' if max(sweeps) == 1 else 'sweeps'}",
             *self._quality(f", mean {sum(angles) / len(angles):.2f}°"),
         ])  # fmt: skip
 
@@ -175,10 +173,6 @@ def named(labels: Sequence[str]) -> str:
     """The first shapes' labels, and the number of the others."""
     more = [f"{len(labels) - NAMED} more"] if len(labels) > NAMED else []
     return ", ".join([*labels[:NAMED], *more])
-
-
-def _from_to(least: int, most: int) -> str:
-    return f"{least}" if least == most else f"{least} to {most}"
 
 
 def map_sequence(

@@ -15,7 +15,7 @@ from .outcomes import LATER, Task
 from .triangles import areas, density_ratio
 from .wording import counted
 
-WHERE_TORN = {"equirectangular": "round a pole", "octahedral": "round the middle of a side of the square"}
+WHERE_TORN = {"equirectangular": "at a pole", "octahedral": "at the middle of a side of the square"}
 
 
 @dataclasses.dataclass
@@ -50,14 +50,14 @@ class SphereOutcome(DomainOutcome):
 
     def notes(self) -> list[tuple[SphereIsland, str]]:
         """Notes on torn faces."""
-        where = f"{WHERE_TORN[self.choice.layout]} torn in the UVs, as no UVs fit there"
+        where = f"{WHERE_TORN[self.choice.layout]} torn apart in the UVs, as a flat map has no room there"
         found = [(one, len(one.torn_faces)) for one in self.mapped]
         return [(one, f"{counted(count, 'face')} {where}") for one, count in found if count]
 
     def figures(self) -> list[str]:
         caps = sum(len(one.result.loops) for one in self.mapped)
         torn = sum(len(one.torn_faces) for one in self.mapped)
-        return [self.choice.layout, counted(caps, "cap"), f"{torn} torn"]
+        return [counted(caps, "hole"), *[counted(torn, "torn face")] * bool(torn)]
 
     def _adapt(self, one: SphereIsland, result: dict[str, Any]) -> None:
         """`layout` is about the UVs, all else about the sphere."""

@@ -71,9 +71,7 @@ class TileOutcome(DomainOutcome):
         return [*super().warnings(one), *[own_warning("flipped", text)] * (lost > 0)]
 
     def figures(self) -> list[str]:
-        results = [one.result for one in self.mapped]
-        loops = counted(sum(len(result.loops) for result in results), "loop")
-        return ["modulus " + modulus_text(results[0]), loops] if len(results) == 1 else [loops]
+        return [counted(sum(len(one.result.loops) for one in self.mapped), "loop")]
 
     def _entry(self, index: int, one: TileIsland) -> dict[str, Any]:
         entry = super()._entry(index, one)

@@ -9,6 +9,7 @@ from .wording import MOST_TOLD, density_text
 EVEN = 4.0  # texel density at 95 % of the area over that at 5 %: below, a checker looks even
 COVERED = 0.4  # of the UV square: below, most of an image is empty
 TRUE = 5.0  # degrees of mean angle error: above, a checker looks skewed
+OF_LAYOUT = 11.0  # degrees of it that a round ball has, as lines of longitude meet at the poles
 
 
 @dataclasses.dataclass(frozen=True)
@@ -31,7 +32,7 @@ def figures(entry: Any, coverage: float | None = None) -> list[Figure]:
     @param coverage of all islands that share the UV square with this one; by default this island's alone
     """
     found = [_evenness(entry)] if entry.density else []
-    found += [_coverage(entry.coverage if coverage is None else coverage)] if entry.coverage else []
+    found += [_coverage(entry, entry.coverage if coverage is None else coverage)] if entry.coverage else []
     return [*found, _angles(entry), _flips(entry)]
 
 
@@ -55,14 +56,21 @@ def _evenness(entry: Any) -> Figure:
     return Figure("Evenness", value, advice)
 
 
-def _coverage(coverage: float) -> Figure:
-    advice = "" if coverage >= COVERED else "Much of the image stays empty: UV ▸ Pack Islands fills it better"
+def _coverage(entry: Any, coverage: float) -> Figure:
+    advice = ""
+    if coverage < COVERED:
+        alone = entry.parts == 1 or (not entry.parts and coverage == entry.coverage)  # then a packer has no choice
+        better = "mark a seam across the surface" if alone else "in the UV Editor press A, then UV ▸ Pack Islands"
+        advice = f"Much of the image stays empty: {better}"
     return Figure("Coverage", f"{100.0 * coverage:.0f} %", advice)
 
 
 def _angles(entry: Any) -> Figure:
     advice = ""
-    if entry.angle_error > TRUE:
+    if entry.domain == "sphere":
+        if entry.angle_error > TRUE + OF_LAYOUT:
+            advice = "The checker is bent: to paint, choose Shape: Parts"
+    elif entry.angle_error > TRUE:
         more = "move the slider Parts to the right" if entry.parts else "choose Shape: Parts"
         advice = f"The checker is bent: {'lower Even' if entry.even else f'subdivide large faces, or {more}'}"
     return Figure("Angle error", f"{entry.angle_error:.2f}°", advice)

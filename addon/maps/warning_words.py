@@ -14,7 +14,7 @@ WORDS = {
     "reoriented_faces": (
         "faces", "{count} {are} facing the other way. Mesh ▸ Normals ▸ Recalculate Outside turns {them}"),
     "thin_faces": ("", "Some faces are so thin that rounding shows: dissolve them, or merge their vertices"),
-    "coarse_mesh": ("", "There are too few vertices between the holes to make them round: subdivide the surface there"),
+    "coarse_mesh": ("", "The mesh is too coarse for this shape: subdivide the large faces"),
     "no_flux": ("", "A part of a boundary shrinks almost to a point: mark a seam near it"),
     "not_converged": ("", "The circles were still moving at the end: raise Sweeps, under Accuracy"),
     "no_circles": ("", "No round holes were found: subdivide the surface, or choose Shape: Parts"),
@@ -22,7 +22,8 @@ WORDS = {
     "shrunk_circles": (
         "loops", "{count} became smaller, so that circles do not touch. Subdivide the surface there"),
     "replaced_circles": ("loops", "{count} moved a little, so that no face turns over. Subdivide the surface there"),
-    "flaps": ("faces", "{count} {are} connected by one edge only. Delete {them}, or connect {them} better"),
+    "flaps": (
+        "faces", "{count} at the boundary {are} squeezed against its circle. Subdivide {them}, or choose Shape: Parts"),
     "off_circle": ("vertices", "{count} {are} not on the circle of the boundary. Subdivide the faces there"),
     "below_resolution": (
         "faces", "{count} {are} too small in the UVs for any image. Choose Shape: Parts, or mark a seam near {them}"),
@@ -39,7 +40,7 @@ WORDS = {
 }  # fmt: skip
 # Of a surface that was cut open: there the mesh is not at fault.
 CUT_WORDS = {
-    "flaps": ("faces", "{count} beside a cut {are} connected by one edge only. Mark seams where cuts may run"),
+    "flaps": ("faces", "{count} beside a cut {are} squeezed against the circle. Mark seams where cuts may run"),
 }  # fmt: skip
 NOUNS = {"faces": ("face", None), "vertices": ("vertex", "vertices"), "loops": ("boundary", "boundaries")}
 WHOLE = "the whole map"  # what a warning is about that names no elements

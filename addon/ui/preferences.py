@@ -42,13 +42,14 @@ class KoebePreferences(bpy.types.AddonPreferences):
     bl_idname = addon_name
 
     shortcut: bpy.props.BoolProperty(
-        name="Shortcut Shift Alt U",
+        name="Shift Alt U Unwraps",
         default=False,
         update=update_shortcut,
         description="Shift Alt U unwraps in Object Mode, in Edit Mode and in the UV Editor",
     )
 
     def draw(self, context: bpy.types.Context) -> None:
+        self.layout.label(text="In the 3D View press N and open the tab Koebe", icon="INFO")
         self.layout.prop(self, "shortcut")
         row = self.layout.row(align=True)
         row.operator(NODE_OT_koebe_add_library.bl_idname, text="Add Node Groups as Asset Library", icon="ASSET_MANAGER")

@@ -81,7 +81,8 @@ def test_tiles_are_those_of_the_operators(batch, tmp_path, domain, options):
     words = [f"--{name}={value}" for name, value in options.items()]
     done = batch("--output", "out.blend", "--report", "out.json", "--domain", domain, "--layer", "Own", *words)
     assert done.returncode == 0, done.stderr
-    assert f"{obj.name}: 1 {'torus tile' if domain == 'torus' else 'cylinder'}, modulus " in done.stdout
+    assert f"{obj.name}: 1 {'torus tile' if domain == 'torus' else 'cylinder'}, " in done.stdout
+    assert ", evenness 1 : " in done.stdout
     assert getattr(bpy.ops.uv, f"koebe_{domain}")(layer="Own", **options) == {"FINISHED"}
     expected, name = scenes.corner_uv(obj.data, "Own").copy(), obj.name
     loops = {frozenset(loop) for loop in scenes.boundary_loops(obj.data)}
@@ -103,7 +104,7 @@ def test_spheres_are_those_of_the_operator(batch, tmp_path, layout):
     words = ["--domain", "sphere", "--layout", layout, "--layer", "Own"]
     done = batch("--output", "out.blend", "--report", "out.json", *words)
     assert done.returncode == 0, done.stderr
-    assert f"Ball: 1 sphere, {layout}, 1 cap, " in done.stdout
+    assert "Ball: 1 sphere, 1 hole, " in done.stdout
     assert bpy.ops.uv.koebe_sphere(layer="Own", layout=layout) == {"FINISHED"}
     expected, flipped = scenes.corner_uv(obj.data, "Own").copy(), scenes.last_run().flipped
     bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))

@@ -45,7 +45,7 @@ def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
     assert entry.angle_error == pytest.approx(ball.angle_error_stored_deg["mean"], rel=1e-6)
     down = signed_areas(uv, scenes.triangles(obj.data)[1]) <= 0.0
     assert np.array_equal(np.flatnonzero(down), ball.flipped_faces)
-    assert 1.0 <= entry.density < 10.0 and "torn in the UVs, as no UVs fit there" in entry.note
+    assert 1.0 <= entry.density < 10.0 and "torn apart in the UVs" in entry.note
     assert [loop.radius for loop in entry.loops] == pytest.approx(ball.caps[:, 3].tolist(), rel=1e-6)
     assert len(entry.loops) == len(scenes.boundary_loops(obj.data))
     whole = np.ones(len(uv), bool)
@@ -212,7 +212,7 @@ def test_the_report_has_the_meshs_numbers(addon):
     beyond = {face.index for face in obj.data.polygons
               if uv[list(face.loop_indices)].min() < 0 or uv[list(face.loop_indices)].max() > 1}  # fmt: skip
     assert beyond <= crossing[0] | crossing[1]
-    assert "2 spheres, octahedral, 2 caps" in job.line(outcome)
+    assert "2 spheres, 2 holes, " in job.line(outcome)
 
 
 # ---------------------------------------------------------------- whatever comes

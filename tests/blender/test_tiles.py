@@ -199,6 +199,13 @@ def test_uneven_texels_are_told():
     assert unwrap_even() == {"FINISHED"} and not last_run().uneven
 
 
+def test_a_cylinder_of_one_row_of_faces_is_not_warned_about_its_disk():
+    """As a disk its angles are far off, as a cylinder they are not."""
+    bpy.ops.mesh.primitive_cylinder_add(end_fill_type="NOTHING")
+    assert ring() == {"FINISHED"}
+    assert last_run().angle_error < 1.0 and not last_run().message and not list(last_run().warnings)
+
+
 def unwrap_even():
     add_torus("Even")
     return torus()

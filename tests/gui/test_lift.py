@@ -14,9 +14,12 @@ def drag_even_in_the_redo_panel(window):
     window.settle()
     places = "[list(v.co) for v in bpy.context.active_object.data.vertices][::500]"
     before, y = window.ask(places), top + height - 70  # Even
-    xdotool("mousemove", x + 270, y, "mousedown", 1)
+    window.move(x + 270, y)
+    xdotool("mousedown", 1)
+    window.ask("True")  # a busy machine sees the press before the slider moves
     for step in (10, 30, 50):
         xdotool("mousemove", x + 270 - step, y, "sleep", "0.3")
+        window.ask("True")
     window.wait(f"{places} != {before}", 60.0)
     window.picture("71_lift_while_dragged")
     xdotool("mouseup", 1)
