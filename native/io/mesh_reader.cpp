@@ -1,5 +1,6 @@
 #include "io/mesh_reader.h"
 
+#include "core/errors.h"
 #include "execution/thread_share.h"
 #include "io/extension.h"
 #include "io/file_bytes.h"
