@@ -23,7 +23,7 @@ VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYT
 DONE  := build/.done
 WHEEL := $(DONE)/wheel-$(notdir $(VENV))
 
-NATIVE_SOURCES := CMakeLists.txt pyproject.toml $(shell find native -type f -not -path '*/__pycache__/*')
+NATIVE_SOURCES := CMakeLists.txt pyproject.toml $(shell find native -type f -not -path '*/__pycache__/*' -not -path 'native/web/*')
 ADDON_SOURCES  := $(shell find addon -type f -not -path '*/__pycache__/*')
 
 # ccache, if present, spares the wheel what the command has compiled already. It learns of headers from the compiler, so
@@ -41,8 +41,8 @@ ifndef AT_ONCE
 endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
-.PHONY: help build native programs wheel package dist matrix docs lint lint-python lint-native check check-native check-form \
-        test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
+.PHONY: help build native programs wheel package dist matrix docs web lint lint-python lint-native check check-native check-form \
+        test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -105,6 +105,14 @@ build/docs/operators.json: scripts/site/blender_names.py $(ADDON_SOURCES) native
 	@mkdir -p $(@D)
 	scripts/in_own_home.sh $(BLENDER) scripts/site/blender_names.py $@ >$(@D)/blender.log || { cat $(@D)/blender.log; exit 1; }
 
+# Ten minutes of two cores the first time.
+web: $(DONE)/install-web $(DONE)/npm ## the page for browsers: dist/web/
+	$(ccache) CMAKE_C_COMPILER_LAUNCHER=$$(command -v ccache) scripts/web.sh dist/web
+
+$(DONE)/npm:
+	command -v npm >/dev/null || scripts/install.sh npm
+	@mkdir -p $(@D) && touch $@
+
 # ---------------------------------------------------------------- tests
 
 # Three runners at once: each uses half of a core, as it waits for processes that it starts. Each runs, whatever became of
@@ -117,7 +125,7 @@ test: build test-tools ## what a user could hit: native, Python, labs, and the i
 
 test-tools: programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done)
 
-test-all: lint test test-long test-fuzz docs $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, the site, and all tests in each bpy that add-ons still meet
+test-all: lint test test-long test-fuzz docs test-web $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, the site, and all tests in each bpy that add-ons still meet
 
 # Slow native tests have names that begin with slow_, slow Python tests have the mark slow.
 check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
@@ -166,6 +174,9 @@ test-differing-%: package build/venv-bpy-%/.done
 test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys in Blender's window: out/gui/
 	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1280x800x24' \
 	    $(PYTHON) -m pytest -p no:cacheprovider -rA tests/gui
+
+test-web: native web $(DONE)/install-browser ## the page in Chromium, and its command without a browser: out/web/
+	node --test tests/web/*.test.mjs
 
 # A Slurm of two nodes on this machine: it wants root, and minutes.
 test-farms: native $(DONE)/install-farms ## koebe batch as a Slurm job array and as a Flamenco job, a node lost half way

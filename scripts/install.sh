@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Install the Debian packages that are missing.
-# Usage: scripts/install.sh build|blender|bench|docs|gui|fuzz|farms ...       LIST=1 prints the names and installs nothing.
+# Usage: scripts/install.sh build|blender|bench|docs|web|gui|fuzz|farms ...       LIST=1 prints the names and installs nothing.
 set -euo pipefail
 
 declare -A groups=(
@@ -11,6 +11,11 @@ declare -A groups=(
         python3-dev python3-venv python3-numpy python3-pytest python3-hypothesis ca-certificates"
     # what `make bench` compares with
     [bench]="libopenblas-pthread-dev"
+    # what compiles the page for browsers and puts it together; npm too, unless another Node.js has brought its own
+    [web]="emscripten node-acorn nodejs ninja-build cmake ccache dpkg-dev"
+    [npm]="npm"
+    # the browser that tests the page
+    [browser]="chromium"
     # what reads the headers for `make docs`
     [docs]="doxygen"
     # what scripts/fetch_sources.sh fetches with

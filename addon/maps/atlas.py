@@ -16,7 +16,6 @@ from .stored import LostAreaError
 from .surface import Surface
 from .wording import in_mesh
 
-
 TINY = 1e-5  # of the largest surface's extent: about a hundred steps of UVs in 32 bits
 
 

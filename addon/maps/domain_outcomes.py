@@ -19,10 +19,7 @@ from .seams import cut_edges
 from .stored import LostAreaError, Stored, flipped_corners, judge_corners
 from .surface import Island, Surface
 from .triangles import density_ratio, signed_areas
-from .verdicts import TRUE
 from .wording import UNEVEN_TEXELS, counted, density_text, in_mesh, too_uneven
-
-COARSE = "coarse_mesh"  # the kind of a warning
 
 
 @dataclasses.dataclass
@@ -124,9 +121,7 @@ class DomainOutcome(Outcome):
     choice: Chosen
 
     def warnings(self, one: Any) -> list[dict[str, Any]]:
-        left = {LostAreaError.kind}  # already reported
-        left |= {COARSE} if one.angle_error <= TRUE else set()  # this is about the disk before this domain
-        found = [warning for warning in one.result.warnings if warning.kind not in left]
+        found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # already reported
         return [*(in_mesh(one.island, warning) for warning in found), *self._own_warnings()]
 
     def figures(self) -> list[str]:

@@ -5,6 +5,7 @@
 #include "mesh/connectivity.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -29,7 +30,7 @@ void for_each_edge(const Triangles& triangles, Index vertex_count, Visit visit)
         for (auto run = first; run != last;) {
             auto end = run + 1;
             while (end != last && high(*end) == high(*run)) ++end;
-            visit(std::span<const Index>(run, end));
+            visit(std::span<const Index>(&*run, static_cast<std::size_t>(end - run)));
             run = end;
         }
     }

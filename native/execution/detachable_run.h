@@ -39,6 +39,9 @@ public:
 template <class Result>
 Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionContext&)> compute)
 {
+#ifdef __EMSCRIPTEN__  // no threads: a page ends the worker that computes
+    return compute(context);
+#else
     struct Shared {
         detail::CountedRun counted;
         std::mutex mutex;
@@ -91,6 +94,7 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
     thread.join();
     if (shared->error) std::rethrow_exception(shared->error);
     return *std::move(shared->result);
+#endif
 }
 
 }  // namespace koebe

@@ -4,6 +4,8 @@
 
 #if defined(_WIN32)
 #include <windows.h>
+#elif defined(__EMSCRIPTEN__)
+#include <emscripten/heap.h>
 #else
 #include <sys/resource.h>
 #endif
@@ -19,7 +21,7 @@ namespace koebe {
 namespace {
 
 constexpr double worth_asking = 64e6;  // bytes; the question takes some ten microseconds
-#if !defined(_WIN32)
+#if !defined(_WIN32) && !defined(__EMSCRIPTEN__)
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 /// The number after a word in a file of lines like "MemAvailable:  123 kB", in bytes.
@@ -51,6 +53,8 @@ double available_memory()
     if (!GlobalMemoryStatusEx(&status)) return std::numeric_limits<double>::infinity();
     return static_cast<double>(status.ullAvailPageFile);  // the memory that can be committed
 }
+#elif defined(__EMSCRIPTEN__)
+double available_memory() { return static_cast<double>(emscripten_get_heap_max() - emscripten_get_heap_size()); }
 #else
 double available_memory()
 {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <unordered_set>
 
 namespace koebe {
@@ -31,12 +32,12 @@ public:
     void spend(Eigen::Index faces, int steps);
 
     /// Whether this problem has failed before; it would fail again.
-    bool has_failed(std::size_t problem) const { return failed_.contains(problem); }
-    void note_failure(std::size_t problem) { failed_.insert(problem); }
+    bool has_failed(std::uint64_t problem) const { return failed_.contains(problem); }
+    void note_failure(std::uint64_t problem) { failed_.insert(problem); }
 
 private:
     std::size_t all_, most_, limit_, spent_ = 0;
-    std::unordered_set<std::size_t> failed_;
+    std::unordered_set<std::uint64_t> failed_;
 };
 
 }  // namespace koebe

@@ -14,9 +14,9 @@ namespace koebe {
 namespace {
 
 /// A hash of all data that determines the result.
-std::size_t hash_of(const FoldoverProblem& problem)
+std::uint64_t hash_of(const FoldoverProblem& problem)
 {
-    std::size_t hash = 14695981039346656037ULL;  // FNV-1a, of 64 bits at a time
+    std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a, of 64 bits at a time
     const auto take = [&](auto value) {
         hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL;
         hash ^= hash >> 32;
@@ -88,7 +88,7 @@ bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape s
     const Eigen::Index faces = posed.problem.triangles.rows();
     const int affordable = faces > 0 ? effort.affordable(faces) : 0;
     if (affordable == 0) return false;
-    const std::size_t name = hash_of(posed.problem);
+    const std::uint64_t name = hash_of(posed.problem);
     if (effort.has_failed(name)) return false;
     effort.spend(faces, minimize_foldover_free(posed.problem, context, {.max_iterations = affordable}).iterations);
 

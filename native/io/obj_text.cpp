@@ -158,7 +158,7 @@ private:
         }
     }
 
-    void add_kept(const char* end) { out_.add({kept_from_, end}); }
+    void add_kept(const char* end) { out_.add(text_between(kept_from_, end)); }
 
     void leave_out()
     {

@@ -19,7 +19,7 @@ std::string_view next_word(std::string_view& text)
 {
     std::string_view word = take_word(text);
     while (word.starts_with('#')) {
-        text = {word.data(), text.data() + text.size()};
+        text = text_between(word.data(), text.data() + text.size());
         text.remove_prefix(std::min(text.find('\n'), text.size()));
         word = take_word(text);
     }
@@ -63,7 +63,7 @@ std::int64_t take_count(std::string_view& text, const std::string& element, std:
         throw InputError("the header's count of " + element + " elements does not fit the file");
     if (end != word.data() + word.size() && (*end == '-' || *end == '+'))
         throw InputError("the header's count of " + element + " elements is no integer");
-    text = {end, text.data() + text.size()};
+    text = text_between(end, text.data() + text.size());
     if (error != std::errc()) throw InputError(no_off_header);
     return count;
 }

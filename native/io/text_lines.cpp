@@ -69,8 +69,8 @@ std::string_view take_word(std::string_view& text)
     while (here != last && is_space(*here)) ++here;
     const char* const begin = here;
     while (here != last && !is_space(*here)) ++here;
-    text = {here, last};
-    return {begin, here};
+    text = text_between(here, last);
+    return text_between(begin, here);
 }
 
 bool joins_next_line(std::string_view line)
@@ -103,8 +103,8 @@ std::string_view TextLines::next_word()
     const char* const last = rest_.data() + rest_.size();
     const char* const begin = after_blanks(rest_);
     const char* const end = end_of_word(begin, last);
-    rest_ = {end, last};
-    return {begin, end};
+    rest_ = text_between(end, last);
+    return text_between(begin, end);
 }
 
 std::string_view TextLines::next_word_of_joined_lines()
@@ -125,7 +125,7 @@ bool TextLines::next_plain(double& number)
     const char* const last = rest_.data() + rest_.size();
     const auto [end, error] = fast_float::from_chars(after_blanks(rest_), last, number);
     if (error != std::errc() || !std::isfinite(number) || (end != last && kind_of(*end) == letter)) return false;
-    rest_ = {end, last};
+    rest_ = text_between(end, last);
     return true;
 }
 
@@ -139,7 +139,7 @@ bool TextLines::next_plain(Index& number)
         if (end[-1] == '\\') return false;  // a backslash may join lines
     }
     if (end != last && kind_of(*end) == letter) return false;
-    rest_ = {end, last};
+    rest_ = text_between(end, last);
     return true;
 }
 

@@ -3,9 +3,16 @@
 
 #include "core/types.h"
 
+#include <cstddef>
 #include <string_view>
 
 namespace koebe::io {
+
+/// The text from one place to another; string_view's own constructor for this is missing in libc++ 13.
+inline std::string_view text_between(const char* begin, const char* end)
+{
+    return {begin, static_cast<std::size_t>(end - begin)};
+}
 
 /// Reads the word as a number, with an optional plus sign. Returns false if it is not exactly one finite number.
 bool to_number(std::string_view word, double& number);

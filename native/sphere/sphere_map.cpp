@@ -85,7 +85,8 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
     map.warnings =
         with_loops_renumbered(disk, report,
                               {WarningKind::below_resolution, WarningKind::flipped, WarningKind::not_one_to_one,
-                               WarningKind::reoriented_faces, WarningKind::off_circle, WarningKind::unused_vertices});
+                               WarningKind::reoriented_faces, WarningKind::off_circle, WarningKind::unused_vertices,
+                               WarningKind::coarse_mesh});
     return map;
 }
 

@@ -69,7 +69,8 @@ RoundRing round_ring(const Vertices& vertices, const Triangles& triangles, const
     for (const KoebeStep& step : disk.history) ring.changes.push_back(step.change);
     ring.warnings = with_loops_renumbered(disk, report,
                                           {WarningKind::below_resolution, WarningKind::flipped,
-                                           WarningKind::not_one_to_one, WarningKind::reoriented_faces});
+                                           WarningKind::not_one_to_one, WarningKind::reoriented_faces,
+                                           WarningKind::coarse_mesh});  // which has the angles of the disk
     return ring;
 }
 

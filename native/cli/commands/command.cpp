@@ -61,7 +61,7 @@ int end_of_parsing(const CLI::App& app, const CLI::ParseError& error)
     return fail(error_line("WrongUsage", error.what()) + " (see koebe --help)", wrong_usage);
 }
 
-int run_command(int argc, char** argv)
+int run_command(std::span<const AddSubcommand> added, int argc, char** argv)
 {
     CLI::App app("Conformal maps of surfaces with holes onto circle domains.", "koebe");
     app.set_version_flag("--version", KOEBE_VERSION);
@@ -70,9 +70,8 @@ int run_command(int argc, char** argv)
                "130 interrupted (nothing is written; batch leaves what is done).\n"
                "A file is written as .koebe-PROCESS-NUMBER.tmp in its folder and then renamed: it is whole or absent.\n"
                "Where it is a symbolic link, the link stays and its target is replaced.");
-#define KOEBE_ADD(name) add_##name(app),
-    const std::vector<Subcommand> commands{KOEBE_SUBCOMMANDS(KOEBE_ADD)};
-#undef KOEBE_ADD
+    std::vector<Subcommand> commands;
+    for (const AddSubcommand add : added) commands.push_back(add(app));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -87,11 +86,19 @@ int run_command(int argc, char** argv)
 
 int koebe::cli::command(int argc, char** argv)
 {
+#define KOEBE_ADD(name) add_##name,
+    constexpr AddSubcommand all[]{KOEBE_SUBCOMMANDS(KOEBE_ADD)};
+#undef KOEBE_ADD
+    return command_of(all, argc, argv);
+}
+
+int koebe::cli::command_of(std::span<const AddSubcommand> added, int argc, char** argv)
+{
     keep_standard_streams();
     try {
         return run_guarded([&] {
             prepare_for_scarce_memory();
-            return run_command(argc, argv);
+            return run_command(added, argc, argv);
         });
     } catch (...) {  // there was no memory even for the error's line
         end_for_memory();

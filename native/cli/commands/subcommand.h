@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <span>
 
 namespace koebe::cli {
 
@@ -34,5 +35,10 @@ struct Subcommand {
 #define KOEBE_DECLARE(name) Subcommand add_##name(CLI::App& app);
 KOEBE_SUBCOMMANDS(KOEBE_DECLARE)
 #undef KOEBE_DECLARE
+
+using AddSubcommand = Subcommand (*)(CLI::App& app);
+
+/// Parses, runs one of the sub-commands, and turns errors into one line and an exit code, as command().
+int command_of(std::span<const AddSubcommand> added, int argc, char** argv);
 
 }  // namespace koebe::cli
