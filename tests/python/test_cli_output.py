@@ -69,7 +69,7 @@ def test_patches_are_a_property_in_ply(folder):
 
 
 @pytest.mark.parametrize("command", ["uniformize", "fill", "ricci", "parts"])
-@pytest.mark.parametrize("name", ["out.off", "out.stl", "out.gltf", "out.gltf", "out", "obj", "out.obj2", ".ply"])
+@pytest.mark.parametrize("name", ["out.off", "out.stl", "out.gltf", "out", "obj", "out.obj2", ".ply"])
 def test_other_formats_are_refused_before_any_work(tmp_path, command, name):
     run = koebe(command, tmp_path / "missing.obj", name, cwd=tmp_path)
     assert run.returncode == USAGE and run.stdout == ""

@@ -1,6 +1,6 @@
 // The meshes of the tests, and what build/koebe makes of them.
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -43,4 +43,25 @@ export function circleDifference(a, b) {
   const numbers = (loops) => loops.flatMap(({ center, radius }) => [...center, radius]);
   const others = numbers(b);
   return Math.max(...numbers(a).map((x, i) => Math.abs(x - others[i])));
+}
+
+/**
+ * How much the native circles of an OBJ file change if its coordinates do, by a part in 1e14: where flipped faces are turned
+ * back, the last bits can decide how. Systems differ in the last bits of sines and logarithms.
+ */
+export function sensitivity(path) {
+  const { loops } = native(path).report;
+  const folder = mkdtempSync(join(tmpdir(), "koebe-web-"));
+  try {
+    return Math.max(...[1, 2, 3].map((seed) => {
+      let state = seed;
+      const noise = () => ((state = (state * 48271) % 2147483647) % 3) - 1;
+      const line = (text) => text.startsWith("v ") ? "v " + text.slice(2).trim().split(/\s+/).map((x) => Number(x) * (1 + 1e-14 * noise())).join(" ") : text;
+      const copy = join(folder, basename(path));
+      writeFileSync(copy, readFileSync(path, "utf8").split("\n").map(line).join("\n"));
+      return circleDifference(native(copy).report.loops, loops);
+    }));
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
 }

@@ -5,7 +5,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { basename, extname, join } from "node:path";
 import { after, before, test } from "node:test";
-import { circleDifference, damaged, good, native, root, samples } from "./meshes.mjs";
+import { circleDifference, damaged, good, native, root, samples, sensitivity } from "./meshes.mjs";
 
 const puppeteer = createRequire(join(root, "build/web/page/package.json"))("puppeteer-core");
 const folder = join(root, "dist/web"), pictures = join(root, "out/web");
@@ -185,8 +185,8 @@ for (const path of process.env.KOEBE_ALL ? good : [...samples, ...good.slice(0, 
     const expected = native(path);
     assert.equal(await openPath(path), expected.report ? "done" : "failed", await status());
     if (!expected.report) return assert.equal(await status(), expected.lines.at(-1));
-    assert.ok(circleDifference((await report()).loops, expected.report.loops) < 1e-9,
-      `circles differ by ${circleDifference((await report()).loops, expected.report.loops)}`);
+    const difference = circleDifference((await report()).loops, expected.report.loops);
+    assert.ok(difference < 1e-9 || difference <= sensitivity(path), `circles differ by ${difference}`);
   });
 
 test("it works without a network once it was loaded", async () => {
