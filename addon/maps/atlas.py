@@ -85,7 +85,7 @@ class TooSmallError(LostAreaError):
     def __init__(self) -> None:
         MapError.__init__(self, "it is too small beside the other objects of the atlas: faces have no area in the UVs. "
                                 "Unwrap it by itself")  # fmt: skip
-        self.elements, self.offer = (), ()
+        self.elements, self.offer = np.zeros(0, dtype=np.int32), ()
 
 
 @dataclasses.dataclass
@@ -184,8 +184,8 @@ def one_atlas(
     whole = cut_into_parts(koebe, surface, choice, progress, cancel).islands[0]
     lost = _lost_shares(whole, surface.surface, tasks)
     most_lost = choice.solver_arguments()["most_lost"]
-    suspects = range(len(tasks)) if whole.result is None else np.flatnonzero(lost > most_lost)
-    left_out = {int(k): cut_into_parts(koebe, tasks[k], choice, None, cancel) for k in suspects}
+    suspects = [k for k in range(len(tasks)) if whole.result is None or lost[k] > most_lost]
+    left_out = {k: cut_into_parts(koebe, tasks[k], choice, None, cancel) for k in suspects}
     if whole.result is None:
         failed = {k: outcome for k, outcome in left_out.items() if not _is_mapped(outcome)}
         left_out = failed or {k: outcome for k, outcome in left_out.items() if _is_tiny(tasks, k)}
