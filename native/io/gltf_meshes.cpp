@@ -141,7 +141,7 @@ private:
 
 GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
 {
-    GltfMesh mesh{place, model.meshes[place].name, {}, {}};
+    GltfMesh mesh{.place = place, .name = model.meshes[place].name};
     MeshBuilder builder;
     const auto& primitives = model.meshes[place].primitives;
     for (std::size_t k = 0; k < primitives.size(); ++k) {
@@ -151,6 +151,7 @@ GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
         primitive.corner_vertex =
             triangle_corners(indices_of(model, primitives[k].indices, points.size()), primitives[k].mode);
         if (primitive.corner_vertex.empty()) continue;
+        mesh.has_uvs = mesh.has_uvs || primitives[k].attributes.contains("TEXCOORD_0");
         builder.add(points, primitive.corner_vertex);
         mesh.primitives.push_back(std::move(primitive));
     }

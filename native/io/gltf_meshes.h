@@ -20,6 +20,7 @@ struct GltfPrimitive {
 struct GltfMesh {
     std::size_t place = 0;  ///< among the meshes of the file
     std::string name;       ///< may be empty
+    bool has_uvs = false;   ///< whether one of its primitives has TEXCOORD_0
     /// Vertices are those of all primitives, one primitive after the other. Corners at identical positions have the
     /// first vertex there, as files cut a surface at its creases and old UVs; the others are in no face.
     PolygonMesh polygons;

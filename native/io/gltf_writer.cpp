@@ -231,13 +231,4 @@ try {
     throw InputError(std::string("the JSON of the GLB file is damaged: ") + error.what());
 }
 
-bool has_gltf_uvs(std::string_view glb)
-{
-    const tinygltf::Model model = io::read_gltf_model(glb);
-    for (const tinygltf::Mesh& mesh : model.meshes)
-        for (const tinygltf::Primitive& primitive : mesh.primitives)
-            if (primitive.attributes.contains(uv_name)) return true;
-    return false;
-}
-
 }  // namespace koebe

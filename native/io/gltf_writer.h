@@ -30,7 +30,4 @@ std::vector<GltfPoint> gltf_points(const PlanarPoints& uv);
 std::string glb_with_corner_uvs(std::string_view glb, const std::vector<GltfMesh>& meshes,
                                 const std::vector<std::vector<GltfPoint>>& uvs);
 
-/// Whether a mesh of the file has texture coordinates, which the new ones replace.
-bool has_gltf_uvs(std::string_view glb);
-
 }  // namespace koebe

@@ -145,7 +145,7 @@ int finish_scene(const MapRequest& request, const SceneInput& scene, std::vector
     std::vector<std::vector<GltfPoint>> uvs;
     for (MappedMesh& mesh : mapped) uvs.push_back(std::move(mesh.uvs));
     std::vector<Warning> warnings = scene_warnings(scene, mapped);
-    if (has_gltf_uvs(scene.file.bytes))
+    if (std::ranges::any_of(scene.meshes, &GltfMesh::has_uvs))
         warnings.push_back(
             {WarningKind::replaced_uvs, "the file's texture coordinates (TEXCOORD_0) are replaced by the map's"});
     std::vector<AtomicFile> files;
