@@ -26,7 +26,7 @@ declare -A groups=(
     # the form of C++, and what can be said of it without running it
     [lint]="clang-format clang-tidy"
     # what sets the paper
-    [paper]="pandoc texlive-xetex texlive-latex-recommended texlive-fonts-recommended lmodern librsvg2-bin poppler-utils"
+    [paper]="pandoc texlive-xetex texlive-latex-recommended texlive-fonts-recommended lmodern librsvg2-bin fonts-dejavu-core"
     # Slurm, which tests/farms starts, and Go for the engine of Flamenco's job types
     [farms]="slurm-wlm munge golang-go procps"
     # clang with libFuzzer and its sanitizers; llvm has the symbolizer, by which findings name lines
