@@ -41,7 +41,7 @@ ifndef AT_ONCE
 endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
-.PHONY: help build native programs wheel package dist matrix docs web lint lint-python lint-native check check-native check-form \
+.PHONY: help build native programs wheel package dist matrix docs paper web lint lint-python lint-native lint-workflows check check-native check-form \
         test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
@@ -106,12 +106,19 @@ build/docs/operators.json: scripts/site/blender_names.py $(ADDON_SOURCES) native
 	@mkdir -p $(@D)
 	scripts/in_own_home.sh $(BLENDER) scripts/site/blender_names.py $@ >$(@D)/blender.log || { cat $(@D)/blender.log; exit 1; }
 
+# As the Journal of Open Source Software asks for it; its own typesetting differs.
+paper: $(DONE)/install-paper ## the paper on the project: build/paper/paper.pdf
+	@mkdir -p build/paper
+	$(PYTHON) paper/figures.py
+	cd paper && pandoc paper.md --from markdown --citeproc --lua-filter authors.lua --pdf-engine xelatex --variable colorlinks \
+	    --variable geometry:margin=25mm --output ../build/paper/paper.pdf
+
 # Ten minutes of two cores the first time.
 web: $(DONE)/install-web $(DONE)/npm ## the page for browsers: dist/web/
 	$(ccache) CMAKE_C_COMPILER_LAUNCHER=$$(command -v ccache) scripts/web.sh dist/web
 
-$(DONE)/npm:
-	command -v npm >/dev/null || scripts/install.sh npm
+$(DONE)/npm $(DONE)/go: $(DONE)/%:
+	command -v $* >/dev/null || scripts/install.sh $*
 	@mkdir -p $(@D) && touch $@
 
 # ---------------------------------------------------------------- tests
@@ -211,11 +218,19 @@ build-fuzz: $(VENV)/.done $(DONE)/install-fuzz
 
 # ---------------------------------------------------------------- form and types
 
-lint: lint-python lint-native ## form and types: what is wrong is said, nothing is changed
+lint: lint-python lint-workflows lint-native ## form and types: what is wrong is said, nothing is changed
 
 lint-python: build/venv-lint/.done
-	build/venv-lint/bin/ruff check addon bench blend_samples native/python scripts tests
+	build/venv-lint/bin/ruff check addon bench blend_samples native/python paper scripts tests
 	build/venv-lint/bin/mypy
+
+# The last version that Debian 12's Go compiles. It has shellcheck look at the workflows' commands, too.
+lint-workflows: build/actionlint/actionlint $(DONE)/install-shellcheck
+	$<
+	shellcheck --severity=warning .ci/run scripts/*.sh scripts/farms/*.sh
+
+build/actionlint/actionlint: | $(DONE)/go
+	GOBIN=$(CURDIR)/$(@D) go install github.com/rhysd/actionlint/cmd/actionlint@v1.7.7
 
 # Six minutes of two cores: clang-tidy reads each source with all of Eigen. FILES="native/... ..." looks at those alone,
 # SHARE=0/7 at every seventh.

@@ -7,7 +7,7 @@ bl_info = {
     "name": "Koebe UV",
     "description": "Unwraps any model, and every hole becomes a perfect circle",
     "author": "The Koebe UV developers",
-    "version": (0, 2, 0),
+    "version": (0, 0, 0),  # filled when the package is built
     "blender": (3, 4, 0),
     "location": "3D View and UV Editor > Sidebar > Koebe; U menu; UV menu",
     "category": "UV",

@@ -11,6 +11,7 @@ import zipfile
 from pathlib import Path
 
 from binary_facts import Facts, facts_of
+from sbom import NAME as SBOM
 
 BINARIES = (".so", ".dylib", ".dll", ".pyd", ".exe", "bin/koebe")
 MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
@@ -47,6 +48,12 @@ def problems_of(facts: Facts, system: str, tag: str) -> list[str]:
     return found
 
 
+def machine_paths(content: bytes) -> list[str]:
+    """What a binary says of the place where it was built: paths that begin above this project."""
+    found = re.search(rb"[\w./-]*[\w.-]/build/(?:sources|venv|dist-)[\w./-]*", content)
+    return [f"says {found[0].decode()}, a place on the machine that built it"] if found else []
+
+
 def sources_told(folder: Path) -> int:
     """Say of each source package what is wrong with it; how much that is."""
     bad = 0
@@ -78,9 +85,11 @@ def main() -> None:
             said = [f"has no module for Python {python}" for python in missing]
             needs: set[str] = set()
             for name in binaries:
-                facts = facts_of(archive.read(name))
+                content = archive.read(name)
+                facts = facts_of(content)
                 needs |= set(facts.versions) | set(facts.libraries)
-                said += [f"{name} {problem}" for problem in problems_of(facts, system, tag)]
+                said += [f"{name} {problem}" for problem in [*problems_of(facts, system, tag), *machine_paths(content)]]
+            said += [f"has no {SBOM}"] if not any(name.endswith(f"sboms/{SBOM}") for name in archive.namelist()) else []
         bad += len(said)
         print(f"{wheel.name}: {'; '.join(said) or 'good'}  [{', '.join(sorted(needs))}]")
     raise SystemExit(1 if bad else 0)

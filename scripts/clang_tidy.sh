@@ -17,8 +17,8 @@ first, step = map(int, (os.environ.get("SHARE") or "0/1").split("/"))
 print(*files[first::step], sep="\n")
 PYTHON
 )
-checks=-clang-analyzer-*
-[ -z "${ANALYZER:-}" ] || checks=clang-analyzer-*
+checks="-clang-analyzer-*"
+[ -z "${ANALYZER:-}" ] || checks="clang-analyzer-*"
 printf '%s\0' "${files[@]}" | xargs -0 -n 4 -P "$(nproc)" \
     clang-tidy -p "$build" --quiet --checks="$checks" --warnings-as-errors='*' \
     --extra-arg=-Wno-ignored-optimization-argument --extra-arg=-Wreserved-identifier \

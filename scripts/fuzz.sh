@@ -29,7 +29,7 @@ for target in "${targets[@]}"; do
     log=$build/$target.log
     # An input is too slow from five minutes on: the sanitizers and busy machines take their share.
     if "$build/tests/fuzz/fuzz_$target" -seed="$seed" -timeout=300 -report_slow_units=300 \
-        -rss_limit_mb=4096 -max_len=$([ "$target" = read ] && echo 600 || echo 302) -print_final_stats=1 \
+        -rss_limit_mb=4096 -max_len="$([ "$target" = read ] && echo 600 || echo 302)" -print_final_stats=1 \
         "${words[@]}" -artifact_prefix="$findings/" "$corpus" "${kept[@]}" >"$log" 2>&1; then
         runs=$(sed -n "s/^stat::number_of_executed_units: *//p" "$log" | tail -n 1)
         echo "fuzz $target: ${runs:-0} inputs, no finding"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Install the Debian packages that are missing.
-# Usage: scripts/install.sh build|blender|bench|docs|web|gui|fuzz|farms ...       LIST=1 prints the names and installs nothing.
+# Usage: scripts/install.sh build|blender|bench|docs|web|gui|fuzz|farms|paper ...       LIST=1 prints the names and installs nothing.
 set -euo pipefail
 
 declare -A groups=(
@@ -20,8 +20,13 @@ declare -A groups=(
     [docs]="doxygen"
     # what scripts/fetch_sources.sh fetches with
     [dist]="dpkg-dev maven default-jre-headless"
+    # the checker of shell scripts, and what compiles the checker of workflows, unless another Go is there
+    [shellcheck]="shellcheck"
+    [go]="golang-go"
     # the form of C++, and what can be said of it without running it
     [lint]="clang-format clang-tidy"
+    # what sets the paper
+    [paper]="pandoc texlive-xetex texlive-latex-recommended texlive-fonts-recommended lmodern librsvg2-bin fonts-dejavu-core"
     # Slurm, which tests/farms starts, and Go for the engine of Flamenco's job types
     [farms]="slurm-wlm munge golang-go procps"
     # clang with libFuzzer and its sanitizers; llvm has the symbolizer, by which findings name lines

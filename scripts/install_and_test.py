@@ -34,8 +34,11 @@ def install(package: str) -> str:
 
 def validate(package: str) -> None:
     """Blender's own check of a package."""
-    tool = Path(addon_utils.paths()[0]).parent / "addons_core/bl_pkg/cli/blender_ext.py"
-    subprocess.run([sys.executable, tool, "validate", package], check=True)
+    scripts = Path(addon_utils.paths()[0]).parent
+    tool, tags = (scripts / name for name in (
+        "addons_core/bl_pkg/cli/blender_ext.py", "modules/_bpy_internal/extensions/tags.py"))
+    known = ["--valid-tags", tags] if tags.exists() else []
+    subprocess.run([sys.executable, tool, "validate", *known, package], check=True)
 
 
 def main() -> None:

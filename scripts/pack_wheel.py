@@ -8,7 +8,7 @@ A bundle (-DKOEBE_BUNDLE=ON) has the shared library, the command, and a module `
 own by the suffix: one wheel serves every Python, and Blender's extensions take it for each. A local wheel has the one
 module and the command that this machine has compiled for itself, and beside them the libraries that they need and
 another machine may not have. What the wheel says of itself comes from pyproject.toml, the version from CMakeLists.txt.
-Equal input gives an equal wheel.
+A bundle lists what it holds of others (sbom.py). Equal input gives an equal wheel.
 """
 
 import base64
@@ -18,9 +18,12 @@ import subprocess
 import sys
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import tomllib
 from package_extension import DATE, ROOT, project_version
+from sbom import NAME as SBOM
+from sbom import sbom
 
 PACKAGE = ROOT / "native" / "python" / "koebe"
 TABLE = ROOT / "native" / "options" / "options.json"
@@ -31,29 +34,32 @@ PROGRAMS = ("bin/koebe", "koebe.exe")  # Windows looks for the library beside th
 SYSTEM = r"linux-vdso|ld-linux|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so"
 
 
+def project() -> dict[str, Any]:
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+
+
 def metadata(version: str) -> str:
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    said = project()
     lines = [
         "Metadata-Version: 2.4",
         "Name: koebe",
         f"Version: {version}",
-        f"Summary: {project['description']}",
-        f"License-Expression: {project['license']}",
+        f"Summary: {said['description']}",
+        f"License-Expression: {said['license']}",
         "License-File: LICENSE",
         "License-File: THIRD_PARTY.md",
-        f"Requires-Python: {project['requires-python']}",
-        *(f"Classifier: {item}" for item in project["classifiers"]),
-        *(f"Requires-Dist: {item}" for item in project["dependencies"]),
+        f"Requires-Python: {said['requires-python']}",
+        *(f"Classifier: {item}" for item in said["classifiers"]),
+        *(f"Requires-Dist: {item}" for item in said["dependencies"]),
     ]
-    for extra, packages in project["optional-dependencies"].items():
+    for extra, packages in said["optional-dependencies"].items():
         lines += [f"Provides-Extra: {extra}", *(f"Requires-Dist: {item}; extra == '{extra}'" for item in packages)]
     lines.append("Description-Content-Type: text/markdown")
     return "\n".join(lines) + "\n\n" + (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def entry_points() -> str:
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    return "[console_scripts]\n" + "".join(f"{name} = {place}\n" for name, place in project["scripts"].items())
+    return "[console_scripts]\n" + "".join(f"{name} = {place}\n" for name, place in project()["scripts"].items())
 
 
 def bundle(build: Path) -> dict[str, Path]:
@@ -86,6 +92,8 @@ def members(compiled: dict[str, Path], tag: str, version: str) -> dict[str, byte
     files[f"{info}/entry_points.txt"] = entry_points().encode()
     for name in ("LICENSE", "THIRD_PARTY.md"):
         files[f"{info}/licenses/{name}"] = (ROOT / name).read_bytes()
+    if tag.startswith("py3-none-"):  # what this machine's wheel holds of others is this machine's own
+        files[f"{info}/sboms/{SBOM}"] = sbom(version, project()["license"], tag.removeprefix("py3-none-")).encode()
     return files
 
 

@@ -1,7 +1,9 @@
 """The wheels and zips of a release: what is written into them, and what their binaries are checked for."""
 
 import importlib.util
+import json
 import re
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -30,23 +32,35 @@ def script(name):
     return module
 
 
-# CMakeLists.txt sets it, and pip's package takes it from there by the pattern in pyproject.toml. Files for Blender,
-# GitHub or another CMake repeat it.
+# CMakeLists.txt sets it, and pip's package takes it from there by the pattern in pyproject.toml. The changelog's first
+# heading says it too. Files for Blender get it when they are packed.
 VERSIONS = {
     "CMakeLists.txt": re.search(r"regex = '''(.*)'''", (ROOT / "pyproject.toml").read_text(encoding="utf-8"))[1],
-    "CHANGELOG.md": r"(?m)^## (.*?)(?:, not released yet)?$",
-    "CITATION.cff": r"(?m)^version: (.*)$",
-    "addon/blender_manifest.toml": r'(?m)^version = "(.*)"$',
-    "addon/__init__.py": r'"version": \((.*)\)',
-    "tests/consumer/CMakeLists.txt": r"find_package\(koebe (\S*) REQUIRED",
+    "CHANGELOG.md": r"(?m)^## (\S+), (?:not released yet|\d{4}-\d\d-\d\d)$",
 }
 
 
 @pytest.mark.parametrize(("name", "pattern"), VERSIONS.items())
 def test_the_version_is_one(name, pattern):
-    expected = script("package_extension").project_version()
-    found = re.search(pattern, (ROOT / name).read_text(encoding="utf-8"))[1].replace(", ", ".")
-    assert found == (expected.rpartition(".")[0] if "consumer" in name else expected)
+    found = re.search(pattern, (ROOT / name).read_text(encoding="utf-8"))[1]
+    assert found == script("package_extension").project_version()
+
+
+def test_another_version_is_one_line(tmp_path):
+    for name in ("addon", "scripts/package_extension.py", "scripts/version.sh", "native/options/options.json",
+                 "LICENSE"):  # fmt: skip
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, tmp_path / name)
+    text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    text, count = re.subn(r"(?m)(?<=^project\(koebe VERSION )\S+", "7.8.9", text)
+    (tmp_path / "CMakeLists.txt").write_text(text, encoding="utf-8")
+    assert count == 1 and subprocess.check_output([tmp_path / "scripts/version.sh"], text=True) == "7.8.9\n"
+    (tmp_path / "dist").mkdir()
+    (tmp_path / "dist/koebe-7.8.9-py3-none-win_amd64.whl").write_bytes(b"")
+    subprocess.run([sys.executable, tmp_path / "scripts/package_extension.py", "--release"], check=True)
+    with zipfile.ZipFile(tmp_path / "dist/koebe_uv-7.8.9-windows-x64.zip") as archive:
+        assert 'version = "7.8.9"' in archive.read("koebe_uv/blender_manifest.toml").decode()
+        assert '"version": (7, 8, 9)' in archive.read("koebe_uv/__init__.py").decode()
 
 
 def test_what_is_built_says_its_version():
@@ -85,7 +99,34 @@ def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch)
             assert packer.record_line(name, archive.read(name)).strip() == line
     assert {line.rsplit(",", 2)[0] for line in lines} == set(names)
     assert {"koebe/__init__.py", "koebe/libkoebe.so", "koebe/bin/koebe", "koebe/py.typed"} < set(names)
+    assert f"{info}/sboms/koebe.cdx.json" in names
     assert "Requires-Python: >=3.10\n" in metadata and "Requires-Dist: numpy" in metadata
+
+
+def test_a_wheel_lists_what_it_holds_of_others():
+    maker = script("sbom")
+    bill = json.loads(maker.sbom("1.2.3", "GPL-3.0-or-later", "manylinux_2_28_x86_64"))
+    assert (bill["bomFormat"], bill["specVersion"]) == ("CycloneDX", "1.6")
+    assert bill["metadata"]["component"]["purl"] == "pkg:pypi/koebe@1.2.3"
+    names = {item["bom-ref"] for item in bill["components"]}
+    assert len(names) == len(bill["components"]) == 19 and set(bill["dependencies"][0]["dependsOn"]) == names
+    addresses = {item["name"]: item["purl"] for item in bill["components"]}
+    assert addresses["Eigen"].startswith("pkg:deb/debian/libeigen3-dev@3.4.0-")
+    assert addresses["pybind11"].startswith("pkg:pypi/pybind11@")
+    windows = json.loads(maker.sbom("1.2.3", "GPL-3.0-or-later", "win_amd64"))
+    assert len(windows["components"]) == 20 and windows["serialNumber"] != bill["serialNumber"]
+    mac = json.loads(maker.sbom("1.2.3", "GPL-3.0-or-later", "macosx_11_0_arm64"))
+    assert len(mac["components"]) == 19
+
+
+def test_the_list_of_others_names_the_pinned_versions():
+    maker = script("sbom")
+    pinned, parts = maker.pinned(), maker.parts()
+    assert {part.package for part in parts} == set(pinned)
+    inside = {"RapidXML, with namespaces (of svgpp)", "stb_image"}  # their packages have another number
+    for part in parts:
+        assert part.name in inside or re.search(r"\d[\d.]*\d", part.version)[0] in pinned[part.package], part
+        assert re.fullmatch(r"[A-Za-z0-9.-]+(?: (?:AND|OR|WITH) [A-Za-z0-9.-]+)?", part.licence), part
 
 
 def test_what_is_no_bundle_makes_no_wheel(tmp_path, monkeypatch):
@@ -119,9 +160,12 @@ def test_a_release_has_a_zip_for_each_platform_and_leaves_the_one_of_this_machin
     version = packer.project_version()
     for tag in ("cp311-cp311-linux_x86_64", "py3-none-manylinux_2_28_x86_64", "py3-none-win_amd64"):
         (tmp_path / f"koebe-{version}-{tag}.whl").write_bytes(tag.encode())
-    for options in ([], ["--release"], []):
+    contents = []
+    for options in ([], ["--release"], [], ["--release"]):
         monkeypatch.setattr(sys, "argv", ["", "--dist", str(tmp_path), *options])
         packer.main()
+        contents.append({package.name: package.read_bytes() for package in tmp_path.glob("*.zip")})
+    assert contents[1] == contents[3]
     wheels = {}
     for package in tmp_path.glob("*.zip"):
         with zipfile.ZipFile(package) as archive:
@@ -155,3 +199,10 @@ def test_a_binary_that_asks_too_much_is_named():
         "is for aarch64", "needs libgfortran.so.5", "needs GLIBC_2.34, GLIBCXX_3.4.29"]
     mac = facts("aarch64", ["/usr/lib/libSystem.B.dylib"], minimum_os=(13, 0), signed=False)
     assert [problem.split()[0] for problem in check.problems_of(mac, "macosx", "macosx_11_0_arm64")] == ["is", "has"]
+
+
+def test_a_binary_does_not_say_where_it_was_built():
+    paths = script("check_dist").machine_paths
+    assert paths(b"\0build/sources/headers/usr/include/CGAL/a.h\0/usr/include/b.h\0") == []
+    assert paths(b"\0/home/me/koebe/build/sources/a.c\0") == [
+        "says /home/me/koebe/build/sources/a.c, a place on the machine that built it"]
