@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Check the wheels of `make dist` by what their binaries ask of a system, and what is in the source package.
 
-Usage: check_dist.py FOLDER PYTHON...     PYTHON: 3.10 and the like, of which each wheel has a module. Standard library only.
+Usage: check_dist.py FOLDER PYTHON...     PYTHON: each wheel has a module for it, as 3.10. Standard library only.
 """
 
 import re
