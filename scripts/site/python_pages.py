@@ -29,6 +29,7 @@ PAGES = {
         "batch": ["batch"],
         "load": ["load"],
         "CancelToken": ["CancelToken"],
+        "read_field": ["read_field", "write_field", "VertexField", "read_region", "read_patch", "Patch"],
     },
     "Patterns and pictures": {"lift": ["lift", "LiftResult"], "plot": ["plot"]},
     "Shapes": {

@@ -32,7 +32,7 @@ TYPES = {
     "loop": "str | int", "steps": "collections.abc.Sequence[collections.abc.Sequence[int]] | None",
     "weights": "typing.Any", "page": "str",
 }  # fmt: skip
-BESIDE = {"progress", "cancel", "polygon", "slits", "between"}  # arguments that are no options
+BESIDE = {"progress", "cancel", "polygon", "slits", "between", "mask"}  # arguments that are no options
 
 
 def rows_in(front, of):

@@ -21,6 +21,7 @@ from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._fit import FitResult, fit_circles
 from ._flatten import FlattenResult, flatten
+from ._formats import Patch, read_patch
 from ._koebe import CancelToken, __version__
 from ._layout import fit_circle, mirror_image, pack_disks
 from ._lift import LiftResult, lift
@@ -46,6 +47,7 @@ from ._sphere import SphereMap, sphere_map
 from ._surface import Surface
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
+from ._vertex_fields import VertexField, read_field, read_region, write_field
 from .errors import Cancelled, FileError, InputError, KoebeError, OptionError, SolverError, TopologyError
 
 __all__ = [
@@ -69,6 +71,7 @@ __all__ = [
     "OpenedSurface",
     "OptionError",
     "PartsResult",
+    "Patch",
     "SchottkyMap",
     "SolverError",
     "SphereMap",
@@ -79,6 +82,7 @@ __all__ = [
     "TopologyError",
     "UV_RESOLUTION",
     "UniformizeResult",
+    "VertexField",
     "WARNING_ELEMENTS",
     "Warning",
     "__version__",
@@ -109,6 +113,9 @@ __all__ = [
     "pack_disks",
     "parts",
     "plot",
+    "read_field",
+    "read_patch",
+    "read_region",
     "ring_map",
     "schottky_map",
     "separation_distance",
@@ -118,4 +125,5 @@ __all__ = [
     "transfer",
     "uniformize",
     "uv_to_disk",
+    "write_field",
 ]

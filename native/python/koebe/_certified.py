@@ -83,7 +83,7 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     {options}
     between      pairs of lists of loops, at 0 and at 1, numbered as in boundary_loops; no flux runs through the other
                  loops. None: each loop at 1 and all others at 0, then each pair
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     The proof: docs/guarantees.md. Raises InputError (OptionError for an option; also for faces without area),
     TopologyError, SolverError, Cancelled, or MemoryError.
 
@@ -99,7 +99,7 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     if given["between"] is not None and not between:
         raise InputError("between must have at least one pair of loops at 0 and loops at 1")
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles)
-    report = _koebe.certified_capacities(source.vertices, source.triangles, between, options, progress, cancel)
+    source = surface_of(vertices, triangles, mask=given["mask"])
+    report = source.call(_koebe.certified_capacities, between, options, progress, cancel)
     del said["threads"]
     return CertifiedModuli({**report, "options": said})

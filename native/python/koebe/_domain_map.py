@@ -24,7 +24,7 @@ class DomainMap(MapReport):
     seconds: Seconds
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
-        self._report = report
+        self._report = report = source.told(report)
         self._source = source
         vars(self).update({name: value for name, value in report.items() if name != "input"})
         self.uv = native.uv.reshape(-1, 3, 2)
@@ -53,15 +53,14 @@ class DomainMap(MapReport):
         error = f"angle error {self.angle_error_deg['mean']:.3g} deg"
         return f"<koebe.{type(self).__name__} {counts}, {error}, {self.flipped} flipped>"
 
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
-        return self._source.vertices, self._source.triangles
-
     def to_mesh(self) -> Any:
-        """The given mesh, of the same kind, with fields as in CutResult.to_mesh; for a sphere without the torn faces'
-        fields. Its vertices are doubled where the UVs are cut. Raises InputError if arrays were given."""
-        return mesh_with_corner_uv(self._source, self.uv, self._drawn())
+        """The mesh of the input, of the same kind, with fields as in CutResult.to_mesh; for a sphere without the torn
+        faces' fields, and with koebe_sphere, the points on the unit sphere. Raises InputError if arrays were given."""
+        return mesh_with_corner_uv(self._source, self.uv, self._drawn(), self._point_fields())
+
+    def _point_fields(self) -> dict[str, np.ndarray]:
+        """Further fields of the vertices."""
+        return {}
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
@@ -90,11 +89,11 @@ def domain_map(
     """
     options, said = filled(of, options, given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(*surface, degenerate=degenerate)
+    source = surface_of(*surface, degenerate=degenerate, mask=given["mask"])
     if given.get("importance") is not None:
         if not said["even"]:
             raise OptionError("importance needs even above 0: it weighs the sizes of faces")
         options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.polygon = polygons_of(given["polygon"], source)
-    native = function(source.vertices, source.triangles, options, progress, cancel)
+    native = source.call(function, options, progress, cancel)
     return made({**native.report(), "options": said}, native, source)

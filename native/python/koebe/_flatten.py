@@ -72,7 +72,7 @@ def flatten(vertices: Any, triangles: Any = None, **given: "Unpack[FlattenOption
     {options}
     polygon      (F,) integers: triangles of one number are one polygon and stay together. None: the polygons of the
                  mesh, or with arrays each triangle by itself
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Each piece is as true to size as it can be, as with even=1 and loops='free' of `parts`; no piece overlaps itself or
     another. Write the drawing with, for example, Path('pattern.svg').write_text(result.svg[0], 'utf-8').
     Raises InputError (OptionError for an option), SolverError, Cancelled, or MemoryError.

@@ -93,7 +93,7 @@ def lift(
                  or of a PNG file: a relief with `height` where it is white; or of an OBJ file: a mesh whose x and y are
                  flat and whose z is height, bent over the surface as it is
     {options}
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), FileError for a file that cannot be read, TopologyError, SolverError,
     Cancelled, or MemoryError. Where it returns, each outline that is not left out has become one hole or one hill, no
     face is flipped, and a solid is closed.
@@ -105,9 +105,9 @@ def lift(
     """
     options, said = filled("lift", _koebe.LiftOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles)
+    source = surface_of(vertices, triangles, mask=given["mask"])
     options.graded = vertex_weights("graded", given["graded"], len(source.vertices))
     if not isinstance(pattern, str | os.PathLike):
         raise TypeError(f"pattern must be a name or a file's path, not {pattern!r}")
-    native = _koebe.lift(source.vertices, source.triangles, os.fspath(pattern), options, progress, cancel)
+    native = source.call(_koebe.lift, os.fspath(pattern), options, progress, cancel)
     return LiftResult({**native.report(), "options": said}, native)

@@ -27,7 +27,7 @@ def takes(of: str, typed: Any, /, **others: Any) -> Callable[[Function], Functio
     The docstring has {options} at the place for the descriptions.
     """
     table = rows(of)
-    defaults = {**{name: row.given for name, row in table.items()}, **others}
+    defaults = {**{name: row.given for name, row in table.items()}, "mask": None, **others}
     hints = {**get_type_hints(typed), "cut": bool}
 
     def changed(function: Function) -> Function:

@@ -44,7 +44,7 @@ def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
 
     space.add_collection3d(Poly3DCollection(corners, facecolors=colors, edgecolors=colors, linewidths=0.3))
     space.view_init(*_in_front_of(vertices, triangles))
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     for axis, a, b in zip("xyz", low, high, strict=True):
         getattr(space, f"set_{axis}lim")(a, b)
     space.set_box_aspect(np.maximum(high - low, 1e-9 * (high - low).max()))

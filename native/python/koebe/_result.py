@@ -2,19 +2,22 @@
 
 import copy
 import hashlib
+import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
+from importlib import import_module
 from typing import Any, TypedDict
 
 import numpy as np
 
 from ._arrays import as_loops
-from ._fields import disk_to_uv, face_angle_error_deg, log_scale
+from ._fields import face_angle_error_deg, log_scale
 from ._files import Saved
-from ._meshes import Polygons, mesh_with_fields
+from ._meshes import ANGLE_ERROR, LOG_SCALE, Fields, Polygons, mesh_with_fields
 from ._native import _koebe
-from .errors import InputError
+from .errors import InputError, KoebeError
 
 # UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs.
 UV_RESOLUTION: float = _koebe.uv_resolution
@@ -141,6 +144,42 @@ class Source:
     mesh: Any = None
     polygons: Polygons | None = None
     polygon: np.ndarray | None = None  # (F,) of each triangle
+    kept: np.ndarray | None = None  # (F,) the numbers of these triangles in the input, if a mask left out others
+    mask: np.ndarray | None = None  # (V,) bool, as given
+
+    @property
+    def source_face(self) -> np.ndarray:
+        """(F,) int32: the number of each triangle in the input."""
+        return np.arange(len(self.triangles), dtype=np.int32) if self.kept is None else self.kept
+
+    def told(self, report: dict[str, Any]) -> dict[str, Any]:
+        """The report, without the vertices that only the mask left without a face."""
+        if self.kept is None:
+            return report
+        return {**report, "warnings": [one for one in report["warnings"] if one["kind"] != "unused_vertices"]}
+
+    def call(self, function: Callable[..., Any], *others: Any) -> Any:
+        """The native function of vertices, triangles and the others. Faces of errors have the input's numbers."""
+        try:
+            return function(self.vertices, self.triangles, *others)
+        except KoebeError as error:
+            if self.kept is not None and error.of == "faces":
+                error.elements = self.kept[list(error.elements)].tolist()
+            raise
+
+    @property
+    def used(self) -> np.ndarray:
+        """(V,) bool: vertices with a triangle."""
+        found = np.zeros(len(self.vertices), bool)
+        found[self.triangles] = True
+        return found
+
+    def outside_nan(self, values: np.ndarray) -> np.ndarray:
+        """The values (V, k) of the vertices, with NaN at those that a mask leaves without a triangle."""
+        if self.kept is not None:
+            values = np.array(values)
+            values[~self.used] = np.nan
+        return values
 
 
 def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any]) -> dict[str, Any]:
@@ -187,6 +226,29 @@ class MapReport(Saved):
     seconds: Any
     peak_memory_mb: float
     warnings: list[Warning]
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface, without what a mask left out."""
+        return self._source.vertices, self._source.triangles
+
+    @property
+    def source_face(self) -> np.ndarray:
+        """(F,) int32: the number in the input of each mapped triangle; 0, 1, 2, ... without a mask."""
+        return self._source.source_face
+
+    def export(self, path: str | os.PathLike[str]) -> None:
+        """Write the map in the format that the file's name says. The file is complete or absent.
+
+        .surf.gii, lh.NAME, rh.NAME    the map itself as a surface with the same vertices, as Workbench and FreeSurfer
+                          read it: flat, of the surface's area, or the sphere of radius 100 (not for maps with cuts)
+        lh.NAME.patch.flat, .flat      the flat map as FreeSurfer's patch
+        .shape.gii, .func.gii          koebe_log_scale, koebe_u and koebe_v at the vertices
+        .gii, .vtk, .vtu, .vtp, .msh   the surface with the fields of to_mesh()
+        .obj              the surface with UVs
+        Needs nibabel, meshio, or PyVista for .vtp. Raises InputError for another name, OSError.
+        """
+        import_module("._export", __package__).export(self, path)
 
 
 class UniformizeResult(MapReport):
@@ -244,12 +306,12 @@ class UniformizeResult(MapReport):
         step_maps: list[np.ndarray],
         source: Source,
     ) -> None:
-        self._report = report
+        self._report = report = source.told(report)
         self._source = source
         loops = report["loops"]
         vars(self).update({name: value for name, value in report.items() if name != "input"})
         self.options = report.get("options", {})
-        self.uv = uv
+        self.uv = source.outside_nan(uv)
         self.uv.flags.writeable = False
         self.loops = as_loops([loop["vertices"] for loop in loops])
         self.centers = np.array([loop["center"] for loop in loops])
@@ -262,11 +324,6 @@ class UniformizeResult(MapReport):
         self.step_maps = step_maps
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
-        return self._source.vertices, self._source.triangles
-
     @cached_property
     def log_scale(self) -> np.ndarray:
         """(V,) log of the map's scale at each vertex, disk lengths per surface length; NaN where there is no scale."""
@@ -278,8 +335,8 @@ class UniformizeResult(MapReport):
         return face_angle_error_deg(self._source.vertices, self._source.triangles, self.uv)
 
     def to_mesh(self) -> Any:
-        """The given mesh, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and koebe_angle_error
-        (degrees) at the faces. Raises InputError if arrays were given."""
+        """The mesh of the input, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and
+        koebe_angle_error (degrees) at the faces. Raises InputError if the input was arrays."""
         source = self._source
         if source.mesh is None or source.polygons is None or source.polygon is None:
             raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
@@ -287,7 +344,10 @@ class UniformizeResult(MapReport):
         number, error = source.polygon[known], self.face_angle_error_deg[known]
         with np.errstate(invalid="ignore"):
             angle = np.bincount(number, error, minlength=faces) / np.bincount(number, minlength=faces)
-        return mesh_with_fields(source.mesh, source.polygons, disk_to_uv(self.uv), self.log_scale, angle)
+        uv = 0.5 * (1.0 + self.uv)
+        return mesh_with_fields(
+            source.mesh, source.polygons, Fields(uv, {LOG_SCALE: self.log_scale}, {ANGLE_ERROR: angle})
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with input_sha256 and options."""

@@ -75,7 +75,7 @@ def schottky_map(vertices: Any, triangles: Any = None, **given: "Unpack[Schottky
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: the polygons of
                  the mesh, or with arrays each triangle by itself
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: no handle, or cuts that touch each other),
     SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning tells why.
 

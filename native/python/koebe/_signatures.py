@@ -8,14 +8,20 @@ from ._native import _koebe
 Progress = Callable[[float, str], Any]
 
 
-class RunOptions(TypedDict, total=False):
+class SurfaceOptions(TypedDict, total=False):
+    """What says which part of the surface is meant."""
+
+    mask: Any
+
+
+class RunOptions(SurfaceOptions, total=False):
     """Options of each call that takes a while."""
 
     progress: Progress | None
     cancel: "_koebe.CancelToken | None"
 
 
-class MapOptions(TypedDict, total=False):
+class MapOptions(SurfaceOptions, total=False):
     """Options of all maps."""
 
     most_lost: float

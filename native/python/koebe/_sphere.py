@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._domain_map import DomainMap, domain_map
+from ._meshes import SPHERE
 from ._native import _koebe
 from ._options import takes
 from ._result import Source
@@ -50,7 +51,10 @@ class SphereMap(DomainMap):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         caps = np.array([[*loop["center"], loop["radius"]] for loop in self.loops], float).reshape(-1, 4)
-        self._set_arrays(points=native.points, caps=caps)
+        self._set_arrays(points=source.outside_nan(native.points), caps=caps)
+
+    def _point_fields(self) -> dict[str, np.ndarray]:
+        return {SPHERE: self.points}
 
     def _arrays(self) -> dict[str, Any]:
         return {**super()._arrays(), "points": self.points}
@@ -72,7 +76,7 @@ def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOpti
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, whose corners have one UV each. None: each by
                  itself, or as in the mesh
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: handles), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning tells why.
 

@@ -53,7 +53,7 @@ def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOption
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: the polygons of
                  the mesh, or with arrays each triangle by itself
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning tells why.
 
@@ -75,7 +75,7 @@ def ring_map(vertices: Any, triangles: Any = None, **given: "Unpack[RingOptions]
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     {options}
     polygon      as for `torus_map`
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
     not one to one has converged = False, and a warning tells why.
 

@@ -26,6 +26,7 @@ class Correspondence:
     weights     (V_b, 3) its barycentric coordinates there: at least 0, sum 1
     points      (V_b, 3) the point in space, in a's unit
     distances   (V_b,) how far outside a's domain b's vertex was before it took the nearest point, disk lengths
+                A vertex of b without a face corresponds to nothing: its face is -1, all else NaN
     alignment   of a's domain over b's: the corresponding loops, and by how much the holes miss
     fitted      whether the holes were then bent onto each other; False if that would have turned faces over
     uv          (V_a, 2) a's domain as laid over b's; with landmarks inside faces, the faces are cut there, and the map
@@ -132,12 +133,20 @@ def transfer(
         chosen = list(range(len(a.loops)))
     surfaces = mapped_surface(b, same), mapped_surface(a, same)
     found = _koebe.correspond(*surfaces, chosen, flag(fit, "fit"), on_b, on_a)
+    _forget(found, ~b._source.used)
     found["alignment"] = DomainAlignment(found["alignment"], b.radii)
     found["warnings"] = [Warning(warning) for warning in found["warnings"]]
     for warning in found["warnings"]:
         warnings.warn(str(warning), RuntimeWarning, stacklevel=2)
     places = Correspondence(**found, triangles=a.surface[1])
     return places if field is None else places.carry(field)
+
+
+def _forget(found: dict[str, Any], vertices: np.ndarray) -> None:
+    """Vertices of b without a face correspond to nothing."""
+    for name, nothing in (("faces", -1), ("weights", np.nan), ("points", np.nan), ("distances", np.nan)):
+        found[name] = np.array(found[name])
+        found[name][vertices] = nothing
 
 
 def _on_one_template(a: UniformizeResult, b: UniformizeResult) -> bool:
