@@ -28,7 +28,7 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert np.allclose(names["scale"], masked.log_scale, atol=1e-5, equal_nan=True)
     assert np.array_equal(names["region"], np.isfinite(masked.log_scale))
     assert (tmp_path / "lh.face.patch.flat").stat().st_size > 0
-    assert names["places"].fitted and names["moved"].shape == (names["neutral"].vertices,)
+    assert names["places"].fitted and names["moved"].shape == (names["neutral"].vertex_count,)
     held, tip = names["held"], names["tip"]
     assert held.flipped == 0 and np.allclose(held.points[tip], names["surprised"].surface[0][tip], atol=1e-9)
     assert (names["bars"] > 0).all() and names["both"].distance_errors[0, 1] > 0

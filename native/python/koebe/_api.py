@@ -53,7 +53,7 @@ def uniformize(
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: bool, **options: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult | CutResult: ...
-@takes("uniformize", UniformizeOptions, progress=None, cancel=None)
+@takes("uniformize", progress=None, cancel=None)
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: bool = False, **given: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult | CutResult:

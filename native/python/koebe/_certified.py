@@ -31,7 +31,7 @@ class CertifiedModuli:
     warnings        list of Warning
     width           of the widest enclosure
     converged       whether no enclosure is wider than wanted. If not, they still hold
-    faces, levels   of the finest triangulation; number of triangulations
+    face_count, levels    of the finest triangulation; number of triangulations
     """
 
     def __init__(self, report: dict[str, Any]) -> None:
@@ -47,7 +47,7 @@ class CertifiedModuli:
         self.warnings = [Warning(warning) for warning in report["warnings"]]
         self.width: float = report["width"]
         self.converged: bool = report["converged"]
-        self.faces: int = report["faces"]
+        self.face_count: int = report["faces"]
         self.levels: int = report["levels"]
 
     def _pair(self, name: str) -> tuple[float, float] | None:
@@ -55,7 +55,8 @@ class CertifiedModuli:
         return None if entry is None else (entry["lower"], entry["upper"])
 
     def __repr__(self) -> str:
-        return f"<koebe.CertifiedModuli {len(self.capacities)} capacities, width {self.width:.2g}, {self.faces} faces>"
+        count = len(self.capacities)
+        return f"<koebe.CertifiedModuli {count} capacities, width {self.width:.2g}, {self.face_count} faces>"
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
@@ -74,7 +75,7 @@ def _condenser(value: Any) -> tuple[list[int], list[int]]:
     return _loops(low, "between"), _loops(high, "between")
 
 
-@takes("certified", CertifiedOptions, between=None, progress=None, cancel=None)
+@takes("certified", between=None, progress=None, cancel=None)
 def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[CertifiedOptions]") -> CertifiedModuli:
     """Enclose conformal invariants of a surface with holes between bounds that are proved, rounding included.
 

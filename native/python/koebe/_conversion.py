@@ -76,7 +76,7 @@ class _Map(MapReport):
     def to_mesh(self) -> Any:
         if not len(self.uv):
             return self._source.mesh
-        corners = self.uv if self.uv.ndim == 3 else 0.5 * (1.0 + self.uv[self._source.triangles])
+        corners = self.corner_uv
         points = getattr(self, "points", None)
         more = {} if points is None else {SPHERE: points}
         return mesh_with_corner_uv(self._source, corners, np.ones(len(corners), bool), more)

@@ -9,7 +9,7 @@ import numpy as np
 from ._corner_mesh import mesh_with_corner_uv
 from ._input import polygons_of, surface_of
 from ._options import callback, filled, token, vertex_weights
-from ._result import MapReport, Seconds, Source, Warning
+from ._result import Loop, MapReport, Seconds, Source, Warning, figures_of
 from .errors import OptionError
 
 
@@ -17,7 +17,7 @@ class DomainMap(MapReport):
     """UVs with cuts, and a report. TileMap, SphereMap and SchottkyMap describe the fields."""
 
     uv: np.ndarray
-    loops: list[dict[str, Any]]
+    loops: list[Loop]
     sweeps: int
     changes: list[float]
     turned: list[int]
@@ -26,10 +26,11 @@ class DomainMap(MapReport):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         self._report = report = source.told(report)
         self._source = source
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        vars(self).update(figures_of(report))
         self.uv = native.uv.reshape(-1, 3, 2)
         self.uv.flags.writeable = False
         self.flipped_faces = np.asarray(native.flipped_faces, dtype=np.int32)
+        self.loops = [Loop(loop) for loop in report.get("loops", ())]
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
     def _set_arrays(self, **arrays: np.ndarray) -> None:
@@ -49,7 +50,7 @@ class DomainMap(MapReport):
         return [f"{len(self.loops)} loops"]
 
     def __repr__(self) -> str:
-        counts = ", ".join([f"{self.faces} faces", *self._counts()])
+        counts = ", ".join([f"{self.face_count} faces", *self._counts()])
         error = f"angle error {self.angle_error_deg['mean']:.3g} deg"
         return f"<koebe.{type(self).__name__} {counts}, {error}, {self.flipped} flipped>"
 

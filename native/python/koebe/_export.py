@@ -47,7 +47,7 @@ def export(result: Any, path: str | os.PathLike[str]) -> None:
         content = saved_bytes(low, lambda place: _as(result, "pyvista").to_mesh().save(place))
     elif low.endswith(".obj"):
         vertices, triangles = result.surface
-        content = obj_of(vertices, triangles, _corner_uv(result)).encode()
+        content = obj_of(vertices, triangles, result.corner_uv).encode()
     elif is_patch_name(path):
         content = _patch(result)
     elif is_freesurfer_name(path):
@@ -97,12 +97,6 @@ def obj_of(vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray | None = 
         rows = np.column_stack([triangles + 1, number.reshape(-1, 3) + 1])
         lines += [f"f {a}/{i} {b}/{j} {c}/{k}" for a, b, c, i, j, k in rows.tolist()]
     return "\n".join(lines) + "\n"
-
-
-def _corner_uv(result: Any) -> np.ndarray:
-    """(F, 3, 2) UVs in [0, 1]^2, or beyond where the map goes on there."""
-    uv = result.uv
-    return uv if uv.ndim == 3 else 0.5 * (1.0 + uv[result.surface[1]])
 
 
 def package_of(package: str) -> Any:

@@ -86,12 +86,12 @@ class FitResult(UniformizeResult):
     def __repr__(self) -> str:
         mu = self.fit["mu"]
         return (
-            f"<koebe.FitResult {self.vertices} vertices, {len(self.loops)} loops, |mu| {mu['mean']:.3g} in the mean, "
-            f"{mu['max']:.3g} at most, {self.flipped} flipped>"
+            f"<koebe.FitResult {self.vertex_count} vertices, {len(self.loops)} loops, "
+            f"|mu| {mu['mean']:.3g} in the mean, {mu['max']:.3g} at most, {self.flipped} flipped>"
         )
 
 
-@takes("shapes", FitOptions, names=None, pins=None, fixed=(), extremal=False, progress=None, cancel=None)
+@takes("shapes", names=None, pins=None, fixed=(), extremal=False, progress=None, cancel=None)
 def fit_circles(
     mesh: Any,
     centers: Any,

@@ -33,7 +33,7 @@ class FlattenResult(DomainMap):
     dxf              the text of a DXF file (R12)
     seconds          in all
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
-    below_resolution, flipped_faces, peak_memory_mb, warnings, version, vertices, faces    as in MapReport; the area of
+    below_resolution, flipped_faces, peak_memory_mb, warnings, version    as in MapReport; the area of
                      pieces that were left out is lost
     """
 
@@ -64,7 +64,7 @@ class FlattenResult(DomainMap):
         return [f"{len(self.pieces)} pieces", f"{self.pages} pages", f"stretch {self.stretch_percent['mean']:.3g} %"]
 
 
-@takes("flatten", FlattenOptions, polygon=None, progress=None, cancel=None)
+@takes("flatten", polygon=None, progress=None, cancel=None)
 def flatten(vertices: Any, triangles: Any = None, **given: "Unpack[FlattenOptions]") -> FlattenResult:
     """Cut a surface into a flat pattern in real size, for cloth, leather, paper or sheet metal.
 

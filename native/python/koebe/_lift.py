@@ -69,6 +69,11 @@ class LiftResult:
             array.flags.writeable = False
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
+    @property
+    def corner_uv(self) -> np.ndarray:
+        """(F, 3, 2): `uv`, under the name that it has in all results."""
+        return self.uv
+
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
         return copy.deepcopy(self._report)
@@ -78,7 +83,7 @@ class LiftResult:
         return f"<koebe.LiftResult {self.outlines} {self.pattern}, {len(self.triangles)} faces, {kind}>"
 
 
-@takes("lift", LiftOptions, progress=None, cancel=None)
+@takes("lift", progress=None, cancel=None)
 def lift(
     vertices: Any,
     triangles: Any = None,

@@ -9,7 +9,7 @@ from ._corner_mesh import mesh_with_corner_uv
 from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, filled, takes, token, vertex_weights
-from ._result import MapReport, Source, Warning
+from ._result import MapReport, Source, Warning, figures_of
 from ._signatures import PartsOptions
 from .errors import InputError
 
@@ -37,7 +37,7 @@ class PartsResult(MapReport):
     seconds          in all
     maps             faces mapped in all maps, in faces of the mesh
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
-    below_resolution, flipped_faces, peak_memory_mb, warnings, version, vertices, faces    as in MapReport. Faces in no
+    below_resolution, flipped_faces, peak_memory_mb, warnings, version    as in MapReport. Faces in no
                      part count in lost_area only, and only if they have no area at all
     """
 
@@ -61,7 +61,7 @@ class PartsResult(MapReport):
     ) -> None:
         self._report = report = source.told(report)
         self._source = source
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        vars(self).update(figures_of(report))
         self.uv = uv.reshape(-1, 3, 2)
         self.uv.flags.writeable = False
         self.part = part
@@ -87,7 +87,7 @@ class PartsResult(MapReport):
         )
 
 
-@takes("parts", PartsOptions, polygon=None, slits=None, progress=None, cancel=None)
+@takes("parts", polygon=None, slits=None, progress=None, cancel=None)
 def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
     """Cut a surface in its UVs only into disks and tubes of even texel density, packed into a square or onto tiles.
 

@@ -3,7 +3,7 @@
 import copy
 import hashlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -27,19 +27,40 @@ CIRCLE_TOLERANCE: float = _koebe.circle_tolerance
 WARNING_ELEMENTS: dict[str, str] = dict(_koebe.warning_elements)
 
 
-class Warning(dict[str, Any]):
-    """A warning about a result: a dict of kind, elements and text, which are attributes too.
+class Warning(Mapping[str, Any], UserWarning, RuntimeWarning):
+    """A warning about a result, with kind, elements and text, as attributes and as a mapping's entries.
 
     kind       its subject, one of the keys of koebe.WARNING_ELEMENTS
-    elements   numbers of the input's vertices or faces, or of the result's loops (see WARNING_ELEMENTS); ascending
+    elements   numbers of the input's vertices, or of the result's faces or loops (see WARNING_ELEMENTS); ascending
     text       a sentence for people
+    Where a function warns by Python's `warnings`, this is the category: warnings.filterwarnings("ignore",
+    category=koebe.Warning), or "error".
     """
+
+    def __init__(self, entries: Mapping[str, Any] | None = None, **more: Any) -> None:
+        self._entries = {**(entries or {}), **more}
+        super().__init__(self._entries.get("text", ""))
+
+    def __getitem__(self, name: str) -> Any:
+        return self._entries[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._entries)
+
+    def __len__(self) -> int:
+        return len(self._entries)
 
     def __getattr__(self, name: str) -> Any:
         try:
-            return self[name]
+            return vars(self)["_entries"][name]
         except KeyError:
             raise AttributeError(f"Warning has no attribute '{name}'") from None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Warning, (self._entries,)
+
+    def __repr__(self) -> str:
+        return f"koebe.Warning({self._entries})"
 
     @property
     def of(self) -> str:
@@ -56,7 +77,37 @@ class Warning(dict[str, Any]):
         return Warning(kind=self["kind"], elements=elements, text=text)
 
     def __str__(self) -> str:
-        return self["text"]
+        return str(self["text"])
+
+
+class Loop(np.ndarray):
+    """A boundary loop of a result: an int32 array of its vertices, in order with the surface on the left.
+
+    It has the figures of the report, too, by their names: loop["radius"], loop["off_circle"]. `figures` lists them.
+    Arrays made from it are plain ones.
+    """
+
+    figures: dict[str, Any]
+
+    def __new__(cls, entry: Mapping[str, Any]) -> "Loop":
+        """The loop of a report: its vertices, and its other entries."""
+        made = np.asarray(entry["vertices"], dtype=np.int32).view(cls)
+        made.figures = dict(entry)
+        return made
+
+    def __array_finalize__(self, other: Any) -> None:
+        self.figures = {}
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            return np.asarray(self) if key == "vertices" else self.figures[key]
+        return np.asarray(self)[key]
+
+    def __array_wrap__(self, array: Any, *_: Any) -> Any:
+        return np.asarray(array)[()]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Loop, ({**self.figures, "vertices": np.asarray(self)},)
 
 
 class _AngleErrorBeforePolish(TypedDict, total=False):
@@ -191,6 +242,11 @@ def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any])
     return {"version": report["version"], "input": report["input"], **origin, **report}
 
 
+def figures_of(report: Mapping[str, Any]) -> dict[str, Any]:
+    """The entries of a report that are attributes of its result."""
+    return {name: value for name, value in report.items() if name not in ("input", "vertices", "faces", "cut")}
+
+
 class MapReport(Saved):
     """The report of every map, for any domain.
 
@@ -205,12 +261,12 @@ class MapReport(Saved):
     seconds          of each stage
     peak_memory_mb   of the process
     warnings         list of Warning: kind, elements, text. A warning of too much lost area comes first
+    uv               as each result says. corner_uv is the same thing of all results
     """
 
     version: str
     options: dict[str, Any]
-    vertices: int
-    faces: int
+    uv: np.ndarray
     converged: bool
     angle_error_deg: AngleError
     angle_error_stored_deg: AngleError
@@ -226,6 +282,32 @@ class MapReport(Saved):
     seconds: Any
     peak_memory_mb: float
     warnings: list[Warning]
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(V, 3) float64: the positions of the surface's vertices."""
+        return self._source.vertices
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(F, 3) int32: the mapped triangles, without those that a mask left out."""
+        return self._source.triangles
+
+    @property
+    def vertex_count(self) -> int:
+        """V, the number of vertices."""
+        return len(self._source.vertices)
+
+    @property
+    def face_count(self) -> int:
+        """F, the number of mapped triangles."""
+        return len(self._source.triangles)
+
+    @property
+    def corner_uv(self) -> np.ndarray:
+        """(F, 3, 2) float64, texture coordinates of each triangle's corners: of every kind of result, as its files have
+        them. For UniformizeResult and FitResult they lie in [0, 1]^2 and are (1 + uv) / 2, for others they are `uv`."""
+        return self.uv if self.uv.ndim == 3 else 0.5 * (1.0 + self.uv[self._source.triangles])
 
     @property
     def surface(self) -> tuple[np.ndarray, np.ndarray]:
@@ -258,14 +340,14 @@ class UniformizeResult(MapReport):
     input_sha256     of the vertices' bytes as float64 and the triangles' as int32, little-endian, row after row
     options          of the call: method, engine, outer, tolerance, ...
     uv               (V, 2) float64, points of the closed unit disk in the input's vertex order; read-only
-    loops            int32 arrays of vertices, the surface on the left, the outer loop first
+    loops            list of Loop: int32 arrays of vertices, the surface on the left, the outer loop first
     centers, radii   (L, 2) and (L,) circles in the unit disk
     roundness        (L,) the paper's e(gamma_k) before the final projection (section 5)
     roundness_least_squares     (L,) deviation from the circle of least squares, in radii, before the final projection
     mean_roundness   their means
     off_circle       int32 arrays: vertices of each loop that are not on its circle
     own_circle       (L,) whether each circle is the surface's own: the iteration's, and not lost in rounding
-    vertices, faces  their numbers
+    vertices, triangles, vertex_count, face_count    as in MapReport
     method, engine   as chosen
     outer_loop       number of the outer loop in boundary_loops(triangles)
     center, point    vertices at 0 and at 1, as in the options, or None
@@ -279,7 +361,7 @@ class UniformizeResult(MapReport):
 
     input_sha256: str = ""
     uv: np.ndarray
-    loops: list[np.ndarray]
+    loops: list[Loop]
     centers: np.ndarray
     radii: np.ndarray
     roundness: np.ndarray
@@ -309,11 +391,11 @@ class UniformizeResult(MapReport):
         self._report = report = source.told(report)
         self._source = source
         loops = report["loops"]
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        vars(self).update(figures_of(report))
         self.options = report.get("options", {})
         self.uv = source.outside_nan(uv)
         self.uv.flags.writeable = False
-        self.loops = as_loops([loop["vertices"] for loop in loops])
+        self.loops = [Loop(loop) for loop in loops]
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
@@ -361,7 +443,7 @@ class UniformizeResult(MapReport):
 
     def __repr__(self) -> str:
         return (
-            f"<koebe.UniformizeResult {self.vertices} vertices, {len(self.loops)} loops, "
+            f"<koebe.UniformizeResult {self.vertex_count} vertices, {len(self.loops)} loops, "
             f"{self.sweeps} sweeps, angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
         )
 
@@ -372,7 +454,7 @@ class UniformizeResult(MapReport):
             for k, ((x, y), radius) in enumerate(zip(self.centers, self.radii, strict=True))
         )
         lines = [
-            f"{self.vertices:,} vertices, {self.faces:,} faces, {len(self.loops)} loops",
+            f"{self.vertex_count:,} vertices, {self.face_count:,} faces, {len(self.loops)} loops",
             f"{'converged' if self.converged else 'not converged'} in {self.sweeps} sweeps",
             f"angle error {self.angle_error_deg['mean']:.3g}°, {self.flipped} flipped",
             *(escape(str(warning)) for warning in self.warnings),

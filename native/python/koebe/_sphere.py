@@ -28,7 +28,7 @@ class SphereMap(DomainMap):
     layout           dict: kind; crossing, the faces that go beyond the layout's edge; torn, the faces round a pole or
                      round the middle of a side of the square, which no UVs fit; flipped, the faces without a positive
                      area in 32-bit UVs; below_resolution, the flipped faces that are too small for 32-bit UVs
-    loops            list of dicts, by falling length: vertices, center, radius (of the cap), roundness,
+    loops            list of Loop, by falling length: vertices, center, radius (of the cap), roundness,
                      roundness_least_squares, off_circle
     mean_point       length of the mean of the surface's points by area, 0 if the map is balanced
     converged, sweeps, changes    of the circles, or of the points of a closed surface, in each sweep
@@ -39,7 +39,7 @@ class SphereMap(DomainMap):
                      face counts as it lies
     on_sphere        dict of counts: flipped, faces that are not upright on the sphere in exact arithmetic;
                      below_resolution, those that are smaller than the resolution of 64-bit coordinates there
-    seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
+    seconds, peak_memory_mb, warnings, version    as in MapReport
     """
 
     points: np.ndarray
@@ -65,7 +65,7 @@ class SphereMap(DomainMap):
         return drawn
 
 
-@takes("sphere", SphereOptions, polygon=None, progress=None, cancel=None)
+@takes("sphere", polygon=None, progress=None, cancel=None)
 def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOptions]") -> SphereMap:
     """Map a surface of genus 0, closed or with any number of holes, conformally to the sphere, with round holes.
 

@@ -39,7 +39,7 @@ class Surface:
     0 0 True
     """
 
-    @takes("sequence", SequenceOptions)
+    @takes("sequence")
     def __init__(self, vertices: Any, triangles: Any = None, **given: "Unpack[SequenceOptions]") -> None:
         options, self._options = solver_options("sequence", given)
         self._source = surface_of(vertices, triangles, mask=given["mask"])
