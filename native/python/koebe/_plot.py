@@ -21,7 +21,7 @@ def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
 
     field   'checker': squares of the disk, 1/12 wide, mapped to the surface, which keeps their angles; 'log_scale';
             'angle_error', degrees
-    Needs matplotlib (`pip install koebe[plot]`). A notebook shows the figure; elsewhere call its savefig or show.
+    Needs matplotlib (the extra `plot`). A notebook shows the figure; elsewhere call its savefig or show.
 
     >>> import koebe
     >>> figure = koebe.plot(koebe.uniformize("blend_samples/face.obj"))
