@@ -41,7 +41,7 @@ ifndef AT_ONCE
 endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
-.PHONY: help build native programs wheel package dist matrix docs paper web lint lint-python lint-native lint-workflows check check-native check-form \
+.PHONY: help build native programs wheel package dist matrix docs paper listing web lint lint-python lint-native lint-workflows check check-native check-form \
         test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
 
 help: ## this list
@@ -105,6 +105,10 @@ docs: native build/docs/operators.json build/venv-docs/.done $(DONE)/install-doc
 build/docs/operators.json: scripts/site/blender_names.py $(ADDON_SOURCES) native/options/options.json | $(DONE)/install-blender
 	@mkdir -p $(@D)
 	scripts/in_own_home.sh $(BLENDER) scripts/site/blender_names.py $@ >$(@D)/blender.log || { cat $(@D)/blender.log; exit 1; }
+
+listing: package $(DONE)/install-blender $(DONE)/install-gui $(DONE)/install-paper ## text and pictures for extensions.blender.org: dist/listing/
+	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1920x1080x24' $(PYTHON) scripts/listing/pictures.py dist/listing
+	cp scripts/listing/listing.md dist/listing
 
 # As the Journal of Open Source Software asks for it; its own typesetting differs.
 paper: $(DONE)/install-paper ## the paper on the project: build/paper/paper.pdf

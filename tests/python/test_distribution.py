@@ -12,6 +12,7 @@ from pathlib import Path
 import cli_support
 import koebe
 import pytest
+import tomllib
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "scripts"
@@ -199,6 +200,18 @@ def test_a_binary_that_asks_too_much_is_named():
         "is for aarch64", "needs libgfortran.so.5", "needs GLIBC_2.34, GLIBCXX_3.4.29"]
     mac = facts("aarch64", ["/usr/lib/libSystem.B.dylib"], minimum_os=(13, 0), signed=False)
     assert [problem.split()[0] for problem in check.problems_of(mac, "macosx", "macosx_11_0_arm64")] == ["is", "has"]
+
+
+def test_the_page_of_the_platform_says_what_the_manifest_says():
+    said = tomllib.loads((ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8"))
+    listing = (ROOT / "scripts" / "listing" / "listing.md").read_text(encoding="utf-8")
+    table = dict(re.findall(r"(?m)^\| (.*?) \| (.*?) \|$", listing))
+    assert (table["name"], table["tagline"]) == (said["name"], said["tagline"])
+    assert table["tags"].split(", ") == said["tags"]
+    reasons = {key.split("*")[1]: text for key, text in table.items() if key.startswith("permission *")}
+    assert reasons == said["permissions"]
+    for text in [said["tagline"], *said["permissions"].values()]:  # as Blender checks them
+        assert len(text) <= 64 and text[-1].isalnum()
 
 
 def test_a_binary_does_not_say_where_it_was_built():

@@ -8,9 +8,12 @@ import { fileURLToPath } from "node:url";
 export const root = resolve(fileURLToPath(import.meta.url), "../../..");
 const shared = resolve(root, "../shared/meshes"); // scans that are not in this repository, where they are present
 
-const filesOf = (folder) => readdirSync(folder).filter((name) => name.endsWith(".obj")).sort().map((name) => join(folder, name));
+const filesOf = (folder, kinds = /\.obj$/) =>
+  existsSync(folder) ? readdirSync(folder).filter((name) => kinds.test(name)).sort().map((name) => join(folder, name)) : [];
 export const samples = filesOf(join(root, "blend_samples")).filter((path) => !path.includes("template"));
 export const good = existsSync(join(shared, "good")) ? filesOf(join(shared, "good")) : samples;
+/** Scans and models that are damaged, or no surface with holes. */
+export const bad = ["broken", "broken2", "hostile"].flatMap((name) => filesOf(join(shared, name), /\.(obj|ply|stl|off|glb)$/i));
 
 /** Text files that are no surface with holes, each with the end of its name, by the fault. */
 export const damaged = {
@@ -20,6 +23,7 @@ export const damaged = {
   "infinite.obj": "v 0 0 0\nv 1 0 inf\nv 0 1 0\nf 1 2 3\n",
   "empty.stl": "",
   "no_header.off": "hello\n",
+  "no_scene.glb": "hello\n",
   "closed.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n",
   "three_faces_at_an_edge.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n",
 };

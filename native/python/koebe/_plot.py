@@ -22,7 +22,7 @@ def plot(result: UniformizeResult, *, field: str = "checker", ax: Any = None) ->
     field   'checker': squares of the disk, 1/12 wide, mapped to the surface, which keeps their angles; 'log_scale';
             'angle_error', degrees
     ax      your own axes: plane ones for the domain, 3D ones for the surface, or a pair of both. None: a new figure
-    Needs matplotlib (`pip install koebe[plot]`). A notebook shows the figure; elsewhere call its savefig or show.
+    Needs matplotlib (the extra `plot`). A notebook shows the figure; elsewhere call its savefig or show.
 
     >>> import koebe
     >>> figure = koebe.plot(koebe.uniformize("blend_samples/face.obj"))

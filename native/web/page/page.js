@@ -168,11 +168,13 @@ async function open(name, buffer) {
   if (!formats.test(name)) return say("Koebe UV reads OBJ, PLY, STL, OFF and GLB.", true);
   try {
     let file = { name, bytes: new Uint8Array(buffer) };
-    if (/\.glb$/i.test(name)) file = await (await import("./gltf_mesh.js")).objOfGltf(name, buffer);
+    // What three.js cannot read goes to the command as it is, which says why.
+    if (/\.glb$/i.test(name)) file = await (await import("./gltf_mesh.js")).objOfGltf(name, buffer).catch(() => file);
     Object.assign(state, { file, center: null, circles: null });
     await map(false);
   } catch (error) {
     say(`${name} cannot be read: ${error.message}`, true);
+    document.body.dataset.state = "failed";
   }
 }
 
