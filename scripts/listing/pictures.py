@@ -59,8 +59,8 @@ def draw_featured(folder: Path, home: Path) -> None:
     mapped, picture = home / "mapped.blend", home / "featured.png"
     source = ROOT / "blend_samples" / "suzanne_mask.blend"
     demo.run_script("blender", ROOT / "addon" / "batch.py", ["--output", mapped, *demo.LOOK], source)
-    size = f"{SIZE[0]}x{SIZE[1]}"
-    demo.run_script("blender", ROOT / "scripts" / "render_uv.py", ["--output", picture, "--size", size], mapped)
+    drawn = ["--output", picture, "--size", f"{SIZE[0]}x{SIZE[1]}", "--samples", "16"]
+    demo.run_script("blender", ROOT / "scripts" / "render_uv.py", drawn, mapped)
     save(picture, folder / "featured.jpg")
 
 
