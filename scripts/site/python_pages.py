@@ -38,6 +38,7 @@ PAGES = {
         ],
         "family": ["family", "Family"],
         "certified_moduli": ["certified_moduli", "CertifiedModuli"],
+        "teichmueller": ["teichmueller", "TeichmuellerMap"],
         "transfer": ["transfer", "Correspondence"],
         "align_domains": ["align_domains", "DomainAlignment"],
     },

@@ -44,6 +44,7 @@ from ._shapes import (
 )
 from ._sphere import SphereMap, sphere_map
 from ._surface import Surface
+from ._teichmueller import TeichmuellerMap, teichmueller
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
 from .errors import Cancelled, FileError, InputError, KoebeError, OptionError, SolverError, TopologyError
@@ -75,6 +76,7 @@ __all__ = [
     "Surface",
     "SurfaceCut",
     "SurfacePiece",
+    "TeichmuellerMap",
     "TileMap",
     "TopologyError",
     "UV_RESOLUTION",
@@ -114,6 +116,7 @@ __all__ = [
     "separation_distance",
     "separations",
     "sphere_map",
+    "teichmueller",
     "torus_map",
     "transfer",
     "uniformize",

@@ -54,12 +54,19 @@ class Correspondence:
             f"|mu| {self.beltrami['mean']:.3g} in the mean, {self.beltrami['max']:.3g} at most>"
         )
 
-    def carry(self, field: Any) -> np.ndarray:
-        """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's, linear in each face."""
-        values = np.asarray(field, dtype=np.float64)
+    def carry(self, field: Any, *, nearest: bool = False) -> np.ndarray:
+        """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's.
+
+        nearest    False: linear in each face, float64. True: the value at the corner with the greatest weight, in the
+                   field's own type. This is for labels, which have no mean
+        """
+        values = np.asarray(field) if flag(nearest, "nearest") else np.asarray(field, dtype=np.float64)
         if values.ndim not in (1, 2) or len(values) != len(self.uv):
             raise InputError(f"the field has the shape {values.shape}, not a row for each of {len(self.uv)} vertices")
-        return np.einsum("vk,vk...->v...", self.weights, values[self.triangles[self.faces]])
+        corners = self.triangles[self.faces]
+        if nearest:
+            return values[corners[np.arange(len(corners)), self.weights.argmax(axis=1)]]
+        return np.einsum("vk,vk...->v...", self.weights, values[corners])
 
 
 @overload
@@ -71,6 +78,7 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
+    nearest: bool = False,
 ) -> Correspondence: ...
 @overload
 def transfer(
@@ -81,6 +89,7 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
+    nearest: bool = False,
 ) -> np.ndarray: ...
 def transfer(
     a: UniformizeResult,
@@ -90,6 +99,7 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
+    nearest: bool = False,
 ) -> Correspondence | np.ndarray:
     """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
 
@@ -104,6 +114,7 @@ def transfer(
                which stands for the nearest point of the surface. Then the domain is bent further, circles to circles.
                Of the maps that take landmarks to landmarks exactly and turn no face over, it takes the one with the
                least fourth power of |mu| over the surface. On a rim landmarks are vertices of both
+    nearest    True: the value at the nearest corner instead of the linear one, in the field's own type: for labels
     Holes that could not be bent onto each other give a RuntimeWarning, too. Without a hole, or with one, landmarks also
     choose the automorphism of the disk: the one that brings them nearest.
     Two results of fit_circles with the same circles already lie over each other: circle k corresponds to circle k.
@@ -125,6 +136,7 @@ def transfer(
     chosen = [] if match is None else as_indices(match, "match", len(a.loops), "loops").tolist()
     if match is not None and not chosen:
         raise InputError("the match must name each of the loops of a once, the outer one first")
+    flag(nearest, "nearest")
     pairs = _pairs(landmarks)
     on_a, on_b = (_places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
     same = _on_one_template(a, b)
@@ -137,7 +149,7 @@ def transfer(
     for warning in found["warnings"]:
         warnings.warn(str(warning), RuntimeWarning, stacklevel=2)
     places = Correspondence(**found, triangles=a.surface[1])
-    return places if field is None else places.carry(field)
+    return places if field is None else places.carry(field, nearest=nearest)
 
 
 def _on_one_template(a: UniformizeResult, b: UniformizeResult) -> bool:
