@@ -1,6 +1,7 @@
 #include "fit/circle_bending.h"
 
 #include "circles/circle_projection.h"
+#include "fit/plane_beltrami.h"
 #include "foldover/foldover_free.h"
 #include "surface/harmonic_map.h"
 
@@ -31,8 +32,10 @@ constexpr double fan_weight = 1.0;            // of the faces at a rim
 constexpr double nothing = 1e-13;             // disk units: a way that is rounding
 constexpr double thin_ring = 1.2;             // ratio of radii below which a ring is not scaled by a power
 constexpr double stored_rounding = 1.5e-7;    // twice the area that a face can lose as stored, over its longest edge
-constexpr double extremal_powers[] = {2.0, 4.0, 8.0, 16.0};  // of the energy's terms, for an extremal map
 constexpr double extremal_slack = 1e-3;
+constexpr double extremal_settled = 1e-4;
+constexpr double rim_leeway = 4.0;    // by which triangles of free rims may bend more than faces
+constexpr double least_bent = 1e-12;  // of the term of a face: scale of conformal maps
 
 Complex place_of(const PlanarPoints& points, Eigen::Index v) { return {points(v, 0), points(v, 1)}; }
 
@@ -63,7 +66,7 @@ public:
         set_turns();
     }
 
-    BendingResult run(bool extremal)
+    BendingResult run(const Extremal& extremal)
     {
         BendingResult result;
         for (const int unfoldings : {0, unfoldings_of_a_path})
@@ -113,6 +116,7 @@ private:
         const double mean = whole.empty() ? 1.0 : problem_.weight.mean();
         problem_.weight = (problem_.weight / mean).cwiseMax(least_share_of_area);
         const double total = problem_.weight.sum();
+        face_count_ = problem_.triangles.rows();
         for (std::size_t k = 0; k < input_.loops.size(); ++k) add_fan(k, total);
         problem_.floor = VectorXd::Zero(problem_.triangles.rows());
     }
@@ -333,21 +337,41 @@ private:
         }
     }
 
-    void finish(bool extremal, BendingResult& result)
+    /// The largest 2 |mu|^2 / (1 - |mu|^2) of a face.
+    double most_bent(const PlanarPoints& uv) const
+    {
+        const Triangles faces = problem_.triangles.topRows(face_count_);
+        const double mu = plane_beltrami(input_.undistorted, faces, uv).cwiseAbs().maxCoeff();
+        return std::max(2.0 * mu * mu / (1.0 - mu * mu), least_bent);
+    }
+
+    void lower_the_largest(const Extremal& extremal, const std::vector<Circle>& circles, PlanarPoints& uv)
+    {
+        const VectorXd weight = problem_.weight;
+        for (const double power : extremal.powers) {
+            FoldoverOptions options = gentle(newton_at_the_end);
+            options.least = 0.0;
+            options.power = power;
+            options.slack = extremal_slack;
+            if (extremal.free_rims) {
+                options.scale = most_bent(uv);
+                options.slack *= options.scale;
+                options.settled = extremal_settled;
+                problem_.weight.tail(weight.size() - face_count_) =
+                    std::pow(rim_leeway, -power) * weight.tail(weight.size() - face_count_);
+            }
+            minimize(uv, circles, options);
+        }
+    }
+
+    void finish(const Extremal& extremal, BendingResult& result)
     {
         const std::vector<Circle> circles = path_.at(1.0);
         minimize(result.uv, circles, gentle(newton_at_the_end));
         set_floors(result.uv);
         const FoldoverResult done = minimize(result.uv, circles, gentle(newton_at_the_end));
         result.settled = done.iterations < newton_at_the_end;
-        if (extremal)
-            for (const double power : extremal_powers) {
-                FoldoverOptions options = gentle(newton_at_the_end);
-                options.least = 0.0;
-                options.power = power;
-                options.slack = extremal_slack;
-                minimize(result.uv, circles, options);
-            }
+        lower_the_largest(extremal, circles, result.uv);
         put_on(circles, result.uv);
         result.uv.conservativeResize(input_.start.rows(), 2);
         result.newton_steps = newton_steps_;
@@ -357,6 +381,7 @@ private:
     const CirclePath& path_;
     ExecutionContext& context_;
     FoldoverProblem problem_;
+    Eigen::Index face_count_ = 0;       // of the problem's triangles, before those of the rims
     PlanarPoints start_;                // (V + loops, 2) with the circles' centres
     std::vector<Index> rim_;            // vertices on circles, loop by loop
     std::vector<std::size_t> loop_of_;  // of each of these
@@ -367,7 +392,8 @@ private:
 
 }  // namespace
 
-BendingResult bend_along(const BendingInput& input, const CirclePath& path, bool extremal, ExecutionContext& context)
+BendingResult bend_along(const BendingInput& input, const CirclePath& path, const Extremal& extremal,
+                         ExecutionContext& context)
 {
     return CircleBending(input, path, context).run(extremal);
 }

@@ -29,6 +29,14 @@ struct BendingResult {
     PlanarPoints uv;             ///< (V, 2)
     int steps = 0, newton_steps = 0;
     bool settled = false;  ///< whether the minimization ended by itself
+    bool straight = true;  ///< whether centres went straight; else on bows, which chose the isotopy class
+};
+
+/// How the largest |mu| is lowered at the end.
+struct Extremal {
+    std::vector<double> powers = {};  ///< of the sum's terms, one after another; empty: the sum itself is least
+    /// Rims may stretch as the faces do: their triangles count only where they bend more than the faces.
+    bool free_rims = false;
 };
 
 /// Takes the circles along the path in steps. In a step the ring around each hole moves, and is scaled and turned by a
@@ -39,8 +47,8 @@ struct BendingResult {
 /// area on the surface, K_f its dilatation (Hormann and Greiner 2000). To the sum are added triangles between each
 /// circle's centre and its rim, for each rim with the weight of all faces. Without them the vertices of a rim would
 /// gather on an arc, and its polygon would not be round.
-/// @param extremal minimizes a high power of this instead, so that the largest |mu| is least
 /// @throws Cancelled
-BendingResult bend_along(const BendingInput& input, const CirclePath& path, bool extremal, ExecutionContext& context);
+BendingResult bend_along(const BendingInput& input, const CirclePath& path, const Extremal& extremal,
+                         ExecutionContext& context);
 
 }  // namespace koebe

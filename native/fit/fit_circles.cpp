@@ -4,8 +4,8 @@
 #include "core/errors.h"
 #include "execution/detachable_run.h"
 #include "execution/thread_share.h"
-#include "fit/circle_bending.h"
-#include "fit/circle_path.h"
+#include "fit/bend_between.h"
+#include "fit/plane_beltrami.h"
 #include "fit/template_start.h"
 #include "foldover/untangle.h"
 #include "mesh/loop_with.h"
@@ -26,8 +26,7 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_paths = 4;  // that are tried
-constexpr double same_circle = 1e-9;   // disk units: circles as near are the surface's own
+constexpr double same_circle = 1e-9;  // disk units: circles as near are the surface's own
 
 /// The template in the order of the surface's loops.
 struct Goal {
@@ -130,23 +129,15 @@ std::vector<Index> template_circles(const std::vector<Index>& loops, const std::
                       circles.empty() ? ElementKind::none : ElementKind::loops, circles);
 }
 
-struct Bent {
-    BendingResult map;
-    bool straight = true;
-};
-
-Bent bend_to(const BendingInput& input, const std::vector<Circle>& from, const Goal& goal,
-             const std::vector<int>& match, bool extremal, ExecutionContext& context)
+BendingResult bend_to(const BendingInput& input, const std::vector<Circle>& from, const Goal& goal,
+                      const std::vector<int>& match, bool extremal, ExecutionContext& context)
 {
-    const std::vector<CirclePath> paths = paths_between(from, goal.circles);
-    BendingResult best;
-    for (std::size_t i = 0; i < std::min(paths.size(), most_paths); ++i) {
-        BendingResult result = bend_along(input, paths[i], extremal, context);
-        if (result.arrived) return {std::move(result), paths[i].straight()};
-        if (i == 0 || result.reached > best.reached) best = std::move(result);
-    }
-    refuse("faces turn over at " + formatted("%.3g", 100.0 * best.reached) + " % of the way",
-           template_circles(best.blocked, match));
+    Extremal least;
+    if (extremal) least.powers = {2.0, 4.0, 8.0, 16.0};
+    BendingResult result = bend_between(input, from, goal.circles, least, context);
+    if (result.arrived) return result;
+    refuse("faces turn over at " + formatted("%.3g", 100.0 * result.reached) + " % of the way",
+           template_circles(result.blocked, match));
 }
 
 VectorXd surface_areas(const Vertices& vertices, const Triangles& triangles)
@@ -189,13 +180,6 @@ FitBeltrami summed(const VectorXd& mu, const VectorXd& areas)
         if (mu[f] < 1.0) result.max = std::max(result.max, mu[f]);
     result.dilatation = (1.0 + result.max) / (1.0 - result.max);
     return result;
-}
-
-Vertices in_space(const PlanarPoints& uv)
-{
-    Vertices vertices = Vertices::Zero(uv.rows(), 3);
-    vertices.leftCols<2>() = uv;
-    return vertices;
 }
 
 /// Takes the loops in the template's order, the unit circle first.
@@ -324,12 +308,12 @@ private:
         if (goal.circles.size() > 1 || pinned) {
             const BendingInput input{
                 whole_.surface.triangles, whole_.loops, map.off_circle, undistorted_, start.uv, areas_, goal.rims};
-            Bent bent = bend_to(input, start.circles, goal, start.match, options_.extremal, context);
-            map.uv = std::move(bent.map.uv);
+            BendingResult bent = bend_to(input, start.circles, goal, start.match, options_.extremal, context);
+            map.uv = std::move(bent.uv);
             result_.straight = bent.straight;
-            result_.bending_steps = bent.map.steps;
-            result_.newton_steps = bent.map.newton_steps;
-            if (!bent.map.settled) {
+            result_.bending_steps = bent.steps;
+            result_.newton_steps = bent.newton_steps;
+            if (!bent.settled) {
                 result_.converged = false;
                 result_.warnings.push_back(
                     {WarningKind::not_converged, "the fit ended before its |mu| was least; the map is one to one"});
@@ -349,7 +333,7 @@ private:
             return std::ranges::count(std::vector{flipped, below_resolution, not_one_to_one, lost_area, off_circle},
                                       warning.kind) > 0;
         });
-        result_.bending = summed(face_mu(in_space(undistorted_), whole_.surface.triangles, map.uv), areas_);
+        result_.bending = summed(plane_beltrami(undistorted_, whole_.surface.triangles, map.uv).cwiseAbs(), areas_);
         reorder(whole_, map, start.match);
         result_.residual = largest_miss(whole_, map);
         report_map(vertices_, triangles_, whole_, map, result_);

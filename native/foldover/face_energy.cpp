@@ -47,8 +47,8 @@ FaceDerivatives FaceEnergy::derivatives(const FaceMap& map, double floor, double
     double value = n * inverse, first = 1.0;
     if (power != 1.0) {
         const double t = excess(value);
-        first = 0.5 * power * std::pow(t, power - 1.0);
-        const double second = 0.25 * power * (power - 1.0) * std::pow(t, power - 2.0);
+        first = 0.5 * power / scale * std::pow(t, power - 1.0);
+        const double second = 0.25 * power * (power - 1.0) / (scale * scale) * std::pow(t, power - 2.0);
         plane = {first * plane.m00 + second * g0 * g0, first * plane.m01 + second * g0 * g1,
                  first * plane.m11 + second * g1 * g1};
         value = std::pow(t, power);

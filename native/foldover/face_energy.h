@@ -85,13 +85,14 @@ struct FaceDerivatives {
 struct FaceEnergy {
     double area_weight, power, slack;
     double epsilon = 1.0;
+    double scale = 1.0;
 
     double chi(double d) const
     {
         const double root = std::sqrt(epsilon * epsilon + d * d);
         return d > 0.0 ? 0.5 * (d + root) : 0.5 * epsilon * epsilon / (root - d);
     }
-    double excess(double term) const { return std::max(0.5 * term - 1.0, 0.0) + slack; }
+    double excess(double term) const { return (std::max(0.5 * term - 1.0, 0.0) + slack) / scale; }
     double operator()(const FaceMap& map, double floor) const
     {
         const double d = map.determinant();

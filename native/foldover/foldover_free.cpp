@@ -26,7 +26,7 @@ public:
     FoldoverMinimizer(FoldoverProblem& problem, const FoldoverOptions& options)
         : problem_(problem),
           options_(options),
-          energy_{options.area_weight, options.power, options.slack},
+          energy_{options.area_weight, options.power, options.slack, 1.0, options.scale},
           system_(problem, options.pattern)
     {
         for (const Eigen::Matrix2d& reference : problem.reference) shapes_.emplace_back(reference);

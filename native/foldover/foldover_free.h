@@ -19,6 +19,7 @@ struct FoldoverOptions {
     bool strict = false;               ///< no step crosses a floor: a foldover-free map stays foldover-free
     double power = 1.0;                ///< s >= 1: see below
     double slack = 0.0;                ///< delta: see below
+    double scale = 1.0;                ///< c: see below
     /// The pattern of the last problem with the same triangles and lifts, or an empty one; it holds the pattern of this
     /// problem afterwards. Null: the pattern is made anew.
     NewtonPattern* pattern = nullptr;
@@ -37,9 +38,9 @@ struct FoldoverResult {
 /// determinant rises. Pulled vertices add pull ((|z - c| - r) / r)^2, or pull (|z - c| / r)^2 if pulled to centres.
 /// (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, "Foldover-free maps in 50 lines of code", sections
 /// 2 and 3.) Uses Newton's method on Hessians made positive semidefinite face by face. With a power s > 1 each term t
-/// becomes (t / 2 - 1 + delta)^s. With theta = 0 this is (2 |mu|^2 / (1 - |mu|^2) + delta)^s. With s > 1 single held
-/// vertices change the minimum on fine meshes, too. A larger s lowers the greatest |mu| more; delta keeps the Hessian
-/// regular.
+/// becomes ((t / 2 - 1 + delta) / c)^s. With theta = 0 this is ((2 |mu|^2 / (1 - |mu|^2) + delta) / c)^s. With s > 1
+/// single held vertices change the minimum on fine meshes, too. A larger s lowers the greatest |mu| more; delta keeps
+/// the Hessian regular, and a c near the largest t / 2 - 1 keeps large powers in the range of doubles.
 /// @return problem.points holds the result, with or without foldovers
 FoldoverResult minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
                                       const FoldoverOptions& options = {});

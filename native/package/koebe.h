@@ -13,6 +13,7 @@
 #include "cut/open_surface.h"
 #include "execution/execution.h"
 #include "fit/fit_circles.h"
+#include "fit/teichmueller.h"
 #include "flatten/flatten.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"

@@ -5,8 +5,10 @@
 #include "report_object.h"
 
 #include "fit/fit_circles.h"
+#include "fit/teichmueller.h"
 #include "report/fit_json.h"
 
+#include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -51,6 +53,24 @@ void bind_fit(py::module_& m)
             return fit_circles(vertices, triangles, wanted, {.map = options, .extremal = extremal}, context);
         });
     });
+    py::class_<TeichmuellerMap>(m, "TeichmuellerMap")
+        .def_readonly("dilatation", &TeichmuellerMap::dilatation)
+        .def_readonly("lower", &TeichmuellerMap::lower)
+        .def_readonly("largest", &TeichmuellerMap::largest)
+        .def_property_readonly("distance", &TeichmuellerMap::distance)
+        .def_property_readonly("mu", [](const TeichmuellerMap& map) { return map.mu; })
+        .def_property_readonly("uv", [](const TeichmuellerMap& map) { return map.uv; })
+        .def_readonly("match", &TeichmuellerMap::match)
+        .def_readonly("straight", &TeichmuellerMap::straight)
+        .def_readonly("flipped", &TeichmuellerMap::flipped)
+        .def_readonly("newton_steps", &TeichmuellerMap::newton_steps);
+    m.def("teichmueller_map", [](const MappedSurface& a, const PlanarPoints& centers, const VectorXd& radii,
+                                 const std::vector<int>& match, const py::object& progress, const CancelToken& cancel) {
+        return without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return teichmueller_map(a, circles_of(centers, radii), match, context);
+        });
+    });
+    m.def("torus_dilatation", &torus_dilatation);
 }
 
 }  // namespace koebe::python

@@ -39,6 +39,7 @@ PAGES = {
         ],
         "family": ["family", "Family"],
         "certified_moduli": ["certified_moduli", "CertifiedModuli"],
+        "teichmueller": ["teichmueller", "TeichmuellerMap"],
         "transfer": ["transfer", "Correspondence"],
         "align_domains": ["align_domains", "DomainAlignment"],
     },

@@ -93,6 +93,16 @@ void one_surface(const koebe::Vertices& vertices, const koebe::Triangles& triang
     require(fitted.distortion.flipped.empty() && fitted.mu.maxCoeff() < 1.0);
     // [end]
 
+    // [teichmueller_map]
+    const koebe::MappedSurface mapped{vertices, triangles, map.uv, map.loops};
+    const koebe::TeichmuellerMap extremal = koebe::teichmueller_map(mapped, {{}, {0.2, 0.25}}, {}, context);
+    require(extremal.flipped == 0 && extremal.dilatation >= 1.0 && extremal.dilatation <= extremal.largest);
+    // [end]
+
+    // [torus_dilatation]
+    require(std::abs(koebe::torus_dilatation({0.0, 1.0}, {1.0, 3.0}) - 3.0) < 1e-12);
+    // [end]
+
     // [measure_distortion]
     const koebe::ComputedDistortion distortion = koebe::measure_distortion(vertices, triangles, map.uv);
     require(distortion.angle_error_deg.mean < 1.0);  // degrees

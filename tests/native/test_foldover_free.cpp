@@ -84,7 +84,8 @@ TEST(FoldoverFree, a_face_has_the_gradient_and_the_positive_part_of_the_hessian_
     upright << 0.1, 0.2, 1.3, 0.1, 0.6, 0.9;
     folded << 0.1, 0.2, 1.3, 0.1, 0.6, -0.5;
     similar << 0.0, 0.0, 0.0, 2.0, -1.6, 0.6;
-    for (const FaceEnergy& energy : {FaceEnergy{1.0 / 128.0, 1.0, 0.0, 0.3}, FaceEnergy{0.0, 3.0, 0.01, 1e-3}})
+    for (const FaceEnergy& energy : {FaceEnergy{1.0 / 128.0, 1.0, 0.0, 0.3}, FaceEnergy{0.0, 3.0, 0.01, 1e-3},
+                                     FaceEnergy{0.0, 3.0, 0.01, 1e-3, 0.2}})
         for (const Corners& at : {upright, folded, similar}) {
             if (energy.power != 1.0 && at == folded) continue;  // of the order of 1e18
             const auto map = [&](const Corners& x) {

@@ -134,6 +134,49 @@ def test_fits_to_one_template_correspond():
     assert np.linalg.norm(there.points - finer[0], axis=1).mean() < 0.03
 
 
+def test_labels_stay_labels_and_come_back():
+    other = koebe.fit_circles(plate(16, 0.2), SPOTS, [0.2, 0.3, 0.1])
+    there, back = koebe.transfer(FIT, other), koebe.transfer(other, FIT)
+    labels = np.where(PLATE[0][:, 0] > 0.5, 7, 3).astype(np.int16)
+    carried = there.carry(labels)
+    assert carried.dtype == np.int16 and set(carried) == {3, 7}
+    assert np.mean(back.carry(carried) == labels) > 0.95
+    words = np.array(["left", "right"])[(labels == 7).astype(int)]
+    assert set(koebe.transfer(FIT, other, words)) == {"left", "right"}
+    with pytest.raises(TypeError):
+        there.carry(labels, labels=1)
+
+
+def test_a_field_comes_back_from_the_template_exactly():
+    times = PLATE[0] @ [3.0, -2.0, 0.5]
+    assert np.allclose(koebe.transfer(FIT, FIT).carry(times), times, atol=1e-9)
+
+
+def test_the_least_mu_of_a_flat_ring():
+    # Radii r -> exp(g(log r)): the sum is least if exp(2 x) (1 - 1 / g'(x)^2) is constant.
+    inner, goal, sectors, rings = 0.2, 0.5, 78, 20
+    steps = np.exp(np.linspace(0, np.log(inner), rings + 1))
+    angle = 2 * np.pi * (np.arange(sectors)[None] + 0.5 * (np.arange(rings + 1)[:, None] % 2)) / sectors
+    points = np.stack([steps[:, None] * np.cos(angle), steps[:, None] * np.sin(angle), 0 * angle], 2).reshape(-1, 3)
+    number = np.arange(len(points)).reshape(rings + 1, sectors)
+    a, b, c, d = number[:-1], np.roll(number[:-1], -1, 1), number[1:], np.roll(number[1:], -1, 1)
+    even = (np.arange(rings) % 2 == 0)[:, None, None]
+    first = np.where(even, np.stack([a, c, b], 2), np.stack([a, d, b], 2))
+    second = np.where(even, np.stack([b, c, d], 2), np.stack([a, c, d], 2))
+    fit = koebe.fit_circles((points, np.concatenate([first, second]).reshape(-1, 3)), [(0, 0)], [goal])
+    x = np.linspace(np.log(inner), 0, 20001)
+    low, high = -1e6, inner**2
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        slope = (1 - middle * np.exp(-2 * x)) ** -0.5
+        low, high = (middle, high) if np.mean(slope) * -np.log(inner) < -np.log(goal) else (low, middle)
+    mu = abs(slope - 1) / (slope + 1)
+    assert fit.fit["bending"]["mean"] == pytest.approx((np.exp(2 * x) * mu).sum() / np.exp(2 * x).sum(), rel=0.01)
+    way = np.concatenate([[0], np.cumsum((slope[1:] + slope[:-1]) / 2 * np.diff(x))])
+    exact = np.exp(np.interp(np.log(np.hypot(*points[:, :2].T)), x, way - way[-1]))
+    assert np.allclose(np.hypot(*fit.uv.T), exact, atol=5e-4)
+
+
 def test_no_module_but_saved_and_loaded(tmp_path):
     with pytest.raises(koebe.InputError, match="no conformal module"):
         koebe.conformal_module(FIT)

@@ -11,6 +11,7 @@
 
 #include "core/errors.h"
 #include "execution/detachable_run.h"
+#include "fit/teichmueller.h"
 #include "io/atomic_file.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
@@ -29,7 +30,7 @@ constexpr const char* to_standard_output = "-";
 struct CompareRequest : FamilyRequest {
     std::string first, second, json;
     std::string loops = "match";
-    bool any_outer = false, with_json = false;
+    bool any_outer = false, with_json = false, teichmueller = false;
 
     bool to_file() const { return with_json && json != to_standard_output; }
     std::vector<OutputFile> files() const { return {{"--json", to_file() ? json : ""}, {"--csv", csv}}; }
@@ -65,6 +66,23 @@ int run_family(const CompareRequest& request, const CancelToken& token)
     return write_table(family, distance_table(family), request.csv, token);
 }
 
+nlohmann::ordered_json teichmueller_json(const TeichmuellerMap& map)
+{
+    return {{"distance", map.distance()}, {"dilatation", map.dilatation}, {"lower", map.lower},
+            {"largest", map.largest},     {"match", map.match},           {"path", map.straight ? "straight" : "bows"},
+            {"flipped", map.flipped}};
+}
+
+/// The map of one surface to the other, loops matched as in `match`.
+TeichmuellerMap extremal_map_of(const ShapeInput& a, const ShapeInput& b, const LoopMatch& match,
+                                ExecutionContext& context)
+{
+    std::vector<int> partners(match.order_a.size());
+    for (std::size_t k = 0; k < partners.size(); ++k)
+        partners[static_cast<std::size_t>(match.order_a[k])] = match.order_b[k];
+    return teichmueller_map(a.surface, b.circles, partners, context);
+}
+
 int run_compare(const CompareRequest& request)
 {
     const CancelToken token = cancel_on_signal();
@@ -77,9 +95,17 @@ int run_compare(const CompareRequest& request)
     const LoopMatch match = run_detachable<LoopMatch>(context, [request, a, b](ExecutionContext& own) {
         return request.loops == "match" ? match_loops(a.circles, b.circles, request.any_outer, own) : by_length(a, b);
     });
+    double distance = match.distance;
+    nlohmann::ordered_json extremal;
+    if (request.teichmueller) {
+        const TeichmuellerMap map = extremal_map_of(a, b, match, context);
+        distance = map.distance();
+        extremal = teichmueller_json(map);
+    }
     if (request.with_json) {
-        const nlohmann::ordered_json report{
-            {"distance", match.distance}, {"a", module_json(a, match.order_a)}, {"b", module_json(b, match.order_b)}};
+        nlohmann::ordered_json report{
+            {"distance", distance}, {"a", module_json(a, match.order_a)}, {"b", module_json(b, match.order_b)}};
+        if (request.teichmueller) report["teichmueller"] = extremal;
         if (to_file) {
             AtomicFile file(request.json);
             file.write(json_text(report));
@@ -91,7 +117,7 @@ int run_compare(const CompareRequest& request)
     }
     if (!request.with_json || to_file) {
         char line[64];
-        std::snprintf(line, sizeof line, "distance %.9g\n", match.distance);
+        std::snprintf(line, sizeof line, "distance %.9g\n", distance);
         print(line, to_file ? "; the file is written" : "");
     }
     return a.converged && b.converged ? done : not_converged;
@@ -107,8 +133,8 @@ void settle_words(CompareRequest& request, const CLI::Option& json)
     }
     if (request.json.empty()) request.json = to_standard_output;
     if (!request.csv.empty()) {
-        if (request.with_json || request.any_outer || request.loops != "match")
-            throw CLI::ValidationError("--csv", "excludes --json, --loops and --any-outer");
+        if (request.with_json || request.any_outer || request.teichmueller || request.loops != "match")
+            throw CLI::ValidationError("--csv", "excludes --json, --loops, --any-outer and --teichmueller");
         if (request.first.empty()) throw CLI::RequiredError("FOLDER");
         require_different_files(request.files(), {request.first, request.second}, false);
         return;
@@ -116,6 +142,7 @@ void settle_words(CompareRequest& request, const CLI::Option& json)
     require_csv(request);
     if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
     if (request.any_outer && request.loops != "match") throw CLI::ValidationError("--any-outer", "needs --loops match");
+    if (request.any_outer && request.teichmueller) throw CLI::ValidationError("--teichmueller", "excludes --any-outer");
     require_different_files(request.files(), {request.first, request.second}, true);
 }
 
@@ -135,6 +162,10 @@ Subcommand add_compare(CLI::App& app)
         ->capture_default_str();
     options->add_flag("--any-outer", request->any_outer,
                       "with match: the outer loop of one surface may correspond to a hole of the other surface");
+    options->add_flag(
+        "--teichmueller", request->teichmueller,
+        "the Teichmueller distance instead, log(K) / 2: K is the least dilatation of a map of one surface "
+        "to the other");
     add_family_options(*options, *request,
                        "a row for each pair of the folder's shapes. All have one order of the loops, so the triangle "
                        "inequality holds",

@@ -10,6 +10,7 @@
 #include "shape/module_error.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace koebe::cli {
 
@@ -24,7 +25,7 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
         with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
 
     require_own_circles(result.loops);
-    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, {}, result.converged, {}};
+    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, {}, {}, result.converged, {}};
     add_input_warnings(input, result.warnings);
     shape.warnings = std::move(result.warnings);
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
@@ -34,6 +35,7 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
     }
     if (with_refined)
         shape.refined = refined_circles(input.polygons.vertices, triangles, result.loops, options, context);
+    shape.surface = {input.polygons.vertices, triangles, std::move(result.uv), std::move(result.loops)};
     return shape;
 }
 

@@ -4,6 +4,7 @@
 #include "cli/commands/subcommand.h"
 #include "execution/execution.h"
 #include "pipeline/result.h"
+#include "transfer/landmark_map.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,7 @@ struct ShapeInput {
     std::string name;             ///< of the file
     std::vector<Circle> circles;  ///< the outer one first, then by length
     std::vector<Circle> refined;  ///< circles of the same loops on a finer mesh (refined_circles), if requested
+    MappedSurface surface;        ///< the mesh and its map
     std::vector<Index> ranks;     ///< rank of each circle's loop, by lowest vertex as in `koebe fill`
     bool converged = false;
     std::vector<Warning> warnings;

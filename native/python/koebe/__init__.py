@@ -45,6 +45,7 @@ from ._shapes import (
 )
 from ._sphere import SphereMap, sphere_map
 from ._surface import Surface
+from ._teichmueller import TeichmuellerMap, teichmueller
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
 from ._vertex_fields import VertexField, read_field, read_region, write_field
@@ -79,6 +80,7 @@ __all__ = [
     "Surface",
     "SurfaceCut",
     "SurfacePiece",
+    "TeichmuellerMap",
     "TileMap",
     "TopologyError",
     "UV_RESOLUTION",
@@ -122,6 +124,7 @@ __all__ = [
     "separation_distance",
     "separations",
     "sphere_map",
+    "teichmueller",
     "torus_map",
     "transfer",
     "uniformize",

@@ -59,8 +59,9 @@ class Correspondence:
         """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's.
 
         labels   True: each vertex takes one of the labels at its triangle's corners: the label of greatest weight.
-                 False: values are linear in each face. None: as labels if the field has whole numbers or booleans
-        A vertex of b without a face has the label -1 (False among booleans, and 0 in unsigned types), or the value NaN.
+                 False: values are linear in each face. None: as labels if the field has whole numbers, booleans or words
+        A vertex of b without a face has the label -1 (False among booleans, 0 in unsigned types, no word), or the value
+        NaN.
         """
         return carried(field, self.triangles, self.faces, self.weights, len(self.uv), labels)
 
@@ -72,10 +73,12 @@ def carried(
     values = np.asarray(field)
     if values.ndim not in (1, 2) or len(values) != count:
         raise InputError(f"the field has the shape {values.shape}, not a row for each of {count} vertices")
-    if values.dtype.kind not in "fiub":
-        raise InputError(f"the field must have numbers, not {values.dtype}")
+    if values.dtype.kind not in "fiubU":
+        raise InputError(f"the field must have numbers or words, not {values.dtype}")
     as_labels = values.dtype.kind != "f" if labels is None else flag(labels, "labels")
     corners, known = triangles[faces], faces >= 0
+    if not as_labels and values.dtype.kind == "U":
+        raise InputError("words have no mean: carry them as labels")
     if not as_labels:
         linear = np.einsum("vk,vk...->v...", weights, values[corners].astype(np.float64))
         return np.where(known.reshape(-1, *(1,) * (values.ndim - 1)), linear, np.nan)
@@ -85,7 +88,7 @@ def carried(
     here = values[corners]
     votes = np.einsum("vk,vjk->vj", np.nan_to_num(weights), here[:, :, None] == here[:, None, :])
     chosen = np.take_along_axis(here, votes.argmax(axis=1)[:, None], axis=1)[:, 0]
-    nothing = {"i": -1, "u": 0, "b": False, "f": np.nan}[values.dtype.kind]
+    nothing = {"i": -1, "u": 0, "b": False, "f": np.nan, "U": ""}[values.dtype.kind]
     return np.where(known, chosen, np.array(nothing, values.dtype))
 
 
@@ -124,7 +127,7 @@ def transfer(
     then bends it in small harmonic steps until the holes are the same circles: nothing is lost at the rims, and no face
     turns over, but it is quasi-conformal where the holes differ.
     field      (V_a,) or (V_a, k) at a's vertices: returns its values at b's vertices, (V_b,) or (V_b, k): numbers as
-               float64, labels (whole numbers, booleans) as labels of the same type. None: returns the Correspondence
+               float64, labels (whole numbers, booleans, words) as labels of the same type. None: returns the Correspondence
     match      a's loop for each of b's, 0 for 0; None: by match_loops or, with landmarks and up to five holes, the
                match that brings circles and landmarks nearest
     landmarks  pairs (on a, on b) that must correspond. Each is a vertex, or a point (x, y, z) in the surface's unit,

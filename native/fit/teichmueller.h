@@ -1,0 +1,45 @@
+// The extremal quasiconformal map of one circle domain to another, and the Teichmueller distance.
+#pragma once
+
+#include "circles/circle.h"
+#include "core/api.h"
+#include "execution/execution.h"
+#include "transfer/landmark_map.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace koebe {
+
+struct TeichmuellerMap {
+    double dilatation = 1.0;  ///< K of the extremal map, near the root of `lower` and the map's mean K along q
+    double lower = 1.0;       ///< no map in the same isotopy class has a smaller largest dilatation, up to the mesh
+    double largest = 1.0;     ///< largest dilatation of a face of this map, so K is at most this, up to the mesh
+    VectorXd mu;              ///< (F) |mu| of each face, from a's circle domain; 1: a face without area there
+    PlanarPoints uv;          ///< (V, 2) of a's vertices in b's domain
+    std::vector<int> match;   ///< b's loop for each of a's
+    bool straight = true;     ///< whether centres went straight; else on bows, which chose the isotopy class
+    std::size_t flipped = 0;  ///< faces that were upright in a's domain, and are not in b's
+    int newton_steps = 0;
+
+    double distance() const { return 0.5 * std::log(dilatation); }
+};
+
+/// The map of a's domain to b's with the least largest |mu|, as near as the mesh comes: circles move to their places
+/// without meeting (bend_between), and then sums of |mu| to rising powers are minimized, up to the 128th. Rim vertices
+/// slide. K is told by Reich's and Strebel's inequalities (dilatation_bounds), and for a ring by the two moduli.
+/// The Teichmueller distance is log(K) / 2. How holes wind around each other is chosen as in fit_circles.
+/// @param a all loops with circles of its own @param b circles, the unit circle first
+/// @param match b's loop for each of a's, 0 for 0; empty: match_loops
+/// @throws InputError different numbers of loops, not a circle domain, circles that are not the surface's own, not a
+/// permutation; SolverError no such map was found (a's loops listed); Cancelled
+KOEBE_API TeichmuellerMap teichmueller_map(const MappedSurface& a, const std::vector<Circle>& b,
+                                           const std::vector<int>& match, ExecutionContext& context);
+
+/// K of the extremal map between two flat tori, over all markings: exp of the hyperbolic distance of their moduli in
+/// the upper half-plane, least over the modular group.
+/// @param a, b ratios of periods, above the real axis @throws InputError
+KOEBE_API double torus_dilatation(Complex a, Complex b);
+
+}  // namespace koebe

@@ -1,0 +1,122 @@
+"""The extremal quasiconformal map of one domain to another, and the Teichmueller distance."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ._arrays import as_circles, as_indices
+from ._native import _koebe
+from ._options import callback, token
+from ._result import UniformizeResult
+from ._shapes import _require_own_circles, mapped_surface
+from ._tiles import TileMap
+from .errors import InputError
+
+
+@dataclass(frozen=True)
+class TeichmuellerMap:
+    """The extremal map of a to b: of all one-to-one maps the one whose largest |mu| is least.
+
+    K           its dilatation, at least 1. 1: a conformal map takes a to b
+    distance    the Teichmueller distance, log(K) / 2
+    lower       no map has a smaller largest dilatation, up to the error of the mesh; of maps that go round the holes as
+                this one
+    largest     largest dilatation of a face of this map, so K is at most this, up to the error of the mesh
+    mu          (F,) |mu| of each face of a, from a's circle domain. Nearly (K - 1) / (K + 1) everywhere; 1 for a face
+                without area there
+    uv          (V, 2) places of a's vertices in b's domain; None for tori and rings that are TileMaps
+    match       (L,) b's loop for each of a's
+    path        'straight', or 'bows' if holes had to go round each other
+    flipped     faces that the map turns over: 0
+    """
+
+    K: float
+    distance: float
+    lower: float
+    largest: float
+    mu: np.ndarray
+    uv: np.ndarray | None
+    match: np.ndarray
+    path: str
+    flipped: int
+
+    def __repr__(self) -> str:
+        return f"<koebe.TeichmuellerMap K {self.K:.5g}, distance {self.distance:.4g}, {self.flipped} flipped>"
+
+
+def teichmueller(
+    a: Any,
+    b: Any,
+    *,
+    match: Sequence[int] | None = None,
+    progress: Callable[[float, str], Any] | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
+) -> TeichmuellerMap:
+    """The extremal quasiconformal map of circle domain a to circle domain b, and the Teichmueller distance.
+
+    Rims go to rims and slide along them. |mu| is constant for the exact map. Koebe minimizes rising powers of |mu| on
+    a's mesh and tells K from a quadratic differential, by the inequalities of Reich and Strebel.
+    a           a result of uniformize
+    b           a result of uniformize with equally many loops, or an object with `centers` and `radii`
+    match       b's loop for each of a's, 0 for 0; None: by match_loops
+    progress, cancel    as for `uniformize`
+    Two results of torus_map without holes, or of ring_map without further holes, are compared by their moduli, exactly.
+    With three holes or more there are many ways round the holes, and each has its own K. The circles take the way of
+    fit_circles: straight if there is room. So K is an upper bound for the least K of all ways.
+    Raises InputError for different numbers of loops and circles that are not the surface's own, SolverError if no
+    one-to-one map was found, with a's loops as `elements`, Cancelled.
+
+    >>> import koebe
+    >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
+    >>> extremal = koebe.teichmueller(face, other)
+    >>> print(f"{extremal.K:.2f} {extremal.distance:.2f}", extremal.flipped)
+    1.16 0.07 0
+    """
+    if isinstance(a, TileMap) or isinstance(b, TileMap):
+        return _of_tiles(a, b)
+    if not isinstance(a, UniformizeResult):
+        raise TypeError(f"teichmueller takes a result of uniformize first, not {type(a).__name__}")
+    _require_own_circles(a)
+    _require_own_circles(b)
+    centers, radii = as_circles(b)
+    partners = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(radii), "loops")
+    if match is not None and not len(partners):
+        raise InputError("the match must name each of b's loops once, the outer one first")
+    run = callback(progress, "progress"), token(cancel, "cancel")
+    native = _koebe.teichmueller_map(mapped_surface(a), centers, radii, partners, *run)
+    return TeichmuellerMap(
+        native.dilatation,
+        native.distance,
+        native.lower,
+        native.largest,
+        native.mu,
+        native.uv,
+        np.array(native.match, np.int32),
+        "straight" if native.straight else "bows",
+        native.flipped,
+    )
+
+
+def _of_tiles(a: Any, b: Any) -> TeichmuellerMap:
+    """Flat tori and cylinders: affine maps are extremal."""
+    for tile in (a, b):
+        if not isinstance(tile, TileMap):
+            raise TypeError(f"a torus or ring is compared with another one, not with {type(tile).__name__}")
+        if tile.even:
+            raise InputError("the maps are made more even: give conformal ones")
+    rims = [0 if len(tile.periods) == 2 else 2 for tile in (a, b)]
+    if rims[0] != rims[1]:
+        raise InputError("a torus cannot be compared with a ring")
+    if any(len(tile.loops) != count for tile, count in zip((a, b), rims, strict=True)):
+        raise InputError("the tori or rings have further holes: give results of uniformize")
+    if rims[0]:
+        ratio = a.modulus.imag / b.modulus.imag
+        dilatation = max(ratio, 1 / ratio)
+    else:
+        dilatation = _koebe.torus_dilatation(a.modulus, b.modulus)
+    mu = np.full(len(a.uv), (dilatation - 1) / (dilatation + 1))
+    loops = np.arange(rims[0], dtype=np.int32)
+    return TeichmuellerMap(dilatation, math.log(dilatation) / 2, dilatation, dilatation, mu, None, loops, "straight", 0)
