@@ -59,7 +59,7 @@ class Correspondence:
         """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's.
 
         labels   True: each vertex takes one of the labels at its triangle's corners: the label of greatest weight.
-                 False: values are linear in each face. None: as labels if the field has whole numbers, booleans or words
+                 False: values are linear in each face. None: as labels, unless the field has floats
         A vertex of b without a face has the label -1 (False among booleans, 0 in unsigned types, no word), or the value
         NaN.
         """
@@ -127,7 +127,7 @@ def transfer(
     then bends it in small harmonic steps until the holes are the same circles: nothing is lost at the rims, and no face
     turns over, but it is quasi-conformal where the holes differ.
     field      (V_a,) or (V_a, k) at a's vertices: returns its values at b's vertices, (V_b,) or (V_b, k): numbers as
-               float64, labels (whole numbers, booleans, words) as labels of the same type. None: returns the Correspondence
+               float64, labels (whole numbers, booleans, words) as labels. None: returns the Correspondence
     match      a's loop for each of b's, 0 for 0; None: by match_loops or, with landmarks and up to five holes, the
                match that brings circles and landmarks nearest
     landmarks  pairs (on a, on b) that must correspond. Each is a vertex, or a point (x, y, z) in the surface's unit,
