@@ -79,12 +79,13 @@ $(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) native/op
 # One wheel a platform, for every Python, and its zip: from pinned sources, cross compiling (CONTRIBUTING.md). An hour of
 # two cores for the first of all five, a quarter of that for one.
 PLATFORMS ?= linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
+PYTHONS ?= 3.10 3.11 3.12 3.13 3.14
 
-dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS, and the source package: dist/
-	scripts/dist.sh build/venv-dist $(PLATFORMS)
+dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS for PYTHONS, and the source package: dist/
+	PYTHONS="$(PYTHONS)" scripts/dist.sh build/venv-dist $(PLATFORMS)
 	$(PYTHON) scripts/package_extension.py --release
 	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist .
-	$(PYTHON) scripts/check_dist.py dist
+	$(PYTHON) scripts/check_dist.py dist $(PYTHONS)
 	scripts/audit_wheels.sh build/venv-dist dist
 
 # As root: other Debians in folders, wine and qemu. Two hours and 10 GB the first time; NAMES="debian12 windows" takes some.

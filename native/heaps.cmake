@@ -24,3 +24,14 @@ function(koebe_heaps target name count)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP DISABLE_PRECOMPILE_HEADERS ON)
   endif()
 endfunction()
+
+# Moves those SOURCES that have an include of this form into one heap: what it reads takes seconds to read, and to
+# instantiate.
+function(koebe_heap_of target name include)
+  foreach(source IN LISTS ARGN)
+    file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${source} found REGEX "#include ${include}")
+    if(found)
+      set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${name})
+    endif()
+  endforeach()
+endfunction()

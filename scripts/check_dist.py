@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Check the wheels of `make dist` by what their binaries ask of a system, and what is in the source package.
 
-Usage: check_dist.py FOLDER     Standard library only.
+Usage: check_dist.py FOLDER PYTHON...     PYTHON: each wheel has a module for it, as 3.10. Standard library only.
 """
 
 import re
@@ -14,7 +14,6 @@ from binary_facts import Facts, facts_of
 from sbom import NAME as SBOM
 
 BINARIES = (".so", ".dylib", ".dll", ".pyd", ".exe", "bin/koebe")
-PYTHONS = ("310", "311", "312", "313", "314")
 MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
 # Of the system alone: what every machine of it has. manylinux's list [PEP 600], and Windows 10's.
 SYSTEM_LIBRARIES = {
@@ -70,16 +69,18 @@ def sources_told(folder: Path) -> int:
 
 
 def main() -> None:
-    bad = sources_told(Path(sys.argv[1]))
-    wheels = sorted(Path(sys.argv[1]).glob("koebe-*-py3-none-*.whl"))
+    folder = Path(sys.argv[1])
+    pythons = [python.replace(".", "") for python in sys.argv[2:]]
+    bad = sources_told(folder)
+    wheels = sorted(folder.glob("koebe-*-py3-none-*.whl"))
     if not wheels:
-        raise SystemExit(f"no wheels in {sys.argv[1]}")
+        raise SystemExit(f"no wheels in {folder}")
     for wheel in wheels:
         tag = wheel.stem.rsplit("-", 1)[1]
         system = re.match(r"[a-z]+", tag)[0]
         with zipfile.ZipFile(wheel) as archive:
             binaries = [name for name in archive.namelist() if name.endswith(BINARIES)]
-            missing = [python for python in PYTHONS if not any(f"_koebe.cp{python}-" in name or f"-{python}-" in name
+            missing = [python for python in pythons if not any(f"_koebe.cp{python}-" in name or f"-{python}-" in name
                                                                for name in binaries)]
             said = [f"has no module for Python {python}" for python in missing]
             needs: set[str] = set()

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Build the wheels of one or more platforms from pinned sources, cross compiling, each for every Python: dist/*.whl
-# Usage: scripts/dist.sh VENV PLATFORM...     PLATFORM: linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
+# Build the wheels of one or more platforms from pinned sources, cross compiling, each for all Pythons: dist/*.whl
+# Usage: PYTHONS="3.10 3.14" scripts/dist.sh VENV PLATFORM...
+#        PLATFORM: linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
 #        VENV: a virtual environment with native/bundle/requirements.txt
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -27,7 +28,8 @@ for platform in "$@"; do
     cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DKOEBE_BUNDLE=ON -DKOEBE_TARGET="$target" \
         -DCMAKE_TOOLCHAIN_FILE="$PWD/native/bundle/zig.cmake" -DKOEBE_ZIG="$packages/ziglang/zig" \
         -Dpybind11_include="$packages/pybind11/include" \
-        -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
+        -DKOEBE_PYTHONS="${PYTHONS// /;}" -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
+    rm -f "$folder"/koebe/_koebe.* # of Pythons that are not wanted now
     cmake --build "$folder"
     "$venv/bin/python" scripts/pack_wheel.py bundle "$folder" "py3-none-$tag" dist
 done

@@ -4,6 +4,7 @@
 import functools
 from typing import Any
 
+import bmesh
 import bpy
 import numpy as np
 
@@ -33,6 +34,69 @@ def _uv_collection(layer: bpy.types.MeshUVLoopLayer) -> tuple[Any, str]:
     if hasattr(layer, "uv"):  # from 3.5 on
         return layer.uv, "vector"
     return layer.data, "uv"
+
+
+def selected_uv(mesh: bpy.types.Mesh, layer_name: str) -> list[np.ndarray]:
+    """Whether the corners (C,) are selected in a UV layer, the edges (C,) that start there, and from 5.0 on the faces
+    (P,). Without the layer nothing is. The mesh must not be in Edit Mode."""
+    layer = mesh.uv_layers.get(layer_name)
+    if layer is not None and not hasattr(layer, "uv"):
+        return [read(layer.data, name, bool) for name in _OLD_UV_FLAGS]
+    found = []
+    for name, domain in _uv_flags(layer_name):
+        flags = _flag_attribute(mesh, name, domain)
+        count = len(mesh.polygons if domain == "FACE" else mesh.loops)
+        found.append(np.zeros(count, dtype=bool) if flags is None else read(flags.data, "value", bool))
+    return found
+
+
+def set_selected_uv(mesh: bpy.types.Mesh, layer_name: str, selected: list[np.ndarray]) -> None:
+    """Select exactly that in a UV layer, given as by `selected_uv`. The mesh must not be in Edit Mode."""
+    layer = mesh.uv_layers.get(layer_name)
+    if layer is None:
+        return
+    if not hasattr(layer, "uv"):
+        for name, values in zip(_OLD_UV_FLAGS, selected, strict=True):
+            layer.data.foreach_set(name, values)
+        return
+    for (name, domain), values in zip(_uv_flags(layer_name), selected, strict=True):
+        flags = _flag_attribute(mesh, name, domain)
+        if flags is None and values.any() and name not in mesh.attributes:
+            flags = mesh.attributes.new(name, "BOOLEAN", domain)
+        if flags is not None:
+            flags.data.foreach_set("value", values)
+
+
+def select_edited_uv(face: Any, layer: Any, selected: list[Any]) -> None:
+    """Select that of a face in a UV layer of a mesh in Edit Mode: iterators as the arrays of `selected_uv`, from which
+    it takes the values of this face's corners, and its own."""
+    corner_flags, edge_flags, *of_face = selected
+    for corner in face.loops:
+        if ONE_UV_SELECTION:
+            corner.uv_select_vert, corner.uv_select_edge = next(corner_flags), next(edge_flags)
+        else:
+            uv = corner[layer]
+            uv.select, uv.select_edge = next(corner_flags), next(edge_flags)
+    for flags in of_face:
+        face.uv_select = next(flags)
+
+
+# Whether a mesh has one UV selection for all its layers: from 5.0 on.
+ONE_UV_SELECTION = hasattr(bmesh.types.BMLoop, "uv_select_vert")
+_OLD_UV_FLAGS = ("select", "select_edge")  # before 3.5
+
+
+def _uv_flags(layer_name: str) -> list[tuple[str, str]]:
+    """Name and domain of the attributes that hold the selection in a UV layer."""
+    if ONE_UV_SELECTION:
+        return [(".uv_select_vert", "CORNER"), (".uv_select_edge", "CORNER"), (".uv_select_face", "FACE")]
+    return [(f".vs.{layer_name}", "CORNER"), (f".es.{layer_name}", "CORNER")]
+
+
+def _flag_attribute(mesh: bpy.types.Mesh, name: str, domain: str) -> Any:
+    """The attribute of that name, if it holds flags."""
+    found = mesh.attributes.get(name)
+    return found if found is not None and (found.domain, found.data_type) == (domain, "BOOLEAN") else None
 
 
 def any_pin(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer) -> bool:

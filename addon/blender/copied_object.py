@@ -10,6 +10,7 @@ import numpy as np
 from . import compat
 from .mesh_object import MeshObject
 from .transaction import Transaction
+from .uv_layers import add_layer
 
 CAPITALS = 0.7  # height of Blender's own font over its size
 
@@ -52,8 +53,7 @@ def add_copied_object(
     points = np.zeros((len(layout.points), 3), dtype=np.float32)
     points[:, : layout.points.shape[1]] = layout.points
     fill_mesh(mesh, points, layout.corner_vertex, layout.face_size)
-    made = mesh.uv_layers.new(name=layer, do_init=False)
-    compat.set_corner_uv(made, uv[layout.corners])
+    add_layer(mesh, layer, uv[layout.corners])
     number = _material_numbers(source.data)[layout.faces]
     for slot in source.material_slots:
         mesh.materials.append(slot.material)

@@ -11,6 +11,7 @@ from .copied_object import fill_mesh, note_new_objects
 from .errors import TransferError
 from .mesh_object import MeshObject
 from .transaction import Transaction
+from .uv_layers import add_layer
 
 ENDING = "Pattern"  # of the names, after the source's name
 WALLS = 2  # in `Lifted.patch`
@@ -32,7 +33,7 @@ def add_lifted_object(
     obj.matrix_world = source.matrix_world
     fill_mesh(mesh, _local_points(source, obj, lifted), lifted.corner_vertex, lifted.face_size)
     if lifted.uv is not None:
-        compat.set_corner_uv(mesh.uv_layers.new(name=layer, do_init=False), lifted.uv)
+        add_layer(mesh, layer, lifted.uv)
     for slot in source.material_slots:
         mesh.materials.append(slot.material)
     carry_attributes(source, obj, lifted)

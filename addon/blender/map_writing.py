@@ -50,9 +50,9 @@ def plan(target: Target, layer: str, surface: Surface, corners: np.ndarray, uv: 
     return Plan(obj, layer, whole, values, mapped[surface.face_start], colors, kind)
 
 
-def write(run: Transaction, made: Plan) -> None:
-    """Write the plan."""
-    uv_layers.write_uv(run, made.obj, made.layer, made.uv, made.surface, made.faces)
+def write(run: Transaction, made: Plan, select: bool = True) -> None:
+    """Write the plan. @param select the new UVs, too"""
+    uv_layers.write_uv(run, made.obj, made.layer, made.uv, made.surface, made.faces, select)
     if made.kind is not None and made.colors is not None:
         distortion_attribute.put_on(run, made.obj, made.kind, made.colors)
 

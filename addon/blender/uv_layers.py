@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the coordinates of one UV layer, in Object Mode and in Edit Mode, and no other data."""
+"""Writes the coordinates and the selection of one UV layer, in Object Mode and in Edit Mode, and no other data."""
 
 import itertools
 import struct
@@ -63,23 +63,38 @@ def planned_uv(obj: MeshObject, layer_name: str, count: int, corners: np.ndarray
 
 
 def write_uv(
-    run: Transaction, obj: MeshObject, layer_name: str, values: np.ndarray, surface: Surface, faces: np.ndarray
+    run: Transaction,
+    obj: MeshObject,
+    layer_name: str,
+    values: np.ndarray,
+    surface: Surface,
+    faces: np.ndarray,
+    select: bool = True,
 ) -> None:
     """Set the UVs (C, 2) of all corners in the layer of that name, make it if missing, make it active.
 
-    In Edit Mode only the corners of the `faces` (P,) bool of the surface that was read are written.
+    In Edit Mode only the corners of the `faces` (P,) bool of the surface that was read are written. With `select` the
+    UVs of these faces are selected, as Blender's own unwrap leaves them. The UVs of other faces stay as they are.
     """
     mesh = obj.data
+    with arrays(obj) as old:
+        known = old.uv_layers.get(layer_name)
+        uv = None if known is None else compat.corner_uv(known)
+        selected = compat.selected_uv(old, layer_name) if select else []
     run.before_write(_restore_layers, mesh, *_layers(mesh))
     if layer_name not in mesh.uv_layers:
         mesh.uv_layers.new(name=layer_name, do_init=False)  # None in 5.2's Edit Mode, though it is made
         if layer_name not in mesh.uv_layers:
             taken = "used by a vertex group" if layer_name in obj.vertex_groups else "taken"  # 5.2 allows no more
             raise TransferError(f"{obj.name}: the name {layer_name!r} is {taken}: choose another layer name")
-    else:
-        with arrays(obj) as old:
-            run.before_write(_write, obj, layer_name, compat.corner_uv(old.uv_layers[layer_name]), surface, faces)
+    elif uv is not None:
+        run.before_write(_write, obj, layer_name, uv, surface, faces)
     _write(obj, layer_name, values, surface, faces)
+    if select:
+        run.before_write(_select, obj, layer_name, selected, surface, faces)
+        corners = np.repeat(faces, surface.face_size)
+        more = [flags | chosen for flags, chosen in zip(selected, (corners, corners, faces))]
+        _select(obj, layer_name, more, surface, faces)
     mesh.uv_layers.active = mesh.uv_layers[layer_name]
 
 
@@ -97,6 +112,33 @@ def _write(obj: MeshObject, layer_name: str, values: np.ndarray, surface: Surfac
         for corner in face.loops:
             corner[layer].uv = next(points)
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
+def _select(
+    obj: MeshObject, layer_name: str, selected: list[np.ndarray], surface: Surface, faces: np.ndarray
+) -> None:
+    """Select that in the layer, as `compat.selected_uv` tells it."""
+    if obj.mode != "EDIT":
+        compat.set_selected_uv(obj.data, layer_name, selected)
+        return
+    edited = bmesh.from_edit_mesh(obj.data)
+    layer = edited.loops.layers.uv.get(layer_name)
+    if layer is None:  # it was removed before
+        return
+    corners = np.repeat(faces, surface.face_size)
+    corner, edge, *of_face = selected
+    chosen = [corner[corners], edge[corners], *(flags[faces] for flags in of_face)]
+    values = [iter(flags.tolist()) for flags in chosen]
+    for face in itertools.compress(edited.faces, faces.tolist()):
+        compat.select_edited_uv(face, layer, values)
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
+def add_layer(mesh: bpy.types.Mesh, layer_name: str, values: np.ndarray) -> None:
+    """Give a new mesh a layer with these UVs (C, 2), all of them selected. Not in Edit Mode."""
+    compat.set_corner_uv(mesh.uv_layers.new(name=layer_name, do_init=False), values)
+    selected = [np.ones_like(flags) for flags in compat.selected_uv(mesh, layer_name)]
+    compat.set_selected_uv(mesh, layer_name, selected)
 
 
 def _layers(mesh: bpy.types.Mesh) -> tuple[list[str], Any, list[bool], list[bool]]:

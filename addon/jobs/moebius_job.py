@@ -98,7 +98,7 @@ class MoebiusJob:
         plan = map_writing.plan(
             self.target, self.layer, self.surface, island.corners, image.uv[island.corner_vertex]
         )
-        map_writing.write(run, plan)
+        map_writing.write(run, plan, select=False)  # an island that was there, which keeps its selection
 
     def figures(self, image: CircleImage) -> dict[str, float]:
         """The figures of an image by which an artist judges it, named as in the report."""

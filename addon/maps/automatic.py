@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface mapped to the shape that serves: one disk where its texels are even enough, else parts."""
+"""A surface mapped to the shape that serves: one disk if the report has nothing against it, else parts."""
 
+import dataclasses
 from types import ModuleType
 from typing import Any
 
-from .disk_outcomes import IslandOutcome, SurfaceOutcome
+from .disk_outcomes import SurfaceOutcome
 from .errors import kind_of
 from .mapping import map_surfaces
 from .options import Options, PartsChoice
 from .outcomes import Outcome, Progress, Task, share_of
-from .parts import cut_into_parts
-from .wording import counted
+from .parts import PartsOutcome, cut_into_parts
+from .verdicts import EVEN, TRUE
+from .wording import counted, density_text
 
-# Least share of the area whose texels are within a factor 3, for a disk to be taken: an unrolled face has nine tenths,
-# a mask with a deep back seven, a hand two.
-LEAST_EVEN = 2.0 / 3.0
 PARTS_WORK = 3  # of cutting into parts, where the map to a disk is 1
 NO_DISK = {  # why a surface is no disk, by the kind of `koebe.TopologyError`
     "closed": "the surface is closed",
@@ -25,6 +24,36 @@ NO_DISK = {  # why a surface is no disk, by the kind of `koebe.TopologyError`
 }
 
 
+@dataclasses.dataclass(frozen=True)
+class Worth:
+    """What the report says of a map, its worst island first: its limits are those of `verdicts`."""
+
+    whole: bool
+    flipped: int
+    density: float
+    angle: float
+
+    @property
+    def order(self) -> tuple[bool, bool, bool, float]:
+        """The smaller, the better: faults in the order of their weight, then how far beyond its limit the worst
+        figure is."""
+        return (
+            not self.whole or self.flipped > 0, self.density > EVEN, self.angle > TRUE,
+            max(self.density / EVEN, self.angle / TRUE),
+        )  # fmt: skip
+
+    @property
+    def fault(self) -> str:
+        """What the report has against a disk, or nothing."""
+        if not self.whole:
+            return "a disk could not be made round"
+        if self.flipped:
+            return f"a disk has no room for {counted(self.flipped, 'triangle')}"
+        if self.density > EVEN:
+            return f"the texels of a disk are uneven, 1 : {density_text(self.density)}"
+        return f"a disk bends the checker by {self.angle:.1f}°" if self.angle > TRUE else ""
+
+
 def map_automatically(
     koebe: ModuleType,
     task: Task,
@@ -33,24 +62,27 @@ def map_automatically(
     progress: Progress | None = None,
     cancel: Any = None,
 ) -> Outcome:
-    """Map the selected faces of a surface to a disk for each island; where that does not serve, cut them into parts.
+    """Map the selected faces of a surface to a disk for each island. If that does not serve, cut them into parts.
 
     options  of the disk, without cuts
     choice   of the parts
 
-    The outcome says which was taken, and why. Where parts fail, the disk is taken if there is one. `koebe.Cancelled`
-    goes on.
+    The outcome says which was taken, and why. A disk that does not serve is taken if parts fail, or are worse.
+    `koebe.Cancelled` goes on.
     """
     (disk,) = map_surfaces(koebe, [task], options, share_of(progress, 0, 1, PARTS_WORK + 1), cancel)
     reason = unserved(disk)
     if not reason:
-        even = min(one.even_share for one in disk.mapped)
-        disk.chosen = f"Automatic took Disk: texels are even on {_percent(even)} of the area"
+        disk.chosen = f"Automatic took Disk: its texels are even, 1 : {density_text(worth_of_disk(disk).density)}"
         return disk
     parts = cut_into_parts(koebe, task, choice, share_of(progress, 1, PARTS_WORK, PARTS_WORK + 1), cancel)
-    if parts.failed and not disk.failed:
-        disk.chosen = "Automatic took Disk, because the surface could not be cut into parts"
-        return disk
+    if not disk.failed:
+        if parts.failed:
+            disk.chosen = "Automatic took Disk, because the surface could not be cut into parts"
+            return disk
+        if worth_of_disk(disk).order < worth_of_parts(parts).order:
+            disk.chosen = "Automatic took Disk, because parts are no better"
+            return disk
     parts.chosen = f"Automatic took Parts: {reason}"
     return parts
 
@@ -60,21 +92,22 @@ def unserved(disk: SurfaceOutcome) -> str:
     for one in disk.islands:
         if one.error is not None:
             return NO_DISK.get(kind_of(one.error) or "", "the surface cannot be mapped to one disk")
-        if reason := _bad(one):
-            return reason
-    return "" if disk.islands else "the surface cannot be mapped to one disk"
+    return worth_of_disk(disk).fault if disk.islands else "the surface cannot be mapped to one disk"
 
 
-def _bad(one: IslandOutcome) -> str:
-    """Why nobody wants a mapped island, or nothing."""
-    if not one.result.converged:
-        return "a disk could not be made round"
-    if len(one.flipped):
-        return f"a disk has no room for {counted(len(one.flipped), 'triangle')}"
-    if one.even_share < LEAST_EVEN:
-        return f"a disk has even texels on only {_percent(one.even_share)} of the area"
-    return ""
+def worth_of_disk(disk: SurfaceOutcome) -> Worth:
+    """The worth of a surface whose islands are all mapped."""
+    return Worth(
+        disk.converged,
+        sum(len(one.flipped) for one in disk.mapped),
+        max(one.density_ratio for one in disk.mapped),
+        max(one.angle_error for one in disk.mapped),
+    )
 
 
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.0f} %"
+def worth_of_parts(parts: PartsOutcome) -> Worth:
+    """The worth of a surface that is mapped."""
+    result = parts.mapped[0].result
+    return Worth(
+        parts.converged, result.flipped, result.density_ratio_5_95, result.angle_error_stored_deg["mean"]
+    )

@@ -176,7 +176,8 @@ def _bent_onto_holes(
 ) -> np.ndarray:
     """Points with the holes' rims on the source's circles, at their angles, and the other points harmonic between."""
     result = target.result
-    fixed, values = [result.loops[0]], [points[result.loops[0]]]
+    fixed: list[np.ndarray] = [result.loops[0]]
+    values = [points[result.loops[0]]]
     for k, partner in enumerate(match):
         if k == 0:
             continue

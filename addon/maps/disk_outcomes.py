@@ -14,7 +14,7 @@ from .packing import Placement
 from .rounding import RESOLUTION, rounded
 from .stored import Stored
 from .surface import Island
-from .triangles import as_complex, as_points, covered, density_ratio, even_share, longest_edges, signed_areas
+from .triangles import as_complex, as_points, covered, density_ratio, longest_edges, signed_areas
 from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, density_text, few, in_mesh, own_warning, too_uneven
 
 if TYPE_CHECKING:
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 # The solver's warning about its 32-bit disk; it does not apply to a rectangle made of the disk.
 OF_THE_DISK = "below_resolution"
-FAIR = 3.0  # between texel densities, as lengths: within it no difference is seen on a painted model
 
 
 @dataclasses.dataclass
@@ -74,11 +73,6 @@ class IslandOutcome:
     def density_ratio(self) -> float:
         """Texel density (a length over a length) at 95 % of the area over the density at 5 %."""
         return density_ratio(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)))
-
-    @property
-    def even_share(self) -> float:
-        """Share of the area whose texel densities lie within a factor 3."""
-        return even_share(self.sheet.areas, np.abs(signed_areas(self.shape, self.sheet.triangles)), FAIR)
 
     def turned(self, points: np.ndarray) -> np.ndarray:
         """Points (n, 2) of the shape after the turn."""

@@ -55,16 +55,6 @@ def covered(corner_uv: np.ndarray, triangles: np.ndarray) -> float:
     return float(np.abs(signed_areas(corner_uv, triangles)).sum())
 
 
-def even_share(in_space: np.ndarray, in_plane: np.ndarray, factor: float) -> float:
-    """Largest share of the area of triangles (t,) whose texel densities, as lengths, lie within a factor."""
-    known = (in_space > 0.0) & (in_plane > 0.0)
-    density = np.sqrt(in_plane[known] / in_space[known])
-    order = np.argsort(density)
-    until = np.searchsorted(density[order], factor * density[order], side="right")
-    area = np.concatenate([[0.0], np.cumsum(in_space[known][order])])
-    return float((area[until] - area[:-1]).max(initial=0.0) / max(in_space.sum(), np.finfo(float).tiny))
-
-
 def longest_edges(corners: np.ndarray) -> np.ndarray:
     """Length (t,) of the longest edge of each triangle, given by its corners (t, 3, 2)."""
     return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1, initial=0.0)

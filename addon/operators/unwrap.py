@@ -29,8 +29,8 @@ ROWS = {
 
 
 class UV_OT_koebe_unwrap(MapOperator, mixin("UnwrapProperties", UNWRAP_OPTION_NAMES), bpy.types.Operator):
-    """Unwrap the selected objects, or in Edit Mode the selected faces. Automatic makes a disk with round holes if its
-    texels are even enough, else parts. The mesh is not changed"""
+    """Unwrap the selected objects, or in Edit Mode the selected faces. Automatic makes a disk with round holes if the
+    report finds nothing wrong with it, else parts. The mesh is not changed"""
 
     bl_idname = "uv.koebe_unwrap"
     bl_label = "Koebe Unwrap"

@@ -6,6 +6,7 @@
 #include "core/tolerances.h"
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
+#include "execution/stopwatch.h"
 #include "flaps/flap_map.h"
 #include "linear/dense_spd.h"
 #include "pipeline/final_check.h"
@@ -19,7 +20,6 @@
 #include "surface/intrinsic_metric.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -28,10 +28,6 @@ namespace {
 
 constexpr double flat = 1e-5;             // radians of curvature that remains at a vertex
 constexpr double worth_a_warning = 1e-3;  // relative change of a length
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 /// Puts vertices of the outer loop that lie outside the unit disk onto its circle.
 void draw_in(const VertexLoop& outer, PlanarPoints& points)
@@ -71,7 +67,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.face_count = static_cast<Index>(triangles.rows());
     result.center = options.common.center;
     result.point = options.common.point;
-    const auto begin = Clock::now();
+    const Stopwatch run;
 
     context.begin_stage("topology", 0.0, 0.05);
     const MapInput whole = prepare_input(vertices, triangles, options.common);
@@ -80,15 +76,14 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     if (!cut.flaps.empty()) core = core_input(whole, cut);
     const MapInput& input = core ? *core : whole;
     result.outer_loop = input.outer_rank;
-    result.seconds.topology = seconds_since(begin);
+    result.seconds.topology = run.elapsed();
 
     context.begin_stage("metric", 0.05, 0.1);
-    auto stage = Clock::now();
+    Stopwatch stage;
     const IntrinsicMetric metric = intrinsic_metric(input.vertices, input.surface, {.delaunay = options.delaunay});
-    result.seconds.metric = seconds_since(stage);
+    result.seconds.metric = stage.lap();
 
     context.begin_stage("iterate", 0.1, 0.9);
-    stage = Clock::now();
     RicciFlowOptions flow_options{.packing = options.packing,
                                   .target = options.target,
                                   .tolerance = options.common.tolerance,
@@ -102,10 +97,9 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.sweeps = flow.outcome.sweeps;
     result.steps = flow.outcome.steps;
     result.history = flow.outcome.history;
-    result.seconds.iterate = seconds_since(stage);
+    result.seconds.iterate = stage.lap();
 
     context.begin_stage("finish", 0.9, 1.0);
-    stage = Clock::now();
     CircleMap map = in_normal_position(flow, input);
     const std::size_t own_flips = flipped_faces(input.surface.triangles, map.uv).size();
     map = hang_back(whole, cut, std::move(map), context);
@@ -132,8 +126,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         result.warnings.push_back(faults.warning("not one to one: ", whole.original, whole.original_faces));
     }
     take_verdict({.most_lost = options.common.most_lost, .done = true}, result);
-    result.seconds.finish = seconds_since(stage);
-    result.seconds.total = seconds_since(begin);
+    result.seconds.finish = stage.lap();
+    result.seconds.total = run.elapsed();
     result.peak_memory_mb = peak_memory_mb();
     context.advance(1.0);
     return result;

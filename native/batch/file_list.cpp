@@ -6,7 +6,6 @@
 #include "io/file_error.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <string_view>
@@ -17,15 +16,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array mesh_extensions{".obj", ".off", ".ply", ".stl"};
-constexpr std::string_view blend_extension = ".blend";
-
-bool is_mesh(const fs::path& path)
-{
-    return std::ranges::find(mesh_extensions, io::lower_extension(path)) != mesh_extensions.end();
-}
+constexpr std::string_view blend_extension = ".blend", scene_extension = ".glb";
 
 bool is_blend(const fs::path& path) { return io::lower_extension(path) == blend_extension; }
+
+/// Scenes keep everything but their UVs, which no other format can.
+std::string output_extension(const fs::path& source, const std::string& of_meshes)
+{
+    const std::string own = io::lower_extension(source);
+    return own == blend_extension || own == scene_extension ? own : of_meshes;
+}
 
 bool is_hidden(const fs::path& path) { return utf8(path.filename()).starts_with('.'); }
 
@@ -57,8 +57,8 @@ private:
         if (!fs::exists(input, error)) throw UsageError(utf8(input) + " does not exist");
         if (is_blend(input) && !options_.with_blends)
             throw UsageError(utf8(input) + " is a .blend file: give the Blender program with --blender");
-        if (!is_mesh(input) && !is_blend(input))
-            throw UsageError(utf8(input) + " is not a mesh file: mesh files end in .obj, .off, .ply or .stl");
+        if (!io::is_mesh_file(input) && !is_blend(input))
+            throw UsageError(utf8(input) + " is not a mesh file: mesh files end in .obj, .off, .ply, .stl or .glb");
         // A link gives its own name, as its target may be called anything.
         const fs::path source = fs::canonical(fs::absolute(input).parent_path()) / input.filename();
         add_file(source, source.parent_path());
@@ -75,7 +75,7 @@ private:
             if (entry->is_directory(error)) {
                 if (is_hidden(path) || path == output_) entry.disable_recursion_pending();
             } else if (!is_hidden(path) && entry->is_regular_file(error)) {
-                if (is_mesh(path) || (options_.with_blends && is_blend(path)))
+                if (io::is_mesh_file(path) || (options_.with_blends && is_blend(path)))
                     add_file(path, folder);
                 else if (is_blend(path))
                     ++list_.blends_passed_over;
@@ -98,7 +98,7 @@ private:
             throw UsageError(utf8(known->second) + " and " + utf8(source) + " would both get the name " + file.name);
         names_.emplace(file.name, source);
         sources_.insert(fs::canonical(source));
-        file.output = (output_ / relative).replace_extension(file.is_blend ? ".blend" : options_.extension);
+        file.output = (output_ / relative).replace_extension(output_extension(source, options_.extension));
         file.report = fs::path(file.output).replace_extension(".json");
         list_.files.push_back(std::move(file));
     }

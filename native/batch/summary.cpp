@@ -94,8 +94,9 @@ Json summary_row(const Json& report)
 {
     Figures figures;
     figures.add(report);
-    if (const auto objects = report.find("objects"); objects != report.end())
-        for (const Json& part : *objects) figures.add(part);
+    for (const char* parts : {"objects", "meshes"})  // of a .blend, of a .glb
+        if (report.contains(parts))
+            for (const Json& part : report[parts]) figures.add(part);
     const auto entry = [&](const char* name) { return report.contains(name) ? report[name] : Json(); };
     const Json error = entry("error"), seconds = entry("seconds");
     const auto known = [&](const Json& figure) { return figures.any ? figure : Json(); };

@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "execution/peak_memory.h"
 #include "execution/side_by_side.h"
+#include "execution/stopwatch.h"
 #include "mesh/topology.h"
 #include "opened/cut_sheet.h"
 #include "opened/cut_warnings.h"
@@ -16,7 +17,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <numbers>
@@ -27,14 +27,10 @@
 namespace koebe {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double opening_share = 0.1;  // share of the progress
 constexpr double small_share = 0.1;    // share of all faces: smaller pieces are mapped side by side
 constexpr double least_share = 0.1;    // dimensionless: least radius of a disk over the mean one
 constexpr int most_packings = 5;       // pieces flipped by rounding are drawn twice as large each time
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 /// The piece that gets a vertex named in the options, and the vertex's number there.
 struct NamedVertex {
@@ -222,7 +218,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
 {
     const Vertices& vertices = mesh.vertices;
     const Triangles& triangles = mesh.triangles;
-    const auto begin = Clock::now();
+    const Stopwatch run;
     CutUniformizeResult result;
     result.method = options.method;
     result.engine = options.engine;
@@ -231,7 +227,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
     require_importance(options, result.vertex_count);
     context.begin_stage("cut", 0.0, opening_share);
     OpenedSurface opened = open_surface(vertices, triangles, {.polygon = polygon}, context);
-    const double opening = seconds_since(begin);
+    const double opening = run.elapsed();
     const PieceMapper mapper(opened, mesh, options);
     const double all = static_cast<double>(triangles.rows());
     double done = 0.0;
@@ -304,7 +300,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
     result.warnings = cut_warnings(result);
     take_verdict({.most_lost = options.most_lost, .done = true}, result);
     result.seconds.topology += opening;
-    result.seconds.total = seconds_since(begin);
+    result.seconds.total = run.elapsed();
     result.peak_memory_mb = peak_memory_mb();
     context.report(1.0, "finish");
     return result;

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t most_darts = 16;   // opened together
 constexpr double apart_by = 0.12;        // distance of tips, in roots of the surface's area,
 constexpr double apart_in_part = 0.25;   // or in roots of the part's area; the smaller counts
-constexpr double longest = 0.5;          // length of a dart, in roots of the surface's area
+constexpr double longest_dart = 0.5;     // length of a dart, in roots of the surface's area
 constexpr double price_of_one = 0.03;    // of a new dart, as a length
 constexpr double share_if_round = 0.25;  // of the foretold gain, if the dart begins at a loop that stays round
 constexpr double clear_of_round =
@@ -107,7 +107,8 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
         const PathTree tree = shortest_paths(graph, sources);
         if (round) from_round = distances(flat, sources);
         for (Index v = 0; v < flat.surface.vertex_count; ++v) {
-            if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest || (!refused.empty() && refused[v]))
+            if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest_dart ||
+                (!refused.empty() && refused[v]))
                 continue;
             Dart dart = shortest_dart(flat, tree, v);
             if (std::ranges::any_of(dart.vertices.begin(), std::prev(dart.vertices.end()), [&](Index w) {

@@ -6,6 +6,7 @@
 #include "even/even_map.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
+#include "execution/stopwatch.h"
 #include "linear/dense_spd.h"
 #include "part_maps/part_mesh.h"
 #include "parts/flat_mesh.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -152,7 +152,7 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
 PartsResult compute(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                     const std::function<double()>& length_of_unit, ExecutionContext& context)
 {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch run;
     if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
     if (options.even) require_even(*options.even);
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
@@ -221,7 +221,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     take_verdict({.most_lost = options.most_lost, .advice = lower_price}, result);
     result.part = std::move(layout.part);
     result.peak_memory_mb = peak_memory_mb();
-    result.seconds.total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds.total = run.elapsed();
     return result;
 }
 

@@ -18,7 +18,7 @@
 namespace koebe {
 namespace {
 
-constexpr double longest = 1.5;          // length of a cut, in roots of the surface's area
+constexpr double longest_cut = 1.5;      // length of a cut, in roots of the surface's area
 constexpr double least_piece = 0.002;    // area of a piece, over the surface's
 constexpr double share_released = 0.25;  // of the bound
 constexpr std::size_t most_cuts = 2;
@@ -120,7 +120,7 @@ private:
         const WayOut &from = ways_[a], &to = ways_[b];
         if (from.end < 0 || to.end < 0 || from.end == to.end || next(a) == b || next(b) == a) return 0.0;
         const double length = tree_.distance[a] + tree_.distance[b] + mesh_.length[h];
-        if (length > longest || is_too_small(a, b)) return 0.0;
+        if (length > longest_cut || is_too_small(a, b)) return 0.0;
         const Complex at_a = tension_.at(a, b, next(a)), at_b = tension_.at(b, a, next(b));
         const Complex force = from.force + at_a + at_b + to.force;
         const double moment = from.moment + tree_.distance[a] * at_a.imag() + length * (to.force + at_b).imag() -

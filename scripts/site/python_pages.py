@@ -29,6 +29,7 @@ PAGES = {
         "batch": ["batch"],
         "load": ["load"],
         "CancelToken": ["CancelToken"],
+        "read_field": ["read_field", "write_field", "VertexField", "read_region", "read_patch", "Patch"],
     },
     "Patterns and pictures": {"lift": ["lift", "LiftResult"], "plot": ["plot"]},
     "Shapes": {
@@ -49,7 +50,9 @@ PAGES = {
         "disk_to_uv": ["disk_to_uv", "uv_to_disk", "fit_circle", "pack_disks", "mirror_image"],
     },
     "What they share": {
-        "reports": ["MapReport", "Warning", "CIRCLE_TOLERANCE", "UV_RESOLUTION", "WARNING_ELEMENTS", "__version__"],
+        "reports": [
+            "MapReport", "Loop", "Warning", "CIRCLE_TOLERANCE", "UV_RESOLUTION", "WARNING_ELEMENTS", "__version__",
+        ],
         "errors": [
             "KoebeError", "InputError", "OptionError", "TopologyError", "SolverError", "FileError", "Cancelled",
         ],

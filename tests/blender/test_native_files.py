@@ -113,6 +113,7 @@ def test_where_the_addon_is_read_only_it_is_in_the_users_folder(home):
     assert home.load()[1] == module
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize(
     ("which", "damage"),
     [("library", truncate), ("library", flip), ("extension", truncate), ("python", Path.unlink)],
@@ -129,6 +130,7 @@ def test_a_damaged_file_is_mended(home, damage, which):
     assert whole.read_bytes() == content
 
 
+@pytest.mark.alike
 def test_what_was_checked_is_not_read_again_until_it_changes(home):
     module = home.load()[1]
     license = next(module.parent.parent.rglob("LICENSE"))
@@ -142,6 +144,7 @@ def test_what_was_checked_is_not_read_again_until_it_changes(home):
     assert license.read_bytes() == content
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("damage", [truncate, flip], ids=lambda f: f.__name__)
 def test_a_damaged_wheel_is_an_error_with_path_and_cure(home, damage):
     damage(home.wheel)
@@ -150,6 +153,7 @@ def test_a_damaged_wheel_is_an_error_with_path_and_cure(home, damage):
     assert large_files(home.addon) == [home.wheel] and list(home.temporary.iterdir()) == []
 
 
+@pytest.mark.alike
 def test_a_damaged_library_without_a_wheel_to_mend_it_is_an_error_and_no_crash(home):
     module = home.load()[1]
     truncate(home.wheel)
@@ -160,6 +164,7 @@ def test_a_damaged_library_without_a_wheel_to_mend_it_is_an_error_and_no_crash(h
     assert said.startswith("REFUSED") and str(home.wheel) in said and "install it again" in said
 
 
+@pytest.mark.alike
 def test_a_damaged_wheel_does_not_matter_where_what_it_held_is_whole(home):
     module = home.load()[1]
     content = home.wheel.read_bytes()
@@ -167,6 +172,7 @@ def test_a_damaged_wheel_does_not_matter_where_what_it_held_is_whole(home):
     assert home.load() == (f"LOADED {module}", module)
 
 
+@pytest.mark.alike
 def test_many_blenders_may_start_at_the_same_time(home):
     started = [home.start() for _ in range(4)]
     ended = [processes.finish(process) for process in started]
@@ -175,6 +181,7 @@ def test_many_blenders_may_start_at_the_same_time(home):
     assert folder.name.startswith("koebe-")
 
 
+@pytest.mark.alike
 def test_many_blenders_may_mend_at_the_same_time(home):
     module = home.load()[1]
     whole = native_library(module).read_bytes()
@@ -184,6 +191,7 @@ def test_many_blenders_may_mend_at_the_same_time(home):
     assert native_library(module).read_bytes() == whole
 
 
+@pytest.mark.alike
 def test_killed_at_any_moment_it_is_whole_the_next_time(home):
     unpacked = home.place
     whole = sum(any(end in name for end in LIBRARIES) for name in zipfile.ZipFile(home.wheel).namelist())
@@ -201,6 +209,7 @@ def test_killed_at_any_moment_it_is_whole_the_next_time(home):
     assert sorted(path.name for path in unpacked.iterdir()) == sorted(["checked.json", module.parent.parent.name])
 
 
+@pytest.mark.alike
 def test_other_versions_for_this_python_are_removed_and_those_for_others_stay(home):
     old_place = home.datafiles / "koebe_uv"
     tags = home.wheel.stem.split("-", 2)[2]
@@ -214,6 +223,7 @@ def test_other_versions_for_this_python_are_removed_and_those_for_others_stay(ho
     assert not any(folder.exists() for folder in mine) and all(folder.is_dir() for folder in others)
 
 
+@pytest.mark.alike
 def test_a_package_of_that_name_from_elsewhere_is_not_taken(home):
     elsewhere = home.folder / "elsewhere"
     (elsewhere / "koebe").mkdir(parents=True)
@@ -224,6 +234,7 @@ def test_a_package_of_that_name_from_elsewhere_is_not_taken(home):
     assert said.startswith("LOADED") and home.place in module.parents
 
 
+@pytest.mark.alike
 def test_another_version_in_the_same_session_is_an_error(home):
     script = home.script.read_text()
     loaded = "import sys, types\nkoebe = sys.modules['koebe'] = types.ModuleType('koebe')\n"

@@ -7,6 +7,12 @@ SEAMS = ("seam", "edges", "attribute .uv_seam EDGE BOOLEAN", "attribute uv_seam 
 SLOTS = ("slots", "behind the slots", "custom", "active_material_index")
 
 
+def is_uv_selection(what, layer):
+    """Whether a fingerprint's name is that of flags of a UV layer, or from 5.0 on of all layers."""
+    kinds = tuple(f"{of} .{flag}.{layer}" for of in ("attribute", "loops bool") for flag in ("vs", "es", "pn"))
+    return what.startswith((*kinds, "attribute .uv_select_"))
+
+
 class Touched:
     """The objects that an operator works on, before it is called, and what it may change."""
 
@@ -44,8 +50,7 @@ class Touched:
         names = (f"uv {self._layer}", f"loops uv {self._layer}", f"attribute {self._layer} CORNER FLOAT2")
         return owner in self._meshes and (
             what == "uv layers" or any(what in (name, f"{name} select", f"{name} pin_uv") for name in names)
-            or what.startswith((f"attribute .vs.{self._layer}", f"attribute .es.{self._layer}",
-                                f"attribute .pn.{self._layer}"))
+            or is_uv_selection(what, self._layer)
             or self._is_color(what, self._colors) or (bool(self._colors) and what == "active color")
             or (bool(self._colors) and what == "custom")
         )  # fmt: skip

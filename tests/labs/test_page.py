@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "labs.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 10
+    assert len(blocks) == 11
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
@@ -23,7 +23,12 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
         exec(compile(block, "docs/labs.md", "exec"), names)
     assert (tmp_path / "face.vtu").stat().st_size > 0
     assert np.array_equal(names["again"].uv, names["neutral"].uv)
-    assert names["places"].fitted and names["moved"].shape == (names["neutral"].vertices,)
+    masked, mask = names["masked"], names["mask"]
+    assert 0 < mask.sum() < 500 and np.isnan(masked.uv[mask]).all() and len(masked.loops) == len(names["neutral"].loops)
+    assert np.allclose(names["scale"], masked.log_scale, atol=1e-5, equal_nan=True)
+    assert np.array_equal(names["region"], np.isfinite(masked.log_scale))
+    assert (tmp_path / "lh.face.patch.flat").stat().st_size > 0
+    assert names["places"].fitted and names["moved"].shape == (names["neutral"].vertex_count,)
     held, tip = names["held"], names["tip"]
     assert held.flipped == 0 and np.allclose(held.points[tip], names["surprised"].surface[0][tip], atol=1e-9)
     assert (names["bars"] > 0).all() and names["both"].distance_errors[0, 1] > 0

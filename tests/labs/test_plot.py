@@ -44,3 +44,17 @@ def test_the_example_of_the_docstring_runs(monkeypatch):
     monkeypatch.chdir(Path(__file__).resolve().parents[2])
     (found,) = doctest.DocTestFinder(recurse=False).find(koebe.plot, "plot", module=False, globs={})
     assert found.examples and doctest.DocTestRunner().run(found).failed == 0
+
+
+def test_a_result_is_drawn_into_axes_of_ones_own():
+    from matplotlib import pyplot
+
+    figure, plane = pyplot.subplots()
+    assert koebe.plot(RESULT, ax=plane) is figure and len(figure.axes) == 1 and len(plane.patches) == len(RESULT.loops)
+    figure = pyplot.figure()
+    space, plane = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
+    assert koebe.plot(RESULT, field="log_scale", ax=(plane, space)) is figure and len(figure.axes) == 3
+    assert len(space.collections) == len(plane.collections) == 1
+    for wrong in (3, [], [plane, plane], "plane"):
+        with pytest.raises(TypeError, match="ax must be"):
+            koebe.plot(RESULT, ax=wrong)

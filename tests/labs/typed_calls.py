@@ -1,6 +1,6 @@
 """Calls that a type checker takes, and calls that it refuses. `make lint` reads this file; nothing runs it.
 
-An ignore that no error needs is itself an error there (warn_unused_ignores).
+An ignore that no error needs is itself an error there (warn_unused_ignores), and for Pyright too.
 """
 
 from pathlib import Path
@@ -15,11 +15,14 @@ def taken(vertices: np.ndarray, triangles: np.ndarray, is_cut: bool, kept: dict[
     cut: koebe.CutResult = koebe.uniformize((vertices, triangles), cut=True, balance="area", importance=vertices[:, 0])
     either: koebe.UniformizeResult | koebe.CutResult = koebe.uniformize("face.obj", cut=is_cut)
     koebe.uniformize(*one.surface, **kept)
+    koebe.uniformize("lh.white", mask=~koebe.read_region("lh.cortex.label", one.vertex_count))
     koebe.parts(Path("face.obj"), price=0.01)
     koebe.Surface(vertices, triangles, method="ck").uniformize(vertices)
     places: koebe.Correspondence = koebe.transfer(one, one, landmarks=[(0, 0)])
     field: np.ndarray = koebe.transfer(one, one, one.log_scale)
-    print(cut, either, places, field)
+    corners: list[np.ndarray] = [one.corner_uv, cut.corner_uv, koebe.sphere_map(vertices, triangles).corner_uv]
+    rims: list[koebe.Loop] = [*one.loops, *koebe.ring_map(vertices, triangles).loops]
+    print(cut, either, places, field, corners, rims)
 
 
 def refused(vertices: np.ndarray, triangles: np.ndarray) -> None:
@@ -27,6 +30,16 @@ def refused(vertices: np.ndarray, triangles: np.ndarray) -> None:
     koebe.uniformize(vertices, triangles, cut=True, methd="gk")  # type: ignore[call-overload]
     koebe.uniformize(vertices, triangles, tolerance="small")  # type: ignore[call-overload]
     koebe.uniformize(vertices, triangles, method=1)  # type: ignore[call-overload]
+    koebe.uniformize(vertices, triangles, method="gkk")  # type: ignore[call-overload]
+    koebe.uniformize(vertices, triangles, outer="longst")  # type: ignore[call-overload]
     koebe.uniformize(vertices, triangles, cut="yes")  # type: ignore[call-overload]
     koebe.parts(vertices, triangles, prize=0.01)  # type: ignore[call-arg]
+    koebe.parts(vertices, triangles, loops="rond")  # type: ignore[arg-type]
     koebe.sphere_map(vertices, triangles, max_sweeps=2.5)  # type: ignore[arg-type]
+    koebe.sphere_map(vertices, triangles, layout="octahedron")  # type: ignore[arg-type]
+    koebe.ring_map(vertices, triangles, hole="radial")  # type: ignore[call-arg]
+    koebe.lift(vertices, triangles, perforated=True)  # type: ignore[call-arg]
+    koebe.flatten(vertices, triangles, unit="cm")  # type: ignore[call-arg]
+    koebe.Surface(vertices, triangles, metod="ck")  # type: ignore[call-arg]
+    koebe.boundary_loops(triangles, count=3)  # type: ignore[call-arg]
+    koebe.family([], eror=True)  # type: ignore[call-arg]

@@ -209,7 +209,7 @@ def test_rolled_panels():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [100, pytest.param(1000, marks=pytest.mark.long)])
+@pytest.mark.parametrize("count", [40, pytest.param(1000, marks=pytest.mark.long)])
 def test_developable_surfaces(count):
     rng = np.random.default_rng(2026)
     known = [(ring, square_in_square()), (slit_square, SLIT_SQUARE), (pillow, TEICHMUELLER)]
@@ -287,7 +287,7 @@ def test_the_bounds_do_not_depend_on_the_unit_the_place_and_the_numbers():
 
 def test_a_limit_is_reported_and_its_bounds_hold():
     found = koebe.certified_moduli(*ring(), width=1e-6, max_faces=2000)
-    assert not found.converged and found.faces <= 2000 and found.width > 1e-6
+    assert not found.converged and found.face_count <= 2000 and found.width > 1e-6
     assert holds(found.capacities[0], square_in_square())
     never = koebe.certified_moduli(*ring(), width=1e-30, max_faces=20000)
     assert not never.converged and holds(never.capacities[0], square_in_square())

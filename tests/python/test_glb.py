@@ -298,3 +298,20 @@ def test_damaged_files_are_mapped_or_refused(tmp_path):
         assert (tmp_path / "out.glb").exists() == (run.returncode != CANNOT_BE_MAPPED)
         (tmp_path / "out.glb").unlink(missing_ok=True)
     assert ends >= {0, CANNOT_BE_MAPPED}
+
+
+def test_a_batch_maps_each_scene_to_a_scene(tmp_path):
+    (tmp_path / "library").mkdir()
+    scene = GlbBuilder()
+    for n in (10, 12):
+        scene.mesh(indexed(scene, *plate(n)))
+    (tmp_path / "library" / "scene.glb").write_bytes(scene.bytes())
+    (tmp_path / "library" / "bad.glb").write_bytes(scene.bytes()[:99])
+    run = koebe("batch", "library", "--output", "out", cwd=tmp_path)
+    assert run.returncode == CANNOT_BE_MAPPED, run.stderr
+    rows = {row["name"]: row for row in json.loads((tmp_path / "out" / "summary.json").read_text())["files"]}
+    assert rows["bad.glb"]["error"] == "InputError" and not (tmp_path / "out" / "bad.glb").exists()
+    koebe("uniformize", "library/scene.glb", "alone.glb", cwd=tmp_path)
+    assert (tmp_path / "out" / "scene.glb").read_bytes() == (tmp_path / "alone.glb").read_bytes()
+    assert rows["scene.glb"]["exit_code"] == 0
+    assert rows["scene.glb"]["faces"] == len(plate(10)[1]) + len(plate(12)[1])

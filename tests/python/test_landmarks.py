@@ -19,7 +19,7 @@ def mapped(n, holes=HOLES, flat=False):
 
 
 def inside(result):
-    return np.setdiff1d(np.arange(result.vertices), np.concatenate(result.loops))
+    return np.setdiff1d(np.arange(result.vertex_count), np.concatenate(result.loops))
 
 
 A, B = mapped(32), mapped(24)

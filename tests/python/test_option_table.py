@@ -28,11 +28,11 @@ MAPS = {  # function, TypedDict, struct
 }
 COMMANDS = {"uniformize", "sequence", "ring", "torus", "sphere", "schottky", "parts", "flatten", "lift", "ricci"}
 TYPES = {
-    "number": "float", "integer": "int", "flag": "bool", "choice": "str", "vertex": "int | None",
-    "loop": "str | int", "steps": "collections.abc.Sequence[collections.abc.Sequence[int]] | None",
+    "number": "float", "integer": "int", "flag": "bool", "choice": "", "vertex": "int | None",
+    "loop": "", "steps": "collections.abc.Sequence[collections.abc.Sequence[int]] | None",
     "weights": "typing.Any", "page": "str",
 }  # fmt: skip
-BESIDE = {"progress", "cancel", "polygon", "slits", "between"}  # arguments that are no options
+BESIDE = {"progress", "cancel", "polygon", "slits", "between", "mask"}  # arguments that are no options
 
 
 def rows_in(front, of):
@@ -72,12 +72,18 @@ def may_be_none(row):
     return row["kind"] == "number" and row["default"] is None
 
 
+def type_of(row):
+    """The type in Python: of a choice, and of a loop, the words."""
+    words = f"typing.Literal[{', '.join(repr(word) for word, _, _ in row.get('choices', ()))}]"
+    return {"choice": words, "loop": f"typing.Union[{words}, int]"}.get(row["kind"], TYPES[row["kind"]])
+
+
 @pytest.mark.parametrize("of", MAPS)
 def test_a_functions_types_are_the_tables(of):
     function, typed, _ = MAPS[of]
     hints = {name: name_of(hint) for name, hint in typing.get_type_hints(typed).items() if name not in BESIDE}
     expected = {
-        name: TYPES[row["kind"]] + (" | None" if "python" in row or may_be_none(row) else "")
+        name: type_of(row) + (" | None" if "python" in row or may_be_none(row) else "")
         for name, row in rows_in("python", of).items()
         if (of, name) != ("uniformize", "cut")  # by which the result's type is known
     }

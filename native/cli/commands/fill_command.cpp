@@ -12,10 +12,10 @@
 
 #include "core/counted.h"
 #include "execution/detachable_run.h"
+#include "execution/stopwatch.h"
 #include "holes/fan_filling.h"
 #include "io/atomic_file.h"
 
-#include <chrono>
 #include <memory>
 #include <set>
 #include <span>
@@ -101,7 +101,7 @@ std::string result_line(const FillRequest& request, const MeshInput& input, cons
 
 int run_fill(const FillRequest& request)
 {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch run;
     const CancelToken token = cancel_on_signal();
     require_writable_files(request.files(), !request.quiet);
     const auto input = std::make_shared<const MeshInput>(read_mesh_input(request.input, token));
@@ -118,7 +118,7 @@ int run_fill(const FillRequest& request)
     context.checkpoint();
     file.commit();
 
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double seconds = run.elapsed();
     if (!request.quiet) {
         print(result_line(request, *input, filled, seconds, warnings), "; the file is written");
         show_warnings(warnings);

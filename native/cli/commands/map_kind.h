@@ -3,6 +3,7 @@
 
 #include "cli/files/mesh_input.h"
 #include "cli/options/map_request.h"
+#include "cli/process/roomy_heap.h"
 #include "core/warning.h"
 #include "io/atomic_file.h"
 #include "pipeline/result.h"
@@ -35,6 +36,15 @@ struct MapKind {
     std::function<nlohmann::ordered_json(const Result&)> report;
     std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
 };
+
+/// Begins a run, before anything is read. @return how its file is read @throws FileError a file cannot be written
+template <typename Result>
+ReadOptions begin_run(const MapRequest& request, const MapKind<Result>& kind)
+{
+    if (!kind.many_pieces) take_roomy_heap();
+    require_writable_files(map_files(request), !request.quiet);
+    return {.any_polygon = kind.any_polygon, .hash = !request.json.empty(), .threads = request.options.threads};
+}
 
 /// The kind of a map to the disk, without its computation.
 MapKind<UniformizeResult> disk_map(const MapRequest& request);

@@ -7,13 +7,12 @@
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "cli/process/result_line.h"
-#include "cli/process/roomy_heap.h"
 #include "cli/process/standard_streams.h"
+#include "execution/stopwatch.h"
 #include "execution/thread_share.h"
 #include "io/extension.h"
 #include "report/json.h"
 
-#include <chrono>
 #include <filesystem>
 #include <vector>
 
@@ -22,13 +21,9 @@ namespace koebe::cli {
 /// Writes the files of a map. All are complete before the first one gets its name.
 template <typename Result>
 void write_map(const MapRequest& request, const MapKind<Result>& kind, const MeshInput& input, Result& result,
-               std::chrono::steady_clock::time_point begin, ExecutionContext& context)
+               const Stopwatch& run, ExecutionContext& context)
 {
-    using Clock = std::chrono::steady_clock;
-    const auto since = [](Clock::time_point then) {
-        return std::chrono::duration<double>(Clock::now() - then).count();
-    };
-    const auto begin_write = Clock::now();
+    const Stopwatch writing;
     const ThreadShare threads(request.options.threads);
     std::vector<AtomicFile> files;
     add_losses("", kind.write_mesh(files.emplace_back(request.output), input, result), result.warnings);
@@ -36,8 +31,8 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
         add_losses("--sphere: ", kind.write_sphere(files.emplace_back(request.sphere), input, result), result.warnings);
     if (kind.write_more) kind.write_more(files, result);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(kind.draw(input, result));
-    result.seconds.write = since(begin_write);
-    result.seconds.total = since(begin);
+    result.seconds.write = writing.elapsed();
+    result.seconds.total = run.elapsed();
     if (!request.json.empty()) {
         nlohmann::ordered_json report = kind.report(result);
         report["input"] = std::filesystem::path(request.input).filename().string();
@@ -55,20 +50,17 @@ template <typename Result>
 int run_map_of(const MapRequest& request, const MapKind<Result>& kind)
 {
     if (io::lower_extension(request.output) == glb_extension) return run_scene_of(request, kind);
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch run;
     const CancelToken token = cancel_on_signal();
-    if (!kind.many_pieces) take_roomy_heap();
-    require_writable_files(map_files(request), !request.quiet);
-    const MeshInput input = read_mesh_input(
-        request.input, token,
-        {.any_polygon = kind.any_polygon, .hash = !request.json.empty(), .threads = request.options.threads});
+    const ReadOptions options = begin_run(request, kind);
+    const MeshInput input = read_mesh_input(request.input, token, options);
     Result result;
     {
         ProgressLine progress(request.quiet);
         ExecutionContext context(progress.callback(), token);
         result = kind.compute(input, context);
         result.seconds.read = input.seconds;
-        write_map(request, kind, input, result, begin, context);
+        write_map(request, kind, input, result, run, context);
     }
     if (!request.quiet) {
         print(map_line(request, kind.first_words(result), result.distortion, result.seconds.total, result.converged,

@@ -135,13 +135,9 @@ void require_one_mesh_for_picture(const MapRequest& request, const SceneInput& s
 }
 
 int finish_scene(const MapRequest& request, const SceneInput& scene, std::vector<MappedMesh>& mapped,
-                 std::chrono::steady_clock::time_point begin, const CancelToken& token)
+                 const Stopwatch& run, const CancelToken& token)
 {
-    using Clock = std::chrono::steady_clock;
-    const auto since = [](Clock::time_point then) {
-        return std::chrono::duration<double>(Clock::now() - then).count();
-    };
-    const auto begin_write = Clock::now();
+    const Stopwatch writing;
     std::vector<std::vector<GltfPoint>> uvs;
     for (MappedMesh& mesh : mapped) uvs.push_back(std::move(mesh.uvs));
     std::vector<Warning> warnings = scene_warnings(scene, mapped);
@@ -151,7 +147,7 @@ int finish_scene(const MapRequest& request, const SceneInput& scene, std::vector
     std::vector<AtomicFile> files;
     files.emplace_back(request.output).write(glb_with_corner_uvs(scene.file.bytes, scene.meshes, uvs));
     if (!request.svg.empty()) files.emplace_back(request.svg).write(mapped.front().picture);
-    const double written = since(begin_write), total = since(begin);
+    const double written = writing.elapsed(), total = run.elapsed();
     if (!request.json.empty()) {
         Json report = scene_report(scene, mapped, written, total);
         report["input"] = std::filesystem::path(request.input).filename().string();

@@ -6,10 +6,9 @@
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
-#include "cli/process/roomy_heap.h"
+#include "execution/stopwatch.h"
 #include "io/gltf_writer.h"
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -41,20 +40,17 @@ void require_one_mesh_for_picture(const MapRequest& request, const SceneInput& s
 /// Writes all files or none, and prints the result line.
 /// @return an ExitCode
 int finish_scene(const MapRequest& request, const SceneInput& scene, std::vector<MappedMesh>& mapped,
-                 std::chrono::steady_clock::time_point begin, const CancelToken& token);
+                 const Stopwatch& run, const CancelToken& token);
 
 /// Reads, computes, writes all files or none, and prints the result line.
 /// @return an ExitCode
 template <typename Result>
 int run_scene_of(const MapRequest& request, const MapKind<Result>& kind)
 {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch run;
     const CancelToken token = cancel_on_signal();
-    if (!kind.many_pieces) take_roomy_heap();
-    require_writable_files(map_files(request), !request.quiet);
-    const SceneInput scene = read_scene_input(
-        request.input, token,
-        {.any_polygon = kind.any_polygon, .hash = !request.json.empty(), .threads = request.options.threads});
+    const ReadOptions options = begin_run(request, kind);
+    const SceneInput scene = read_scene_input(request.input, token, options);
     require_one_mesh_for_picture(request, scene);
     std::vector<MappedMesh> mapped;
     {
@@ -75,7 +71,7 @@ int run_scene_of(const MapRequest& request, const MapKind<Result>& kind)
             mesh.converged = result.converged;
         }
     }
-    return finish_scene(request, scene, mapped, begin, token);
+    return finish_scene(request, scene, mapped, run, token);
 }
 
 }  // namespace koebe::cli

@@ -8,10 +8,10 @@
 #include "cli/process/error_line.h"
 
 #include "core/errors.h"
+#include "execution/stopwatch.h"
 #include "io/file_error.h"
 #include "pipeline/surface_solver.h"
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -90,7 +90,7 @@ public:
 private:
     int map(const std::string& file)
     {
-        const auto begin = std::chrono::steady_clock::now();
+        const Stopwatch run;
         const MapRequest request = request_of(all_, file);
         MeshInput input = read_mesh_input(file, token_);
         UniformizeResult result;
@@ -100,7 +100,7 @@ private:
             result = with_filed_faces(input, [&] { return mapped(file, input, context); });
             add_input_warnings(input, result.warnings);
             result.seconds.read = input.seconds;
-            write_map(request, disk_map(request), input, result, begin, context);
+            write_map(request, disk_map(request), input, result, run, context);
         }
         if (!all_.quiet) {
             print(map_line(request, disk_map(request).first_words(result), result.distortion, result.seconds.total,

@@ -4,29 +4,21 @@
 #include "cli/process/exit_code.h"
 #include "execution/detachable_run.h"
 #include "io/atomic_file.h"
+#include "io/extension.h"
 #include "io/file_error.h"
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"
 #include "shape/module_error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 
 namespace koebe::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_mesh_file(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-    return std::set<std::string>{".obj", ".off", ".ply", ".stl", ".glb"}.contains(extension);
-}
 
 /// The shape's loops that correspond to the reference's, in the wanted order.
 std::vector<int> like(const ShapeInput& reference, const ShapeInput& shape, const std::vector<int>& wanted,
@@ -82,7 +74,7 @@ std::vector<std::string> mesh_files(const std::vector<std::string>& paths)
         }
         std::vector<std::string> found;
         for (fs::directory_iterator entry(path, failed), end; !failed && entry != end; entry.increment(failed))
-            if (is_mesh_file(entry->path()) && !entry->is_directory()) found.push_back(entry->path().string());
+            if (io::is_mesh_file(entry->path()) && !entry->is_directory()) found.push_back(entry->path().string());
         if (failed) throw FileError("cannot read " + path + " (" + failed.message() + ")");
         if (found.empty()) throw InputError("the folder " + path + " holds no OBJ, OFF, PLY, STL or GLB file");
         std::ranges::sort(found);

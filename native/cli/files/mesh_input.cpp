@@ -5,10 +5,10 @@
 #include "core/errors.h"
 #include "core/sort_unique.h"
 #include "execution/detachable_run.h"
+#include "execution/stopwatch.h"
 #include "execution/thread_share.h"
 #include "quality/take_verdict.h"
 
-#include <chrono>
 #include <system_error>
 
 namespace koebe::cli {
@@ -17,7 +17,7 @@ namespace {
 
 MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions options)
 {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch reading;
     const ThreadShare threads(options.threads);
     MeshInput input;
     if (options.hash) input.sha256 = input_hash(path);
@@ -25,7 +25,7 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     input.polygons = parse_mesh(input.file.bytes, input.file.extension);
     if (!options.keep_file) input.file = {};
     triangulate_input(input, options.any_polygon);
-    input.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    input.seconds = reading.elapsed();
     return input;
 }
 

@@ -1,16 +1,15 @@
 #include "cli/files/scene_input.h"
 
 #include "execution/detachable_run.h"
+#include "execution/stopwatch.h"
 #include "execution/thread_share.h"
-
-#include <chrono>
 
 namespace koebe::cli {
 namespace {
 
 SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
 {
-    const auto begin = std::chrono::steady_clock::now();
+    const Stopwatch reading;
     const ThreadShare threads(options.threads);
     SceneInput scene;
     if (options.hash) scene.sha256 = input_hash(path);
@@ -23,7 +22,7 @@ SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
             triangulate_input(input, options.any_polygon);
             scene.inputs.push_back(std::move(input));
         });
-    scene.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    scene.seconds = reading.elapsed();
     return scene;
 }
 

@@ -21,6 +21,7 @@ from ._family import Family, family
 from ._fields import disk_to_uv, uv_to_disk
 from ._fit import FitResult, fit_circles
 from ._flatten import FlattenResult, flatten
+from ._formats import Patch, read_patch
 from ._koebe import CancelToken, __version__
 from ._layout import fit_circle, mirror_image, pack_disks
 from ._lift import LiftResult, lift
@@ -28,7 +29,7 @@ from ._load import load
 from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_surface
 from ._parts import PartsResult, parts
 from ._plot import plot
-from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, MapReport, UniformizeResult, Warning
+from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, Loop, MapReport, UniformizeResult, Warning
 from ._schottky import SchottkyMap, schottky_map
 from ._shapes import (
     DomainAlignment,
@@ -46,6 +47,7 @@ from ._sphere import SphereMap, sphere_map
 from ._surface import Surface
 from ._tiles import TileMap, ring_map, torus_map
 from ._transfer import Correspondence, transfer
+from ._vertex_fields import VertexField, read_field, read_region, write_field
 from .errors import Cancelled, FileError, InputError, KoebeError, OptionError, SolverError, TopologyError
 
 __all__ = [
@@ -65,10 +67,12 @@ __all__ = [
     "KoebeError",
     "LeftOutFace",
     "LiftResult",
+    "Loop",
     "MapReport",
     "OpenedSurface",
     "OptionError",
     "PartsResult",
+    "Patch",
     "SchottkyMap",
     "SolverError",
     "SphereMap",
@@ -79,6 +83,7 @@ __all__ = [
     "TopologyError",
     "UV_RESOLUTION",
     "UniformizeResult",
+    "VertexField",
     "WARNING_ELEMENTS",
     "Warning",
     "__version__",
@@ -109,6 +114,9 @@ __all__ = [
     "pack_disks",
     "parts",
     "plot",
+    "read_field",
+    "read_patch",
+    "read_region",
     "ring_map",
     "schottky_map",
     "separation_distance",
@@ -118,4 +126,5 @@ __all__ = [
     "transfer",
     "uniformize",
     "uv_to_disk",
+    "write_field",
 ]

@@ -7,11 +7,11 @@ import numpy as np
 
 from ._arrays import as_indices, as_loops, as_points, as_triangles
 from ._cut_result import CutResult
-from ._input import is_surface, polygons_of, surface_of
+from ._input import is_surface, points_at_vertices, polygons_of, surface_of
 from ._native import _koebe
 from ._option_table import rows
 from ._options import callback, choice, filled, flag, takes, token, vertex_weights, whole
-from ._result import UniformizeResult, with_origin
+from ._result import Source, UniformizeResult, with_origin
 from ._signatures import UniformizeOptions
 from .errors import InputError, OptionError, SolverError, TopologyError
 
@@ -53,7 +53,7 @@ def uniformize(
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: bool, **options: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult | CutResult: ...
-@takes("uniformize", UniformizeOptions, progress=None, cancel=None)
+@takes("uniformize", progress=None, cancel=None)
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: bool = False, **given: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult | CutResult:
@@ -66,6 +66,9 @@ def uniformize(
                  GiftiImage. Files and meshes may have quadrilaterals and polygons. For a mesh, the result's to_mesh()
                  gives the same kind back, with UVs and fields
     {options}
+    mask         (V,) bool: faces with a vertex where it is True are left out, as if they were not there. Vertices keep
+                 their numbers, and their values are NaN where no face is left. Faces are numbered without those left
+                 out: the result's `source_face` has their numbers in the input. koebe.read_region reads masks
     progress     called as progress(fraction, stage) on the calling thread; fraction never falls
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
 
@@ -101,14 +104,14 @@ def uniformize(
         cut = False
     elif options.mesh.schedule or options.mesh.record_steps:
         raise OptionError("cut excludes schedule and record_steps: both name the loops of one surface")
-    source = surface_of(vertices, triangles, degenerate=cut)
+    source = surface_of(vertices, triangles, degenerate=cut, mask=given["mask"])
     options.importance = importance_of(given["importance"], chosen, len(source.vertices))
     if cut:
         polygon = polygons_of(None, source)
-        made = _koebe.uniformize_with_cuts(source.vertices, source.triangles, polygon, options, progress, cancel)
+        made = source.call(_koebe.uniformize_with_cuts, polygon, options, progress, cancel)
         report = with_origin(made.report(), source, {**chosen, "cut": True})
         return CutResult(report, made.uv, np.array(made.flipped_faces), source)
-    native = _koebe.uniformize(source.vertices, source.triangles, options, progress, cancel)
+    native = source.call(_koebe.uniformize, options, progress, cancel)
     report = with_origin(native.report(), source, chosen)
     return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 
@@ -120,11 +123,12 @@ def importance_of(values: Any, chosen: Mapping[str, Any], count: int) -> np.ndar
     return vertex_weights("importance", values, count)
 
 
-def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[np.ndarray]:
+def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any = None) -> list[np.ndarray]:
     """Boundary loops as int32 arrays of vertices, in order with the surface on the left; lowest vertex first.
 
     triangles       (F, 3), or a whole surface as for `uniformize`
     vertex_count    of the mesh; without it any number is a vertex
+    mask            (V,) bool: faces with a vertex where it is True are left out
     Raises InputError, and TopologyError for a mesh that is not manifold, orientable and connected.
 
     >>> import koebe
@@ -132,13 +136,19 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[n
     [172, 29, 21, 21]
     """
     count = None if vertex_count is None else whole(vertex_count, "vertex_count", least=1)
-    faces = as_triangles(surface_of(triangles).triangles if is_surface(triangles) else triangles, count)
+    if is_surface(triangles):
+        source = surface_of(triangles, mask=mask)
+    elif mask is None:
+        source = Source(np.zeros((0, 3)), as_triangles(triangles, count))
+    else:
+        source = surface_of(np.zeros((len(mask), 3)), triangles, mask=mask)
+    faces = source.triangles
     if faces.max() < faces.size:
-        return as_loops(_koebe.boundary_loops(faces, int(faces.max()) + 1))
+        return as_loops(source.call(_loops_of, faces, int(faces.max()) + 1))
     # Few of the numbers are used: memory must depend on their count, not on the greatest number.
     used, faces = np.unique(faces, return_inverse=True)
     try:
-        loops = _koebe.boundary_loops(faces.reshape(-1, 3).astype(np.int32), len(used))
+        loops = source.call(_loops_of, faces.reshape(-1, 3).astype(np.int32), len(used))
     except TopologyError as error:
         if error.kind != "disconnected":  # this error lists faces
             error.elements = used[list(error.elements)].tolist()
@@ -146,7 +156,11 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None) -> list[n
     return [used[loop] for loop in loops]
 
 
-def disk_map(vertices: Any, triangles: Any = None) -> np.ndarray:
+def _loops_of(_: np.ndarray, __: np.ndarray, faces: np.ndarray, count: int) -> Any:
+    return _koebe.boundary_loops(faces, count)
+
+
+def disk_map(vertices: Any, triangles: Any = None, *, mask: Any = None) -> np.ndarray:
     """The Riemann map of a surface with one boundary loop by shrinking disks (paper, section 4.3).
 
     Returns (V, 2) float64 points of the closed unit disk.
@@ -158,11 +172,13 @@ def disk_map(vertices: Any, triangles: Any = None) -> np.ndarray:
     >>> bool(np.allclose(np.linalg.norm(points[rim], axis=1), 1.0))
     True
     """
-    source = surface_of(vertices, triangles)
-    return _koebe.disk_map(source.vertices, source.triangles)
+    source = surface_of(vertices, triangles, mask=mask)
+    return source.outside_nan(source.call(_koebe.disk_map))
 
 
-def annulus_map(vertices: Any, triangles: Any = None, *, backend: str = "harmonic") -> tuple[np.ndarray, float]:
+def annulus_map(
+    vertices: Any, triangles: Any = None, *, backend: str = "harmonic", mask: Any = None
+) -> tuple[np.ndarray, float]:
     """The map of a surface with two boundary loops to the annulus r < |z| < 1 (paper, section 4.2).
 
     backend   'harmonic': by a holomorphic 1-form. 'yamabe': by the discrete Yamabe flow to a flat cylinder, with
@@ -177,12 +193,18 @@ def annulus_map(vertices: Any, triangles: Any = None, *, backend: str = "harmoni
     0.153
     """
     chosen = choice(backend, "backend", _koebe.AnnulusBackend)
-    source = surface_of(vertices, triangles)
-    return _koebe.annulus_map(source.vertices, source.triangles, chosen)
+    source = surface_of(vertices, triangles, mask=mask)
+    points, radius = source.call(_koebe.annulus_map, chosen)
+    return source.outside_nan(points), radius
 
 
 def fill_holes(
-    vertices: Any, triangles: Any = None, *, loops: Sequence[int] | None = None, fair: bool = False
+    vertices: Any,
+    triangles: Any = None,
+    *,
+    loops: Sequence[int] | None = None,
+    fair: bool = False,
+    mask: Any = None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fill boundary loops.
 
@@ -197,13 +219,19 @@ def fill_holes(
     >>> print(len(koebe.boundary_loops(triangles)), (label >= 0).sum())  # one new triangle for each edge of a hole
     1 71
     """
-    source = surface_of(vertices, triangles)
+    source = surface_of(vertices, triangles, mask=mask)
     ranks = None if loops is None else as_indices(loops, "loops", source.triangles.size, "loops")
-    return _koebe.fill_holes(source.vertices, source.triangles, ranks, flag(fair, "fair"))
+    return source.call(_koebe.fill_holes, ranks, flag(fair, "fair"))
 
 
 def harmonic_map(
-    vertices: Any, triangles: Any = None, fixed: Any = None, values: Any = None, *, uniform: bool = False
+    vertices: Any,
+    triangles: Any = None,
+    fixed: Any = None,
+    values: Any = None,
+    *,
+    uniform: bool = False,
+    mask: Any = None,
 ) -> np.ndarray:
     """The map into the plane of least Dirichlet energy with given values at some vertices (paper, equation 2).
 
@@ -223,15 +251,15 @@ def harmonic_map(
     >>> bool(abs(middle).max() < 1e-12)
     True
     """
-    source = surface_of(vertices, triangles)
+    source = surface_of(vertices, triangles, mask=mask)
     chosen = as_indices(fixed, "fixed", len(source.vertices), "vertices")
     if not len(chosen):
         raise InputError("at least one vertex must be fixed")
     points = as_points(values, "values", 2, len(chosen))
-    return _koebe.harmonic_map(source.vertices, source.triangles, chosen, points, flag(uniform, "uniform"))
+    return source.outside_nan(source.call(_koebe.harmonic_map, chosen, points, flag(uniform, "uniform")))
 
 
-def distortion(vertices: Any, triangles: Any = None, uv: Any = None) -> dict[str, Any]:
+def distortion(vertices: Any, triangles: Any = None, uv: Any = None, *, mask: Any = None) -> dict[str, Any]:
     """Angle error, Beltrami coefficient, area distortion, conformal energy and flips of any UV map.
 
     uv   (V, 2) points of the unit disk, x + iy
@@ -243,9 +271,9 @@ def distortion(vertices: Any, triangles: Any = None, uv: Any = None) -> dict[str
     >>> print(f"{report['angle_error_deg']['mean']:.2f} degrees, {report['flipped']} flipped")
     0.89 degrees, 0 flipped
     """
-    source = surface_of(vertices, triangles)
-    points = as_points(uv, "uv", 2, len(source.vertices))
-    report = _koebe.distortion(source.vertices, source.triangles, points)
+    source = surface_of(vertices, triangles, mask=mask)
+    points = points_at_vertices(uv, "uv", source)
+    report = source.call(_koebe.distortion, points)
     if not _is_finite(report):
         raise SolverError("the distortion is beyond floating point: scale the surface, or the map, to about 1")
     return report

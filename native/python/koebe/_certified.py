@@ -31,7 +31,7 @@ class CertifiedModuli:
     warnings        list of Warning
     width           of the widest enclosure
     converged       whether no enclosure is wider than wanted. If not, they still hold
-    faces, levels   of the finest triangulation; number of triangulations
+    face_count, levels    of the finest triangulation; number of triangulations
     """
 
     def __init__(self, report: dict[str, Any]) -> None:
@@ -47,7 +47,7 @@ class CertifiedModuli:
         self.warnings = [Warning(warning) for warning in report["warnings"]]
         self.width: float = report["width"]
         self.converged: bool = report["converged"]
-        self.faces: int = report["faces"]
+        self.face_count: int = report["faces"]
         self.levels: int = report["levels"]
 
     def _pair(self, name: str) -> tuple[float, float] | None:
@@ -55,7 +55,8 @@ class CertifiedModuli:
         return None if entry is None else (entry["lower"], entry["upper"])
 
     def __repr__(self) -> str:
-        return f"<koebe.CertifiedModuli {len(self.capacities)} capacities, width {self.width:.2g}, {self.faces} faces>"
+        count = len(self.capacities)
+        return f"<koebe.CertifiedModuli {count} capacities, width {self.width:.2g}, {self.face_count} faces>"
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
@@ -74,7 +75,7 @@ def _condenser(value: Any) -> tuple[list[int], list[int]]:
     return _loops(low, "between"), _loops(high, "between")
 
 
-@takes("certified", CertifiedOptions, between=None, progress=None, cancel=None)
+@takes("certified", between=None, progress=None, cancel=None)
 def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[CertifiedOptions]") -> CertifiedModuli:
     """Enclose conformal invariants of a surface with holes between bounds that are proved, rounding included.
 
@@ -83,7 +84,7 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     {options}
     between      pairs of lists of loops, at 0 and at 1, numbered as in boundary_loops; no flux runs through the other
                  loops. None: each loop at 1 and all others at 0, then each pair
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     The proof: docs/guarantees.md. Raises InputError (OptionError for an option; also for faces without area),
     TopologyError, SolverError, Cancelled, or MemoryError.
 
@@ -99,7 +100,7 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     if given["between"] is not None and not between:
         raise InputError("between must have at least one pair of loops at 0 and loops at 1")
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles)
-    report = _koebe.certified_capacities(source.vertices, source.triangles, between, options, progress, cancel)
+    source = surface_of(vertices, triangles, mask=given["mask"])
+    report = source.call(_koebe.certified_capacities, between, options, progress, cancel)
     del said["threads"]
     return CertifiedModuli({**report, "options": said})

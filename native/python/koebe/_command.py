@@ -29,12 +29,17 @@ def path() -> Path:
 
 
 def main() -> int:
-    """Entry point of `python -m koebe` and of the script `koebe`: the command with the same arguments."""
+    """Entry point of `python -m koebe` and of the script `koebe`: the command with the same arguments. Files of
+    FreeSurfer, GIfTI and VTK are converted before and after it."""
     try:
         command = str(path())
     except KoebeError as error:
         print(f"koebe: {error}", file=sys.stderr)
         return 3
+    from ._conversion import is_needed, run  # not for everyone who only wants the path
+
+    if is_needed(sys.argv[1:]):
+        return run(command, sys.argv[1:])
     if sys.platform != "win32":
         os.execv(command, [command, *sys.argv[1:]])
     process = subprocess.Popen([command, *sys.argv[1:]])

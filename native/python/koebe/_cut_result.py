@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ._corner_mesh import mesh_with_corner_uv
-from ._result import MapReport, Seconds, Source, Warning
+from ._result import MapReport, Seconds, Source, Warning, figures_of
 
 
 class CutResult(MapReport):
@@ -26,7 +26,7 @@ class CutResult(MapReport):
     converged        whether all pieces converged
     angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
     below_resolution, flipped_faces    over all pieces, as they lie in the square, as in MapReport
-    version, input_sha256, options, vertices, faces, method, engine, seconds, peak_memory_mb, warnings
+    version, input_sha256, options, vertices, triangles, method, engine, seconds, peak_memory_mb, warnings
                      as in UniformizeResult
     """
 
@@ -43,9 +43,9 @@ class CutResult(MapReport):
     seconds: Seconds
 
     def __init__(self, report: dict[str, Any], uv: np.ndarray, flipped_faces: np.ndarray, source: Source) -> None:
-        self._report = report
+        self._report = report = source.told(report)
         self._source = source
-        vars(self).update({name: value for name, value in report.items() if name not in {"input", "cut"}})
+        vars(self).update(figures_of(report))
         self.uv = uv.reshape(-1, 3, 2)
         self.uv.flags.writeable = False
         self.piece = np.full(len(self.uv), -1, np.int32)
@@ -54,15 +54,11 @@ class CutResult(MapReport):
         self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
-        return self._source.vertices, self._source.triangles
-
     def to_mesh(self) -> Any:
-        """The input mesh, of the same kind, with the fields of UniformizeResult.to_mesh. The scale is UV length per
-        surface length. The faces are the same, in their order. Vertices are doubled along the cuts: koebe_vertex is the
-        number of each vertex in the input mesh. Raises InputError if the input was arrays."""
+        """The mesh of the input, of the same kind, with the fields of UniformizeResult.to_mesh. The scale is UV length
+        per surface length. The faces are the same, in their order. Vertices are doubled along the cuts: koebe_vertex is
+        the number of each vertex in the input. A GiftiImage keeps its vertices: koebe_uv is NaN at a vertex with
+        several UVs, and koebe_corner_uv has the six numbers of each face. Raises InputError if the input was arrays."""
         return mesh_with_corner_uv(self._source, self.uv, self.piece >= 0)
 
     def to_dict(self) -> dict[str, Any]:
@@ -74,6 +70,6 @@ class CutResult(MapReport):
 
     def __repr__(self) -> str:
         return (
-            f"<koebe.CutResult {self.faces} faces, {len(self.pieces)} pieces, {len(self.cuts)} cuts, "
+            f"<koebe.CutResult {self.face_count} faces, {len(self.pieces)} pieces, {len(self.cuts)} cuts, "
             f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
         )

@@ -9,7 +9,7 @@ import numpy as np
 from ._corner_mesh import mesh_with_corner_uv
 from ._input import polygons_of, surface_of
 from ._options import callback, filled, token, vertex_weights
-from ._result import MapReport, Seconds, Source, Warning
+from ._result import Loop, MapReport, Seconds, Source, Warning, figures_of
 from .errors import OptionError
 
 
@@ -17,19 +17,20 @@ class DomainMap(MapReport):
     """UVs with cuts, and a report. TileMap, SphereMap and SchottkyMap describe the fields."""
 
     uv: np.ndarray
-    loops: list[dict[str, Any]]
+    loops: list[Loop]
     sweeps: int
     changes: list[float]
     turned: list[int]
     seconds: Seconds
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
-        self._report = report
+        self._report = report = source.told(report)
         self._source = source
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        vars(self).update(figures_of(report))
         self.uv = native.uv.reshape(-1, 3, 2)
         self.uv.flags.writeable = False
         self.flipped_faces = np.asarray(native.flipped_faces, dtype=np.int32)
+        self.loops = [Loop(loop) for loop in report.get("loops", ())]
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
     def _set_arrays(self, **arrays: np.ndarray) -> None:
@@ -49,19 +50,18 @@ class DomainMap(MapReport):
         return [f"{len(self.loops)} loops"]
 
     def __repr__(self) -> str:
-        counts = ", ".join([f"{self.faces} faces", *self._counts()])
+        counts = ", ".join([f"{self.face_count} faces", *self._counts()])
         error = f"angle error {self.angle_error_deg['mean']:.3g} deg"
         return f"<koebe.{type(self).__name__} {counts}, {error}, {self.flipped} flipped>"
 
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
-        return self._source.vertices, self._source.triangles
-
     def to_mesh(self) -> Any:
-        """The given mesh, of the same kind, with fields as in CutResult.to_mesh; for a sphere without the torn faces'
-        fields. Its vertices are doubled where the UVs are cut. Raises InputError if arrays were given."""
-        return mesh_with_corner_uv(self._source, self.uv, self._drawn())
+        """The mesh of the input, of the same kind, with fields as in CutResult.to_mesh; for a sphere without the torn
+        faces' fields, and with koebe_sphere, the points on the unit sphere. Raises InputError if arrays were given."""
+        return mesh_with_corner_uv(self._source, self.uv, self._drawn(), self._point_fields())
+
+    def _point_fields(self) -> dict[str, np.ndarray]:
+        """Further fields of the vertices."""
+        return {}
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
@@ -90,11 +90,11 @@ def domain_map(
     """
     options, said = filled(of, options, given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(*surface, degenerate=degenerate)
+    source = surface_of(*surface, degenerate=degenerate, mask=given["mask"])
     if given.get("importance") is not None:
         if not said["even"]:
             raise OptionError("importance needs even above 0: it weighs the sizes of faces")
         options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.polygon = polygons_of(given["polygon"], source)
-    native = function(source.vertices, source.triangles, options, progress, cancel)
+    native = source.call(function, options, progress, cancel)
     return made({**native.report(), "options": said}, native, source)

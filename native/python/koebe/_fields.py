@@ -32,8 +32,13 @@ def uv_to_disk(uv: Any) -> np.ndarray:
 def log_scale(vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """(V,) log of the map's scale at each vertex, disk lengths per surface length: half the log of the ratio of the
     areas of the faces around it. NaN at unused vertices, and where an area vanishes."""
+    return log_scale_of_corners(vertices, triangles, uv[triangles])
+
+
+def log_scale_of_corners(vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """The same for UVs (F, 3, 2) of corners."""
     on_surface, in_disk = (
-        _around(triangles, len(vertices), np.abs(_areas(points, triangles))) for points in (vertices, uv)
+        _around(triangles, len(vertices), np.abs(areas(corners))) for corners in (vertices[triangles], uv)
     )
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = 0.5 * np.log(in_disk / on_surface)
@@ -44,7 +49,7 @@ def face_angle_error_deg(vertices: np.ndarray, triangles: np.ndarray, uv: np.nda
     """(F,) mean |angle in the UVs - angle on the surface| of each face's corners, degrees; NaN without area."""
     with np.errstate(divide="ignore", invalid="ignore"):
         error = np.degrees(np.abs(_angles(vertices[triangles]) - _angles(uv[triangles])).mean(axis=1))
-    return np.where(_areas(vertices, triangles) > 0.0, error, np.nan)
+    return np.where(areas(vertices[triangles]) > 0.0, error, np.nan)
 
 
 def _angles(corners: np.ndarray) -> np.ndarray:
@@ -54,10 +59,10 @@ def _angles(corners: np.ndarray) -> np.ndarray:
     return np.arccos(np.clip((here**2 + before**2 - across**2) / (2.0 * here * before), -1.0, 1.0))
 
 
-def _areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(F,) areas of triangles in space or, signed, in the plane."""
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    if points.shape[1] == 2:
+def areas(corners: np.ndarray) -> np.ndarray:
+    """(F,) areas of triangles (F, 3, d) in space or, signed, in the plane."""
+    a, b, c = (corners[:, k] for k in range(3))
+    if corners.shape[2] == 2:
         (ux, uy), (vx, vy) = (b - a).T, (c - a).T
         return 0.5 * (ux * vy - uy * vx)
     return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)

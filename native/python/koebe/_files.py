@@ -19,6 +19,10 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     try:
         with os.fdopen(descriptor, "wb") as file:
             yield file
+        if os.name == "posix":  # as any other new file
+            mask = os.umask(0)
+            os.umask(mask)
+            os.chmod(name, 0o666 & ~mask)
         os.replace(name, target)
     except BaseException:
         Path(name).unlink(missing_ok=True)
@@ -43,5 +47,10 @@ class Saved:
         with whole_file(path) as file:
             np.savez_compressed(
                 file, kind=np.array(type(self).__name__), report=np.array(json.dumps(self._report)),
-                vertices=self._source.vertices, triangles=self._source.triangles, **self._arrays(),
+                vertices=self._source.vertices, triangles=self._source.triangles, **_kept(self._source),
+                **self._arrays(),
             )  # fmt: skip
+
+
+def _kept(source: Any) -> dict[str, Any]:
+    return {} if source.kept is None else {"kept": source.kept}

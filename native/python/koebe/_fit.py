@@ -86,12 +86,12 @@ class FitResult(UniformizeResult):
     def __repr__(self) -> str:
         mu = self.fit["mu"]
         return (
-            f"<koebe.FitResult {self.vertices} vertices, {len(self.loops)} loops, |mu| {mu['mean']:.3g} in the mean, "
-            f"{mu['max']:.3g} at most, {self.flipped} flipped>"
+            f"<koebe.FitResult {self.vertex_count} vertices, {len(self.loops)} loops, "
+            f"|mu| {mu['mean']:.3g} in the mean, {mu['max']:.3g} at most, {self.flipped} flipped>"
         )
 
 
-@takes("shapes", FitOptions, names=None, pins=None, fixed=(), extremal=False, progress=None, cancel=None)
+@takes("shapes", names=None, pins=None, fixed=(), extremal=False, progress=None, cancel=None)
 def fit_circles(
     mesh: Any,
     centers: Any,
@@ -115,7 +115,7 @@ def fit_circles(
     fixed       circles whose rims do not turn: vertices keep their angles in the conformal domain. All others slide.
     extremal    True: the largest |mu| becomes nearly as small as it can be. Takes longer
     {options}
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError for a template that no surface fits (circles that meet or leave the disk) or not this one,
     SolverError if no one-to-one map was found, with the circles as `elements`, and the errors of `uniformize`.
 
@@ -129,14 +129,14 @@ def fit_circles(
     extremal = flag(given.pop("extremal"), "extremal")
     progress, cancel = callback(given.pop("progress"), "progress"), token(given.pop("cancel"), "cancel")
     options, said = solver_options("shapes", given)
-    source = surface_of(mesh)
+    source = surface_of(mesh, mask=given.pop("mask"))
     places, sizes = _holes(centers, radii)
     count = len(sizes)
     ranks = [] if loops is None else as_indices(loops, "loops", max(len(source.triangles), 1), "loops").tolist()
     if loops is not None and len(ranks) != count:
         raise InputError(f"there are {len(ranks)} loops for {count} circles")
     wanted = _koebe.CircleTemplate(places, sizes, _words(names, count), ranks, *_rims(pins, fixed, count))
-    native = _koebe.fit_circles(source.vertices, source.triangles, wanted, options, extremal, progress, cancel)
+    native = source.call(_koebe.fit_circles, wanted, options, extremal, progress, cancel)
     report = with_origin(native.report(), source, {**said, "extremal": extremal})
     return FitResult(report, native.uv, np.array(native.flipped_faces), native.mu, source)
 

@@ -33,7 +33,7 @@ class FlattenResult(DomainMap):
     dxf              the text of a DXF file (R12)
     seconds          in all
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
-    below_resolution, flipped_faces, peak_memory_mb, warnings, version, vertices, faces    as in MapReport; the area of
+    below_resolution, flipped_faces, peak_memory_mb, warnings, version    as in MapReport; the area of
                      pieces that were left out is lost
     """
 
@@ -64,7 +64,7 @@ class FlattenResult(DomainMap):
         return [f"{len(self.pieces)} pieces", f"{self.pages} pages", f"stretch {self.stretch_percent['mean']:.3g} %"]
 
 
-@takes("flatten", FlattenOptions, polygon=None, progress=None, cancel=None)
+@takes("flatten", polygon=None, progress=None, cancel=None)
 def flatten(vertices: Any, triangles: Any = None, **given: "Unpack[FlattenOptions]") -> FlattenResult:
     """Cut a surface into a flat pattern in real size, for cloth, leather, paper or sheet metal.
 
@@ -72,7 +72,7 @@ def flatten(vertices: Any, triangles: Any = None, **given: "Unpack[FlattenOption
     {options}
     polygon      (F,) integers: triangles of one number are one polygon and stay together. None: the polygons of the
                  mesh, or with arrays each triangle by itself
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Each piece is as true to size as it can be, as with even=1 and loops='free' of `parts`; no piece overlaps itself or
     another. Write the drawing with, for example, Path('pattern.svg').write_text(result.svg[0], 'utf-8').
     Raises InputError (OptionError for an option), SolverError, Cancelled, or MemoryError.

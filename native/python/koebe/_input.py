@@ -1,23 +1,64 @@
 """The surface given to a function, as arrays, from any of the allowed kinds."""
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ._arrays import as_points, as_surface
+from ._formats import is_foreign_surface, read_surface
 from ._meshes import Polygons, is_mesh, read_mesh
 from ._native import _koebe
 from ._result import Source
 from .errors import InputError
 
 
-def surface_of(vertices: Any, triangles: Any = None, degenerate: bool = False) -> Source:
+def surface_of(vertices: Any, triangles: Any = None, degenerate: bool = False, mask: Any = None) -> Source:
     """The surface as arrays. In place of vertices and triangles: a pair of both, a mesh file, another package's mesh.
 
     degenerate   faces may name a vertex twice
+    mask         (V,) bool: faces with a vertex where it is True are left out; the vertices keep their numbers
     """
+    source = _whole_surface(vertices, triangles, degenerate)
+    return source if mask is None else _masked(source, mask)
+
+
+def _masked(source: Source, mask: Any) -> Source:
+    out = as_mask(mask, len(source.vertices))
+    dropped = out[source.triangles].any(axis=1)
+    if source.polygon is not None:  # a polygon is one face
+        dropped = np.isin(source.polygon, source.polygon[dropped])
+    if dropped.all():
+        raise InputError("the mask leaves out all faces")
+    kept = np.flatnonzero(~dropped).astype(np.int32)
+    polygon = None if source.polygon is None else source.polygon[kept]
+    return replace(source, triangles=source.triangles[kept], polygon=polygon, kept=kept, mask=out)
+
+
+def as_mask(mask: Any, count: int) -> np.ndarray:
+    """(V,) bool. Raises InputError for any other array: numbers of vertices would look like 0 and 1."""
+    out = np.array(mask)
+    if out.shape != (count,) or out.dtype != bool:
+        raise InputError(
+            f"the mask must be ({count},) of True (left out) and False, not {out.shape} {out.dtype}: koebe.read_region "
+            "reads one from a file"
+        )
+    return out
+
+
+def points_at_vertices(points: Any, name: str, source: Source) -> np.ndarray:
+    """(V, 2) float64, finite. Where a vertex has no face, its point is not looked at, and becomes 0."""
+    given = np.array(points)
+    if given.shape == (len(source.vertices), 2) and given.dtype.kind == "f":
+        given[~source.used] = 0.0
+    return as_points(given, name, 2, len(source.vertices))
+
+
+def _whole_surface(vertices: Any, triangles: Any, degenerate: bool) -> Source:
+    if _is_path(vertices) and is_foreign_surface(vertices):
+        vertices = read_surface(vertices)
     polygons = _polygons_in(vertices)
     if polygons is None:
         if triangles is None:
@@ -77,6 +118,8 @@ def polygons_of(given: Any, source: Source) -> np.ndarray:
     if given is None:
         return np.zeros(0, np.int32) if source.polygon is None else source.polygon
     numbers, count = np.asarray(given), len(source.triangles)
+    if source.kept is not None and len(numbers) > source.kept[-1]:  # of all faces
+        numbers = numbers[source.kept]
     if numbers.shape != (count,) or numbers.dtype.kind not in "iu":
         raise InputError(f"polygon must be ({count},) integers, not {numbers.shape} {numbers.dtype}")
     return np.unique(numbers, return_inverse=True)[1].astype(np.int32)

@@ -69,6 +69,11 @@ class LiftResult:
             array.flags.writeable = False
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
+    @property
+    def corner_uv(self) -> np.ndarray:
+        """(F, 3, 2): `uv`, under the name that it has in all results."""
+        return self.uv
+
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
         return copy.deepcopy(self._report)
@@ -78,7 +83,7 @@ class LiftResult:
         return f"<koebe.LiftResult {self.outlines} {self.pattern}, {len(self.triangles)} faces, {kind}>"
 
 
-@takes("lift", LiftOptions, progress=None, cancel=None)
+@takes("lift", progress=None, cancel=None)
 def lift(
     vertices: Any,
     triangles: Any = None,
@@ -93,7 +98,7 @@ def lift(
                  or of a PNG file: a relief with `height` where it is white; or of an OBJ file: a mesh whose x and y are
                  flat and whose z is height, bent over the surface as it is
     {options}
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), FileError for a file that cannot be read, TopologyError, SolverError,
     Cancelled, or MemoryError. Where it returns, each outline that is not left out has become one hole or one hill, no
     face is flipped, and a solid is closed.
@@ -105,9 +110,9 @@ def lift(
     """
     options, said = filled("lift", _koebe.LiftOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles)
+    source = surface_of(vertices, triangles, mask=given["mask"])
     options.graded = vertex_weights("graded", given["graded"], len(source.vertices))
     if not isinstance(pattern, str | os.PathLike):
         raise TypeError(f"pattern must be a name or a file's path, not {pattern!r}")
-    native = _koebe.lift(source.vertices, source.triangles, os.fspath(pattern), options, progress, cancel)
+    native = source.call(_koebe.lift, os.fspath(pattern), options, progress, cancel)
     return LiftResult({**native.report(), "options": said}, native)

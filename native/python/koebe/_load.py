@@ -30,7 +30,8 @@ def load(path: str | os.PathLike[str]) -> Any:
     """
     try:
         with np.load(path, allow_pickle=False) as file:
-            report, source = json.loads(str(file["report"])), Source(file["vertices"], file["triangles"])
+            report = json.loads(str(file["report"]))
+            source = Source(file["vertices"], file["triangles"], kept=file.get("kept"))
             uv, flipped = file["uv"], file["flipped_faces"]
             before = "CutResult" if report.get("cut") is True else "UniformizeResult"  # 0.1 wrote no kind
             kind = str(file["kind"]) if "kind" in file else before

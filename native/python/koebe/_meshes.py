@@ -14,6 +14,7 @@ import numpy as np
 from .errors import InputError
 
 UV, LOG_SCALE, ANGLE_ERROR, VERTEX = "koebe_uv", "koebe_log_scale", "koebe_angle_error", "koebe_vertex"
+CORNER_UV, SPHERE = "koebe_corner_uv", "koebe_sphere"
 
 _POINTS, _TRIANGLES, _SHAPE, _VECTOR, _NONE = 1008, 1009, 2005, 1007, 0  # NIfTI's intent codes
 _VTK_FACES = {5: "triangle", 7: "polygon", 9: "quad"}  # numbers of VTK's cell types
@@ -40,55 +41,81 @@ class Polygons:
 
 
 def is_mesh(thing: Any) -> bool:
-    return _kind(thing) is not None
+    return kind_of(thing) is not None
 
 
 def read_mesh(mesh: Any) -> Polygons:
     """Raises InputError for a mesh without faces, or with cells that are not faces of a surface."""
     readers = {"trimesh": _from_trimesh, "pyvista": _from_pyvista, "meshio": _from_meshio, "gifti": _from_gifti}
-    polygons = readers[_kind(mesh) or "meshio"](mesh)
+    polygons = readers[kind_of(mesh) or "meshio"](mesh)
     if not len(polygons.cell):
         raise InputError("the mesh has no faces")
     return polygons
 
 
-def mesh_with_fields(mesh: Any, polygons: Polygons, uv: np.ndarray, log_scale: np.ndarray, angle: np.ndarray) -> Any:
-    """A copy of the mesh with texture coordinates (V, 2), and the fields of its vertices (V,) and faces (P,)."""
-    of_cells = np.full(polygons.cell_count, np.nan)
-    of_cells[polygons.cell] = angle
-    kind = _kind(mesh)
+@dataclass(frozen=True)
+class Fields:
+    """What a map says of a mesh.
+
+    uv       (V, 2) texture coordinates; NaN where a vertex has none, or several
+    points   the fields of the vertices: name -> (V,) or (V, k)
+    faces    the fields of the faces: name -> (P,) or (P, k)
+    """
+
+    uv: np.ndarray
+    points: dict[str, np.ndarray]
+    faces: dict[str, np.ndarray]
+
+
+def is_gifti(mesh: Any) -> bool:
+    """Whether the mesh keeps its vertices: other files of a cortex count on their number."""
+    return kind_of(mesh) == "gifti"
+
+
+def mesh_with_fields(mesh: Any, polygons: Polygons, fields: Fields) -> Any:
+    """A copy of the mesh with texture coordinates and fields."""
+    of_cells = {}
+    for name, values in fields.faces.items():
+        of_cells[name] = np.full((polygons.cell_count, *values.shape[1:]), np.nan)
+        of_cells[name][polygons.cell] = values
+    kind = kind_of(mesh)
     if kind == "trimesh":
         result = mesh.copy()
-        result.visual = importlib.import_module("trimesh.visual").TextureVisuals(uv=uv)
-        result.vertex_attributes[LOG_SCALE] = log_scale
-        result.face_attributes[ANGLE_ERROR] = of_cells
+        result.visual = importlib.import_module("trimesh.visual").TextureVisuals(uv=fields.uv)
+        result.vertex_attributes.update(fields.points)
+        result.face_attributes.update(of_cells)
     elif kind == "pyvista":
         result = mesh.copy(deep=True)
-        result.point_data[UV], result.point_data[LOG_SCALE] = uv, log_scale
-        result.cell_data[ANGLE_ERROR] = of_cells
-        result.active_texture_coordinates = uv
+        for name, values in {UV: fields.uv, **fields.points}.items():
+            result.point_data[name] = values
+        for name, values in of_cells.items():
+            result.cell_data[name] = values
+        result.active_texture_coordinates = fields.uv
     elif kind == "gifti":
         result = copy.deepcopy(mesh)
         gifti = importlib.import_module("nibabel.gifti")
-        for name, values, intent in ((UV, uv, _VECTOR), (LOG_SCALE, log_scale, _SHAPE), (ANGLE_ERROR, of_cells, _NONE)):
+        for name, values in {UV: fields.uv, **fields.points, **of_cells}.items():
+            intent = _NONE if name in of_cells else _SHAPE if values.ndim == 1 else _VECTOR
             array = gifti.GiftiDataArray(np.float32(values), intent, "NIFTI_TYPE_FLOAT32", meta={"Name": name})
             result.add_gifti_data_array(array)
     else:
         result = copy.deepcopy(mesh)
-        result.point_data[UV], result.point_data[LOG_SCALE] = uv, log_scale
+        result.point_data.update({UV: fields.uv, **fields.points})
         ends = np.cumsum([len(block.data) for block in result.cells])[:-1]
-        result.cell_data[ANGLE_ERROR] = np.split(of_cells, ends)
+        for name, values in of_cells.items():
+            result.cell_data[name] = np.split(values, ends)
     return result
 
 
 def mesh_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: np.ndarray) -> Any:
-    """A copy of the mesh with other vertices under its faces, and the field koebe_vertex.
+    """A copy of the mesh, of any kind that does not keep its vertices, with other vertices under its faces, and the
+    field koebe_vertex.
 
     old      (n,) the vertex that each new one is a copy of; the first V are the old ones, in their order
     corners  (C,) new vertex of each corner of the polygons
     Points and lines keep their vertices. New vertices carry their old vertices' data.
     """
-    kind = _kind(mesh)
+    kind = kind_of(mesh)
     if kind == "trimesh":
         trimesh = importlib.import_module("trimesh")
         result = trimesh.Trimesh(
@@ -103,18 +130,6 @@ def mesh_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: 
     elif kind == "pyvista":
         result = _pyvista_with_vertices(mesh, polygons, old, corners)
         result.point_data[VERTEX] = old
-    elif kind == "gifti":
-        result = copy.deepcopy(mesh)
-        for array in result.darrays:
-            if array.intent == _TRIANGLES:
-                array.data = corners.reshape(-1, 3).astype(array.data.dtype)
-            elif len(array.data) == len(polygons.vertices):
-                array.data = array.data[old]
-            array.dims = list(array.data.shape)
-        gifti = importlib.import_module("nibabel.gifti")
-        result.add_gifti_data_array(
-            gifti.GiftiDataArray(np.int32(old), _SHAPE, "NIFTI_TYPE_INT32", meta={"Name": VERTEX})
-        )
     else:
         result = copy.deepcopy(mesh)
         result.points = np.asarray(mesh.points)[old]
@@ -165,7 +180,8 @@ def _padded(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
     return np.insert(corners, np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64), sizes)
 
 
-def _kind(thing: Any) -> str | None:
+def kind_of(thing: Any) -> str | None:
+    """The package whose mesh it is, or None."""
     names = {(base.__module__.partition(".")[0], base.__name__) for base in type(thing).__mro__}
     if ("trimesh", "Trimesh") in names:
         return "trimesh"

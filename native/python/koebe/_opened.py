@@ -9,6 +9,7 @@ import numpy as np
 from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, token
+from ._result import Source
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,7 @@ def open_surface(
     triangles: Any = None,
     *,
     polygon: Any = None,
+    mask: Any = None,
     progress: Callable[[float, str], Any] | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> OpenedSurface:
@@ -78,7 +80,7 @@ def open_surface(
                            triangles may name a vertex twice
     polygon   (F,) integers: triangles of one number are one polygon and are not cut apart. None: each triangle by
               itself
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Handles are cut along short loops of a greedy homology basis [Erickson and Whittlesey 2005], a closed surface is
     opened along a shortest path between vertices far apart. Raises InputError, Cancelled, or MemoryError.
 
@@ -88,12 +90,20 @@ def open_surface(
     (['handle', 'opening'], [1024])
     """
     progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
-    source = surface_of(vertices, triangles, degenerate=True)
+    source = surface_of(vertices, triangles, degenerate=True, mask=mask)
     numbers = polygons_of(polygon, source)
-    pieces, cuts, left_out, handles = _koebe.open_surface(source.vertices, source.triangles, numbers, progress, cancel)
+    pieces, cuts, left_out, handles = source.call(_koebe.open_surface, numbers, progress, cancel)
     return OpenedSurface(
-        [SurfacePiece(p, t, vertex, face, turned.astype(bool)) for p, t, vertex, face, turned in pieces],
+        [
+            SurfacePiece(points, faces, vertex, source.source_face[face], turned.astype(bool))
+            for points, faces, vertex, face, turned in pieces
+        ],
         [SurfaceCut(*cut) for cut in cuts],
-        [LeftOutFace(face, like if like >= 0 else None, degenerate) for face, like, degenerate in left_out],
+        [_left_out(source, face, like, degenerate) for face, like, degenerate in left_out],
         handles,
     )
+
+
+def _left_out(source: Source, face: int, like: int, degenerate: bool) -> LeftOutFace:
+    number = source.source_face
+    return LeftOutFace(int(number[face]), int(number[like]) if like >= 0 else None, degenerate)

@@ -5,7 +5,7 @@ import inspect
 import math
 from collections.abc import Callable, Mapping
 from numbers import Integral, Real
-from typing import Any, TypeVar, get_type_hints
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -19,16 +19,15 @@ Native = TypeVar("Native")
 _MOST = 2**31 - 1  # of a 32-bit integer
 
 
-def takes(of: str, typed: Any, /, **others: Any) -> Callable[[Function], Function]:
+def takes(of: str, /, **others: Any) -> Callable[[Function], Function]:
     """Gives a function a map's options as keywords with their defaults, and describes them in its docstring.
 
-    typed    the TypedDict of its keywords
     others   keywords beside the table's, with their defaults
-    The docstring has {options} at the place for the descriptions.
+    The docstring has {options} at the place for the descriptions. The signature has the defaults without types, so that
+    `help` is short: the types are in _signatures.py.
     """
     table = rows(of)
-    defaults = {**{name: row.given for name, row in table.items()}, **others}
-    hints = {**get_type_hints(typed), "cut": bool}
+    defaults = {**{name: row.given for name, row in table.items()}, "mask": None, **others}
 
     def changed(function: Function) -> Function:
         @functools.wraps(function)
@@ -41,12 +40,7 @@ def takes(of: str, typed: Any, /, **others: Any) -> Callable[[Function], Functio
         signature = inspect.signature(function)
         positional = {name: one for name, one in signature.parameters.items() if one.kind is one.POSITIONAL_OR_KEYWORD}
         named = [
-            inspect.Parameter(
-                name,
-                inspect.Parameter.KEYWORD_ONLY,
-                default=default,
-                annotation=hints.get(name, inspect.Parameter.empty),
-            )
+            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default)
             for name, default in defaults.items()
         ]
         with_defaults.__signature__ = signature.replace(  # type: ignore[attr-defined]

@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._corner_mesh import mesh_with_corner_uv
 from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, filled, takes, token, vertex_weights
-from ._result import MapReport, Source, Warning
+from ._result import MapReport, Source, Warning, figures_of
 from ._signatures import PartsOptions
 from .errors import InputError
 
@@ -36,7 +37,7 @@ class PartsResult(MapReport):
     seconds          in all
     maps             faces mapped in all maps, in faces of the mesh
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
-    below_resolution, flipped_faces, peak_memory_mb, warnings, version, vertices, faces    as in MapReport. Faces in no
+    below_resolution, flipped_faces, peak_memory_mb, warnings, version    as in MapReport. Faces in no
                      part count in lost_area only, and only if they have no area at all
     """
 
@@ -58,19 +59,18 @@ class PartsResult(MapReport):
     def __init__(
         self, report: dict[str, Any], uv: np.ndarray, part: np.ndarray, flipped_faces: np.ndarray, source: Source
     ) -> None:
-        self._report = report
+        self._report = report = source.told(report)
         self._source = source
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        vars(self).update(figures_of(report))
         self.uv = uv.reshape(-1, 3, 2)
         self.uv.flags.writeable = False
         self.part = part
         self.flipped_faces = flipped_faces
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
-        return self._source.vertices, self._source.triangles
+    def to_mesh(self) -> Any:
+        """The mesh of the input, of the same kind, with fields as in CutResult.to_mesh."""
+        return mesh_with_corner_uv(self._source, self.uv, self.part >= 0)
 
     def _arrays(self) -> dict[str, Any]:
         return {"uv": self.uv, "part": self.part, "flipped_faces": self.flipped_faces}
@@ -87,7 +87,7 @@ class PartsResult(MapReport):
         )
 
 
-@takes("parts", PartsOptions, polygon=None, slits=None, progress=None, cancel=None)
+@takes("parts", polygon=None, slits=None, progress=None, cancel=None)
 def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
     """Cut a surface in its UVs only into disks and tubes of even texel density, packed into a square or onto tiles.
 
@@ -97,7 +97,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
                  mesh, or with arrays each triangle by itself
     slits        (E, 2) vertices of edges along which a tube is opened if they lead from one of its loops to the other.
                  None: along a short, straight path
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
 
     >>> import koebe
@@ -109,13 +109,13 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     """
     options, said = filled("parts", _koebe.PartsOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles, degenerate=options.cut)
+    source = surface_of(vertices, triangles, degenerate=options.cut, mask=given["mask"])
     options.polygon = polygons_of(given["polygon"], source)
     options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.show = vertex_weights("show", given["show"], len(source.vertices))
     if given["slits"] is not None:
         options.slits = _edges(given["slits"], len(source.vertices)).tolist()
-    native = _koebe.parts(source.vertices, source.triangles, options, progress, cancel)
+    native = source.call(_koebe.parts, options, progress, cancel)
     report = {**native.report(), "options": said}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32), source)
 

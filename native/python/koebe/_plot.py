@@ -16,11 +16,12 @@ _CHECKER = 24  # squares across the disk
 _DRAWN_FACES = 80000  # about, in squares
 
 
-def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
+def plot(result: UniformizeResult, *, field: str = "checker", ax: Any = None) -> Any:
     """A matplotlib Figure with the surface in space and the circle domain beside it, in the same colours.
 
     field   'checker': squares of the disk, 1/12 wide, mapped to the surface, which keeps their angles; 'log_scale';
             'angle_error', degrees
+    ax      your own axes: plane ones for the domain, 3D ones for the surface, or a pair of both. None: a new figure
     Needs matplotlib (the extra `plot`). A notebook shows the figure; elsewhere call its savefig or show.
 
     >>> import koebe
@@ -29,8 +30,6 @@ def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
     2
     """
     import matplotlib.pyplot as plt
-    from matplotlib.collections import PolyCollection
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     choice_of(field, "field", _FIELDS)
     vertices, triangles = result.surface
@@ -39,25 +38,53 @@ def plot(result: UniformizeResult, *, field: str = "checker") -> Any:
         pieces = max(1, int(np.sqrt(_DRAWN_FACES / len(triangles))))
         corners, images = _in_pieces(corners, pieces), _in_pieces(images, pieces)
     colors, scale = _colors(result, field, images, plt)
-    figure = plt.figure(figsize=(11, 5), layout="constrained")
-    space, plane = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
+    if ax is None:
+        figure = plt.figure(figsize=(11, 5), layout="constrained")
+        space, plane = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
+    else:
+        figure, space, plane = _axes(ax)
+    if space is not None:
+        _draw_surface(space, corners, colors, result)
+    if plane is not None:
+        _draw_domain(plane, images, colors, result, plt)
+    if scale is not None:
+        figure.colorbar(scale, ax=space if plane is None else plane, shrink=0.7, label=_FIELDS[field])
+    return figure
 
+
+def _axes(ax: Any) -> tuple[Any, Any, Any]:
+    """The figure, and the 3D axes and the plane ones, or None."""
+    given = list(ax) if isinstance(ax, (tuple, list, np.ndarray)) else [ax]
+    if not given or any(not hasattr(one, "add_collection") for one in given):
+        raise TypeError(f"ax must be axes of matplotlib, or a pair of them, not {ax!r}")
+    space = [one for one in given if hasattr(one, "add_collection3d")]
+    plane = [one for one in given if not hasattr(one, "add_collection3d")]
+    if len(space) > 1 or len(plane) > 1:
+        raise TypeError("ax must be 3D axes, plane ones, or one of each")
+    return given[0].figure, next(iter(space), None), next(iter(plane), None)
+
+
+def _draw_surface(space: Any, corners: np.ndarray, colors: np.ndarray, result: UniformizeResult) -> None:
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    drawn = result.vertices[result.triangles]
     space.add_collection3d(Poly3DCollection(corners, facecolors=colors, edgecolors=colors, linewidths=0.3))
-    space.view_init(*_in_front_of(vertices, triangles))
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    space.view_init(*_in_front_of(*result.surface))
+    low, high = drawn.min(axis=(0, 1)), drawn.max(axis=(0, 1))
     for axis, a, b in zip("xyz", low, high, strict=True):
         getattr(space, f"set_{axis}lim")(a, b)
     space.set_box_aspect(np.maximum(high - low, 1e-9 * (high - low).max()))
     space.set_axis_off()
+
+
+def _draw_domain(plane: Any, images: np.ndarray, colors: np.ndarray, result: UniformizeResult, plt: Any) -> None:
+    from matplotlib.collections import PolyCollection
 
     plane.add_collection(PolyCollection(images, facecolors=colors, edgecolors=colors, linewidths=0.3))
     for center, radius in zip(result.centers, result.radii, strict=True):
         plane.add_patch(plt.Circle(center, radius, fill=False, color="#1d4e89", linewidth=1.2))
     plane.set(xlim=(-1.03, 1.03), ylim=(-1.03, 1.03), aspect="equal")
     plane.set_axis_off()
-    if scale is not None:
-        figure.colorbar(scale, ax=plane, shrink=0.7, label=_FIELDS[field])
-    return figure
 
 
 def _in_front_of(vertices: np.ndarray, triangles: np.ndarray) -> tuple[float, float]:

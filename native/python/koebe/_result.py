@@ -2,19 +2,22 @@
 
 import copy
 import hashlib
+import os
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
+from importlib import import_module
 from typing import Any, TypedDict
 
 import numpy as np
 
 from ._arrays import as_loops
-from ._fields import disk_to_uv, face_angle_error_deg, log_scale
+from ._fields import face_angle_error_deg, log_scale
 from ._files import Saved
-from ._meshes import Polygons, mesh_with_fields
+from ._meshes import ANGLE_ERROR, LOG_SCALE, Fields, Polygons, mesh_with_fields
 from ._native import _koebe
-from .errors import InputError
+from .errors import InputError, KoebeError
 
 # UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs.
 UV_RESOLUTION: float = _koebe.uv_resolution
@@ -24,19 +27,40 @@ CIRCLE_TOLERANCE: float = _koebe.circle_tolerance
 WARNING_ELEMENTS: dict[str, str] = dict(_koebe.warning_elements)
 
 
-class Warning(dict[str, Any]):
-    """A warning about a result: a dict of kind, elements and text, which are attributes too.
+class Warning(Mapping[str, Any], UserWarning, RuntimeWarning):
+    """A warning about a result, with kind, elements and text, as attributes and as a mapping's entries.
 
     kind       its subject, one of the keys of koebe.WARNING_ELEMENTS
-    elements   numbers of the input's vertices or faces, or of the result's loops (see WARNING_ELEMENTS); ascending
+    elements   numbers of the input's vertices, or of the result's faces or loops (see WARNING_ELEMENTS); ascending
     text       a sentence for people
+    Where a function warns by Python's `warnings`, this is the category: warnings.filterwarnings("ignore",
+    category=koebe.Warning), or "error".
     """
+
+    def __init__(self, entries: Mapping[str, Any] | None = None, **more: Any) -> None:
+        self._entries = {**(entries or {}), **more}
+        super().__init__(self._entries.get("text", ""))
+
+    def __getitem__(self, name: str) -> Any:
+        return self._entries[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._entries)
+
+    def __len__(self) -> int:
+        return len(self._entries)
 
     def __getattr__(self, name: str) -> Any:
         try:
-            return self[name]
+            return vars(self)["_entries"][name]
         except KeyError:
             raise AttributeError(f"Warning has no attribute '{name}'") from None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Warning, (self._entries,)
+
+    def __repr__(self) -> str:
+        return f"koebe.Warning({self._entries})"
 
     @property
     def of(self) -> str:
@@ -53,7 +77,37 @@ class Warning(dict[str, Any]):
         return Warning(kind=self["kind"], elements=elements, text=text)
 
     def __str__(self) -> str:
-        return self["text"]
+        return str(self["text"])
+
+
+class Loop(np.ndarray):
+    """A boundary loop of a result: an int32 array of its vertices, in order with the surface on the left.
+
+    It has the figures of the report, too, by their names: loop["radius"], loop["off_circle"]. `figures` lists them.
+    Arrays made from it are plain ones.
+    """
+
+    figures: dict[str, Any]
+
+    def __new__(cls, entry: Mapping[str, Any]) -> "Loop":
+        """The loop of a report: its vertices, and its other entries."""
+        made = np.asarray(entry["vertices"], dtype=np.int32).view(cls)
+        made.figures = dict(entry)
+        return made
+
+    def __array_finalize__(self, other: Any) -> None:
+        self.figures = {}
+
+    def __getitem__(self, key: Any) -> Any:
+        if isinstance(key, str):
+            return np.asarray(self) if key == "vertices" else self.figures[key]
+        return np.asarray(self)[key]
+
+    def __array_wrap__(self, array: Any, *_: Any) -> Any:
+        return np.asarray(array)[()]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Loop, ({**self.figures, "vertices": np.asarray(self)},)
 
 
 class _AngleErrorBeforePolish(TypedDict, total=False):
@@ -141,6 +195,42 @@ class Source:
     mesh: Any = None
     polygons: Polygons | None = None
     polygon: np.ndarray | None = None  # (F,) of each triangle
+    kept: np.ndarray | None = None  # (F,) the numbers of these triangles in the input, if a mask left out others
+    mask: np.ndarray | None = None  # (V,) bool, as given
+
+    @property
+    def source_face(self) -> np.ndarray:
+        """(F,) int32: the number of each triangle in the input."""
+        return np.arange(len(self.triangles), dtype=np.int32) if self.kept is None else self.kept
+
+    def told(self, report: dict[str, Any]) -> dict[str, Any]:
+        """The report, without the vertices that only the mask left without a face."""
+        if self.kept is None:
+            return report
+        return {**report, "warnings": [one for one in report["warnings"] if one["kind"] != "unused_vertices"]}
+
+    def call(self, function: Callable[..., Any], *others: Any) -> Any:
+        """The native function of vertices, triangles and the others. Faces of errors have the input's numbers."""
+        try:
+            return function(self.vertices, self.triangles, *others)
+        except KoebeError as error:
+            if self.kept is not None and error.of == "faces":
+                error.elements = self.kept[list(error.elements)].tolist()
+            raise
+
+    @property
+    def used(self) -> np.ndarray:
+        """(V,) bool: vertices with a triangle."""
+        found = np.zeros(len(self.vertices), bool)
+        found[self.triangles] = True
+        return found
+
+    def outside_nan(self, values: np.ndarray) -> np.ndarray:
+        """The values (V, k) of the vertices, with NaN at those that a mask leaves without a triangle."""
+        if self.kept is not None:
+            values = np.array(values)
+            values[~self.used] = np.nan
+        return values
 
 
 def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any]) -> dict[str, Any]:
@@ -150,6 +240,11 @@ def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any])
         digest.update(np.ascontiguousarray(array, dtype=kind).tobytes())
     origin = {"input_sha256": digest.hexdigest(), "options": options}
     return {"version": report["version"], "input": report["input"], **origin, **report}
+
+
+def figures_of(report: Mapping[str, Any]) -> dict[str, Any]:
+    """The entries of a report that are attributes of its result."""
+    return {name: value for name, value in report.items() if name not in ("input", "vertices", "faces", "cut")}
 
 
 class MapReport(Saved):
@@ -166,12 +261,12 @@ class MapReport(Saved):
     seconds          of each stage
     peak_memory_mb   of the process
     warnings         list of Warning: kind, elements, text. A warning of too much lost area comes first
+    uv               as each result says. corner_uv is the same thing of all results
     """
 
     version: str
     options: dict[str, Any]
-    vertices: int
-    faces: int
+    uv: np.ndarray
     converged: bool
     angle_error_deg: AngleError
     angle_error_stored_deg: AngleError
@@ -188,6 +283,55 @@ class MapReport(Saved):
     peak_memory_mb: float
     warnings: list[Warning]
 
+    @property
+    def vertices(self) -> np.ndarray:
+        """(V, 3) float64: the positions of the surface's vertices."""
+        return self._source.vertices
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(F, 3) int32: the mapped triangles, without those that a mask left out."""
+        return self._source.triangles
+
+    @property
+    def vertex_count(self) -> int:
+        """V, the number of vertices."""
+        return len(self._source.vertices)
+
+    @property
+    def face_count(self) -> int:
+        """F, the number of mapped triangles."""
+        return len(self._source.triangles)
+
+    @property
+    def corner_uv(self) -> np.ndarray:
+        """(F, 3, 2) float64, texture coordinates of each triangle's corners: of every kind of result, as its files have
+        them. For UniformizeResult and FitResult they lie in [0, 1]^2 and are (1 + uv) / 2, for others they are `uv`."""
+        return self.uv if self.uv.ndim == 3 else 0.5 * (1.0 + self.uv[self._source.triangles])
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface, without what a mask left out."""
+        return self._source.vertices, self._source.triangles
+
+    @property
+    def source_face(self) -> np.ndarray:
+        """(F,) int32: the number in the input of each mapped triangle; 0, 1, 2, ... without a mask."""
+        return self._source.source_face
+
+    def export(self, path: str | os.PathLike[str]) -> None:
+        """Write the map in the format that the file's name says. The file is complete or absent.
+
+        .surf.gii, lh.NAME, rh.NAME    the map itself as a surface with the same vertices, as Workbench and FreeSurfer
+                          read it: flat, of the surface's area, or the sphere of radius 100 (not for maps with cuts)
+        lh.NAME.patch.flat, .flat      the flat map as FreeSurfer's patch
+        .shape.gii, .func.gii          koebe_log_scale, koebe_u and koebe_v at the vertices
+        .gii, .vtk, .vtu, .vtp, .msh   the surface with the fields of to_mesh()
+        .obj              the surface with UVs
+        Needs nibabel, meshio, or PyVista for .vtp. Raises InputError for another name, OSError.
+        """
+        import_module("._export", __package__).export(self, path)
+
 
 class UniformizeResult(MapReport):
     """A circle domain and its report.
@@ -196,14 +340,14 @@ class UniformizeResult(MapReport):
     input_sha256     of the vertices' bytes as float64 and the triangles' as int32, little-endian, row after row
     options          of the call: method, engine, outer, tolerance, ...
     uv               (V, 2) float64, points of the closed unit disk in the input's vertex order; read-only
-    loops            int32 arrays of vertices, the surface on the left, the outer loop first
+    loops            list of Loop: int32 arrays of vertices, the surface on the left, the outer loop first
     centers, radii   (L, 2) and (L,) circles in the unit disk
     roundness        (L,) the paper's e(gamma_k) before the final projection (section 5)
     roundness_least_squares     (L,) deviation from the circle of least squares, in radii, before the final projection
     mean_roundness   their means
     off_circle       int32 arrays: vertices of each loop that are not on its circle
     own_circle       (L,) whether each circle is the surface's own: the iteration's, and not lost in rounding
-    vertices, faces  their numbers
+    vertices, triangles, vertex_count, face_count    as in MapReport
     method, engine   as chosen
     outer_loop       number of the outer loop in boundary_loops(triangles)
     center, point    vertices at 0 and at 1, as in the options, or None
@@ -217,7 +361,7 @@ class UniformizeResult(MapReport):
 
     input_sha256: str = ""
     uv: np.ndarray
-    loops: list[np.ndarray]
+    loops: list[Loop]
     centers: np.ndarray
     radii: np.ndarray
     roundness: np.ndarray
@@ -244,14 +388,14 @@ class UniformizeResult(MapReport):
         step_maps: list[np.ndarray],
         source: Source,
     ) -> None:
-        self._report = report
+        self._report = report = source.told(report)
         self._source = source
         loops = report["loops"]
-        vars(self).update({name: value for name, value in report.items() if name != "input"})
+        vars(self).update(figures_of(report))
         self.options = report.get("options", {})
-        self.uv = uv
+        self.uv = source.outside_nan(uv)
         self.uv.flags.writeable = False
-        self.loops = as_loops([loop["vertices"] for loop in loops])
+        self.loops = [Loop(loop) for loop in loops]
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
@@ -261,11 +405,6 @@ class UniformizeResult(MapReport):
         self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
         self.step_maps = step_maps
         self.warnings = [Warning(warning) for warning in report["warnings"]]
-
-    @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface."""
-        return self._source.vertices, self._source.triangles
 
     @cached_property
     def log_scale(self) -> np.ndarray:
@@ -278,8 +417,8 @@ class UniformizeResult(MapReport):
         return face_angle_error_deg(self._source.vertices, self._source.triangles, self.uv)
 
     def to_mesh(self) -> Any:
-        """The given mesh, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and koebe_angle_error
-        (degrees) at the faces. Raises InputError if arrays were given."""
+        """The mesh of the input, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and
+        koebe_angle_error (degrees) at the faces. Raises InputError if the input was arrays."""
         source = self._source
         if source.mesh is None or source.polygons is None or source.polygon is None:
             raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
@@ -287,7 +426,10 @@ class UniformizeResult(MapReport):
         number, error = source.polygon[known], self.face_angle_error_deg[known]
         with np.errstate(invalid="ignore"):
             angle = np.bincount(number, error, minlength=faces) / np.bincount(number, minlength=faces)
-        return mesh_with_fields(source.mesh, source.polygons, disk_to_uv(self.uv), self.log_scale, angle)
+        uv = 0.5 * (1.0 + self.uv)
+        return mesh_with_fields(
+            source.mesh, source.polygons, Fields(uv, {LOG_SCALE: self.log_scale}, {ANGLE_ERROR: angle})
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with input_sha256 and options."""
@@ -301,7 +443,7 @@ class UniformizeResult(MapReport):
 
     def __repr__(self) -> str:
         return (
-            f"<koebe.UniformizeResult {self.vertices} vertices, {len(self.loops)} loops, "
+            f"<koebe.UniformizeResult {self.vertex_count} vertices, {len(self.loops)} loops, "
             f"{self.sweeps} sweeps, angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
         )
 
@@ -312,7 +454,7 @@ class UniformizeResult(MapReport):
             for k, ((x, y), radius) in enumerate(zip(self.centers, self.radii, strict=True))
         )
         lines = [
-            f"{self.vertices:,} vertices, {self.faces:,} faces, {len(self.loops)} loops",
+            f"{self.vertex_count:,} vertices, {self.face_count:,} faces, {len(self.loops)} loops",
             f"{'converged' if self.converged else 'not converged'} in {self.sweeps} sweeps",
             f"angle error {self.angle_error_deg['mean']:.3g}°, {self.flipped} flipped",
             *(escape(str(warning)) for warning in self.warnings),

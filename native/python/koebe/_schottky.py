@@ -33,14 +33,14 @@ class SchottkyMap(DomainMap):
     handles          list of dicts, longer cuts first: generator, multiplier, circles, outer; cut, the vertices on the
                      loop of the cut, which may run through faces between them; misfit, by how much the two sides of the
                      cut missed a Moebius map before they were fitted, over their radius: an estimate of the error
-    loops            list of dicts of the holes, by falling length, the first on the unit circle (scaled if the UVs
+    loops            list of Loop, of the holes, by falling length, the first on the unit circle (scaled if the UVs
                      would not fit in the square): vertices; center, radius of the circle in the UVs, or of one of its
                      copies if polygons tear it there; roundness, roundness_least_squares, before the projection onto
                      the circle; off_circle, the vertices off it
     converged, sweeps, changes    of the disks that fill the loops, in each sweep
     turned           faces turned to the orientation of the others
     angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
-    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version    as in MapReport
     """
 
     generators: np.ndarray
@@ -64,7 +64,7 @@ class SchottkyMap(DomainMap):
         return [f"{len(self.handles)} handles", *super()._counts()]
 
 
-@takes("schottky", SchottkyOptions, polygon=None, progress=None, cancel=None)
+@takes("schottky", polygon=None, progress=None, cancel=None)
 def schottky_map(vertices: Any, triangles: Any = None, **given: "Unpack[SchottkyOptions]") -> SchottkyMap:
     """Map a surface with at least one handle, and any number of holes, conformally into the disk, with round holes.
 
@@ -75,7 +75,7 @@ def schottky_map(vertices: Any, triangles: Any = None, **given: "Unpack[Schottky
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: the polygons of
                  the mesh, or with arrays each triangle by itself
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: no handle, or cuts that touch each other),
     SolverError, Cancelled, or MemoryError. A map that is not one to one has converged = False, and a warning tells why.
 

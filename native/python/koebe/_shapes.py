@@ -192,7 +192,7 @@ def mapped_surface(result: UniformizeResult, own: bool = False) -> "_koebe.Mappe
     off = [np.sort(vertices).tolist() for vertices in result.off_circle]
     loops = [loop.tolist() for loop in result.loops]
     circles = result.centers, result.radii, (result.own_circle | own).tolist()
-    return _koebe.MappedSurface(*result.surface, result.uv, loops, off, *circles)
+    return _koebe.MappedSurface(*result.surface, np.nan_to_num(result.uv), loops, off, *circles)
 
 
 class DomainAlignment:

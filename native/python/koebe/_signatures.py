@@ -1,21 +1,27 @@
 """The options of the maps for type checkers, equal to the table options.json (tests compare them)."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypedDict
+from typing import Any, Literal, TypedDict
 
 from ._native import _koebe
 
 Progress = Callable[[float, str], Any]
 
 
-class RunOptions(TypedDict, total=False):
+class SurfaceOptions(TypedDict, total=False):
+    """What says which part of the surface is meant."""
+
+    mask: Any
+
+
+class RunOptions(SurfaceOptions, total=False):
     """Options of each call that takes a while."""
 
     progress: Progress | None
     cancel: "_koebe.CancelToken | None"
 
 
-class MapOptions(TypedDict, total=False):
+class MapOptions(SurfaceOptions, total=False):
     """Options of all maps."""
 
     most_lost: float
@@ -31,11 +37,11 @@ class SweepOptions(MapOptions, total=False):
 class SequenceOptions(SweepOptions, total=False):
     """Options of `Surface`."""
 
-    method: str
-    outer: str | int
+    method: Literal["gk", "ck", "against-outer"]
+    outer: Literal["auto", "longest"] | int
     center: int | None
     point: int | None
-    balance: str
+    balance: Literal["none", "area"]
     importance: Any
     polish: bool
     threads: int
@@ -44,13 +50,13 @@ class SequenceOptions(SweepOptions, total=False):
 class UniformizeOptions(SequenceOptions, RunOptions, total=False):
     """Options of `uniformize`, except `cut`."""
 
-    engine: str
+    engine: Literal["condensed", "mesh"]
     even: float
-    loops: str
-    partners: str
+    loops: Literal["auto", "round", "free"]
+    partners: Literal["fixed", "changing"]
     schedule: Sequence[Sequence[int]] | None
-    metric: str
-    annulus: str
+    metric: Literal["first", "planar", "reflected", "reflected-last"]
+    annulus: Literal["harmonic", "yamabe"]
     record_steps: bool
 
 
@@ -65,7 +71,7 @@ class TorusOptions(TileOptions, total=False):
 
     even: float
     importance: Any
-    loops: str
+    loops: Literal["auto", "round", "free"]
 
 
 class RingOptions(TorusOptions, total=False):
@@ -73,26 +79,26 @@ class RingOptions(TorusOptions, total=False):
 
     outer: int | None
     inner: int | None
-    holes: str
+    holes: Literal["circles", "concentric", "radial"]
 
 
 class SphereOptions(TileOptions, total=False):
     """Options of `sphere_map`."""
 
-    layout: str
+    layout: Literal["equirectangular", "octahedral"]
 
 
 class SchottkyOptions(TileOptions, total=False):
     """Options of `schottky_map`."""
 
-    normalization: str
+    normalization: Literal["area", "circles"]
 
 
 class PartsOptions(MapOptions, RunOptions, total=False):
     """Options of `parts`."""
 
     even: float | None
-    loops: str
+    loops: Literal["auto", "round", "free"]
     darts: float
     density: float | None
     pixels: int
@@ -110,7 +116,7 @@ class PartsOptions(MapOptions, RunOptions, total=False):
 class FlattenOptions(RunOptions, total=False):
     """Options of `flatten`."""
 
-    units: str
+    units: Literal["mm", "cm", "m", "in"]
     page: str
     allowance: float
     price: float | None
@@ -121,7 +127,7 @@ class FlattenOptions(RunOptions, total=False):
 class LiftOptions(RunOptions, total=False):
     """Options of `lift`."""
 
-    shape: str
+    shape: Literal["disk", "ring", "torus", "sphere", "parts"]
     even: float | None
     size: float | None
     bridge: float | None
@@ -130,7 +136,7 @@ class LiftOptions(RunOptions, total=False):
     turn: float
     around: int | None
     rows: int
-    rim: str
+    rim: Literal["leave", "clip", "whole"]
     graded: Any
     perforate: bool
     height: float | None

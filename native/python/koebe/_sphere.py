@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._domain_map import DomainMap, domain_map
+from ._meshes import SPHERE
 from ._native import _koebe
 from ._options import takes
 from ._result import Source
@@ -27,7 +28,7 @@ class SphereMap(DomainMap):
     layout           dict: kind; crossing, the faces that go beyond the layout's edge; torn, the faces round a pole or
                      round the middle of a side of the square, which no UVs fit; flipped, the faces without a positive
                      area in 32-bit UVs; below_resolution, the flipped faces that are too small for 32-bit UVs
-    loops            list of dicts, by falling length: vertices, center, radius (of the cap), roundness,
+    loops            list of Loop, by falling length: vertices, center, radius (of the cap), roundness,
                      roundness_least_squares, off_circle
     mean_point       length of the mean of the surface's points by area, 0 if the map is balanced
     converged, sweeps, changes    of the circles, or of the points of a closed surface, in each sweep
@@ -38,7 +39,7 @@ class SphereMap(DomainMap):
                      face counts as it lies
     on_sphere        dict of counts: flipped, faces that are not upright on the sphere in exact arithmetic;
                      below_resolution, those that are smaller than the resolution of 64-bit coordinates there
-    seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
+    seconds, peak_memory_mb, warnings, version    as in MapReport
     """
 
     points: np.ndarray
@@ -50,7 +51,10 @@ class SphereMap(DomainMap):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         caps = np.array([[*loop["center"], loop["radius"]] for loop in self.loops], float).reshape(-1, 4)
-        self._set_arrays(points=native.points, caps=caps)
+        self._set_arrays(points=source.outside_nan(native.points), caps=caps)
+
+    def _point_fields(self) -> dict[str, np.ndarray]:
+        return {SPHERE: self.points}
 
     def _arrays(self) -> dict[str, Any]:
         return {**super()._arrays(), "points": self.points}
@@ -61,7 +65,7 @@ class SphereMap(DomainMap):
         return drawn
 
 
-@takes("sphere", SphereOptions, polygon=None, progress=None, cancel=None)
+@takes("sphere", polygon=None, progress=None, cancel=None)
 def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOptions]") -> SphereMap:
     """Map a surface of genus 0, closed or with any number of holes, conformally to the sphere, with round holes.
 
@@ -72,7 +76,7 @@ def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOpti
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, whose corners have one UV each. None: each by
                  itself, or as in the mesh
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: handles), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning tells why.
 

@@ -1,5 +1,6 @@
 """Maps a surface many times while its vertices move."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,12 +39,12 @@ class Surface:
     0 0 True
     """
 
-    @takes("sequence", SequenceOptions)
+    @takes("sequence")
     def __init__(self, vertices: Any, triangles: Any = None, **given: "Unpack[SequenceOptions]") -> None:
         options, self._options = solver_options("sequence", given)
-        self._source = surface_of(vertices, triangles)
+        self._source = surface_of(vertices, triangles, mask=given["mask"])
         options.importance = importance_of(given["importance"], self._options, len(self._source.vertices))
-        self._native = _koebe.Surface(self._source.vertices, self._source.triangles, options)
+        self._native = self._source.call(_koebe.Surface, options)
 
     def uniformize(
         self, vertices: Any = None, *, progress: Progress | None = None, cancel: "_koebe.CancelToken | None" = None
@@ -66,12 +67,15 @@ class Surface:
     def _moved(self, vertices: Any) -> Source:
         kept = self._source
         if not is_surface(vertices):
-            return Source(as_points(vertices, "vertices", 3, len(kept.vertices)), kept.triangles)
-        moved = surface_of(vertices)
-        if len(moved.vertices) != len(kept.vertices) or not all(map(np.array_equal, _faces(moved), _faces(kept))):
+            points = as_points(vertices, "vertices", 3, len(kept.vertices))
+            return Source(points, kept.triangles, kept=kept.kept, mask=kept.mask)
+        if len(surface_of(vertices).vertices) != len(kept.vertices):
+            raise InputError("the mesh has other faces than the surface")
+        moved = surface_of(vertices, mask=kept.mask)
+        if not all(map(np.array_equal, _faces(moved), _faces(kept))):
             raise InputError("the mesh has other faces than the surface")
         polygon = moved.polygon if kept.polygon is None else kept.polygon
-        return Source(moved.vertices, kept.triangles, moved.mesh, moved.polygons, polygon)
+        return replace(moved, triangles=kept.triangles, polygon=polygon)
 
     def __repr__(self) -> str:
         return f"<koebe.Surface {len(self._source.vertices)} vertices, {len(self._source.triangles)} faces>"

@@ -22,14 +22,14 @@ class TileMap(DomainMap):
     periods          (2, 2) float64, u and v of the torus's two periods; (1, 2) for a cylinder, along u
     modulus          complex: for a torus the ratio of the periods, |Re| <= 1/2 and at least 1 in size; for a ring i
                      times its height over its period, log(R / r) / 2 pi
-    loops            list of dicts: vertices, rim (for a ring's two rims), off_circle; for a torus center and radius of
+    loops            list of Loop: vertices, rim (for a ring's two rims), off_circle; for a torus center and radius of
                      its circle in UVs (one of its copies), for a ring with holes='circles' in the unit disk, both
                      with roundness; for slits the two ends of the slit in UVs
     converged, sweeps, changes    of the circles in each sweep
     turned           faces turned to the orientation of the others
     cut_length       of the cut in the UVs, over the square root of the surface's area
     angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
-    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version, vertices, faces    as in MapReport
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version    as in MapReport
     """
 
     periods: np.ndarray
@@ -45,7 +45,7 @@ class TileMap(DomainMap):
         return [*super()._counts(), f"modulus {self.modulus:.4g}"]
 
 
-@takes("torus", TorusOptions, polygon=None, progress=None, cancel=None)
+@takes("torus", polygon=None, progress=None, cancel=None)
 def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOptions]") -> TileMap:
     """Map a surface with one handle, and any number of holes, conformally to a flat torus, with round holes.
 
@@ -53,7 +53,7 @@ def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOption
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, and are not cut apart. None: the polygons of
                  the mesh, or with arrays each triangle by itself
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError (genus: not one handle), SolverError, Cancelled, or
     MemoryError. A map that is not one to one has converged = False, and a warning tells why.
 
@@ -65,7 +65,7 @@ def torus_map(vertices: Any, triangles: Any = None, **given: "Unpack[TorusOption
     return domain_map(TileMap, _koebe.torus_map, "torus", _koebe.TileOptions(), given, (vertices, triangles))
 
 
-@takes("ring", RingOptions, polygon=None, progress=None, cancel=None)
+@takes("ring", polygon=None, progress=None, cancel=None)
 def ring_map(vertices: Any, triangles: Any = None, **given: "Unpack[RingOptions]") -> TileMap:
     """Map a surface of genus 0 with at least two loops conformally to a cylinder and unroll it.
 
@@ -75,7 +75,7 @@ def ring_map(vertices: Any, triangles: Any = None, **given: "Unpack[RingOptions]
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     {options}
     polygon      as for `torus_map`
-    progress, cancel    as for `uniformize`
+    mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError, SolverError, Cancelled, or MemoryError. A map that is
     not one to one has converged = False, and a warning tells why.
 

@@ -26,6 +26,7 @@ class Correspondence:
     weights     (V_b, 3) its barycentric coordinates there: at least 0, sum 1
     points      (V_b, 3) the point in space, in a's unit
     distances   (V_b,) how far outside a's domain b's vertex was before it took the nearest point, disk lengths
+                A vertex of b without a face corresponds to nothing: its face is -1, all else NaN
     alignment   of a's domain over b's: the corresponding loops, and by how much the holes miss
     fitted      whether the holes were then bent onto each other; False if that would have turned faces over
     uv          (V_a, 2) a's domain as laid over b's; with landmarks inside faces, the faces are cut there, and the map
@@ -54,12 +55,38 @@ class Correspondence:
             f"|mu| {self.beltrami['mean']:.3g} in the mean, {self.beltrami['max']:.3g} at most>"
         )
 
-    def carry(self, field: Any) -> np.ndarray:
-        """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's, linear in each face."""
-        values = np.asarray(field, dtype=np.float64)
-        if values.ndim not in (1, 2) or len(values) != len(self.uv):
-            raise InputError(f"the field has the shape {values.shape}, not a row for each of {len(self.uv)} vertices")
-        return np.einsum("vk,vk...->v...", self.weights, values[self.triangles[self.faces]])
+    def carry(self, field: Any, *, labels: bool | None = None) -> np.ndarray:
+        """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's.
+
+        labels   True: each vertex takes one of the labels at its triangle's corners: the label of greatest weight.
+                 False: values are linear in each face. None: as labels if the field has whole numbers or booleans
+        A vertex of b without a face has the label -1 (False among booleans, and 0 in unsigned types), or the value NaN.
+        """
+        return carried(field, self.triangles, self.faces, self.weights, len(self.uv), labels)
+
+
+def carried(
+    field: Any, triangles: np.ndarray, faces: np.ndarray, weights: np.ndarray, count: int, labels: bool | None
+) -> np.ndarray:
+    """A field at points of triangles, from the field at the vertices."""
+    values = np.asarray(field)
+    if values.ndim not in (1, 2) or len(values) != count:
+        raise InputError(f"the field has the shape {values.shape}, not a row for each of {count} vertices")
+    if values.dtype.kind not in "fiub":
+        raise InputError(f"the field must have numbers, not {values.dtype}")
+    as_labels = values.dtype.kind != "f" if labels is None else flag(labels, "labels")
+    corners, known = triangles[faces], faces >= 0
+    if not as_labels:
+        linear = np.einsum("vk,vk...->v...", weights, values[corners].astype(np.float64))
+        return np.where(known.reshape(-1, *(1,) * (values.ndim - 1)), linear, np.nan)
+    if values.ndim == 2:
+        columns = [carried(column, triangles, faces, weights, count, True) for column in values.T]
+        return np.stack(columns, axis=1) if columns else np.zeros((len(faces), 0), values.dtype)
+    here = values[corners]
+    votes = np.einsum("vk,vjk->vj", np.nan_to_num(weights), here[:, :, None] == here[:, None, :])
+    chosen = np.take_along_axis(here, votes.argmax(axis=1)[:, None], axis=1)[:, 0]
+    nothing = {"i": -1, "u": 0, "b": False, "f": np.nan}[values.dtype.kind]
+    return np.where(known, chosen, np.array(nothing, values.dtype))
 
 
 @overload
@@ -96,15 +123,15 @@ def transfer(
     The automorphism of the disk that brings the holes nearest lays a's circle domain over b's (align_domains). fit=True
     then bends it in small harmonic steps until the holes are the same circles: nothing is lost at the rims, and no face
     turns over, but it is quasi-conformal where the holes differ.
-    field      (V_a,) or (V_a, k) at a's vertices: returns its values at b's vertices, (V_b,) or (V_b, k) float64
-               None: returns the Correspondence itself
+    field      (V_a,) or (V_a, k) at a's vertices: returns its values at b's vertices, (V_b,) or (V_b, k): numbers as
+               float64, labels (whole numbers, booleans) as labels of the same type. None: returns the Correspondence
     match      a's loop for each of b's, 0 for 0; None: by match_loops or, with landmarks and up to five holes, the
                match that brings circles and landmarks nearest
     landmarks  pairs (on a, on b) that must correspond. Each is a vertex, or a point (x, y, z) in the surface's unit,
                which stands for the nearest point of the surface. Then the domain is bent further, circles to circles.
                Of the maps that take landmarks to landmarks exactly and turn no face over, it takes the one with the
                least fourth power of |mu| over the surface. On a rim landmarks are vertices of both
-    Holes that could not be bent onto each other give a RuntimeWarning, too. Without a hole, or with one, landmarks also
+    Holes that could not be bent onto each other give a koebe.Warning, too. Without a hole, or with one, landmarks also
     choose the automorphism of the disk: the one that brings them nearest.
     Two results of fit_circles with the same circles already lie over each other: circle k corresponds to circle k.
     Raises InputError, also if circles are not the surface's own and for landmarks that exclude each other, and
@@ -132,12 +159,20 @@ def transfer(
         chosen = list(range(len(a.loops)))
     surfaces = mapped_surface(b, same), mapped_surface(a, same)
     found = _koebe.correspond(*surfaces, chosen, flag(fit, "fit"), on_b, on_a)
+    _forget(found, ~b._source.used)
     found["alignment"] = DomainAlignment(found["alignment"], b.radii)
     found["warnings"] = [Warning(warning) for warning in found["warnings"]]
     for warning in found["warnings"]:
-        warnings.warn(str(warning), RuntimeWarning, stacklevel=2)
+        warnings.warn(warning, stacklevel=2)
     places = Correspondence(**found, triangles=a.surface[1])
     return places if field is None else places.carry(field)
+
+
+def _forget(found: dict[str, Any], vertices: np.ndarray) -> None:
+    """Vertices of b without a face correspond to nothing."""
+    for name, nothing in (("faces", -1), ("weights", np.nan), ("points", np.nan), ("distances", np.nan)):
+        found[name] = np.array(found[name])
+        found[name][vertices] = nothing
 
 
 def _on_one_template(a: UniformizeResult, b: UniformizeResult) -> bool:
