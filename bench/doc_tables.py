@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+import atrium_templates
 import convergence
 import domain_figures
 import exact_surfaces
@@ -24,6 +25,7 @@ import predicted_rates
 import print_choices
 import promises
 import shape_distances
+import stretched_cylinders
 import table_one
 import table_surfaces
 import table_two
@@ -366,6 +368,10 @@ TABLES = {
         ["face", "face_finer", "surprised", "face_cut"],
         face_distances,
         lambda row: [SAMPLES / "make_obj.py"],
+    ),
+    "templates": Table(atrium_templates.HEAD, list(atrium_templates.TEMPLATES), atrium_templates.cells, lambda row: []),
+    "teichmueller": Table(
+        stretched_cylinders.HEAD, list(stretched_cylinders.ROWS), stretched_cylinders.cells, lambda row: []
     ),
     "distances": Table(
         ["meshes", "distance"],

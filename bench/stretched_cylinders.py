@@ -64,7 +64,7 @@ ROWS = {
     for finer, size in [(finer, {1: "coarse", 2: "medium", 4: "fine"}[finer]) for finer in sizes]
 }
 HEAD = [
-    "surface", "faces", "K", "error of K", "lower", "largest", "K backwards", "mean |µ|, exact", "spread", "seconds",
+    "surface", "faces", "K", "error of K", "lower", "largest", "K backwards", "mean µ, exact", "spread", "seconds",
 ]  # fmt: skip
 
 

@@ -4,6 +4,7 @@
 PYTHONPATH=build/python build/venv-labs/bin/python scripts/fit_picture.py
 """
 
+import sys
 from pathlib import Path
 
 import koebe
@@ -17,76 +18,12 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
-# Direction, angular radius, length and name of each tube. The last one, the valve, is the outer rim.
-TUBES = [
-    ((0.75, 0.25, 0.62), 0.24, 0.9, "LSPV"), ((0.85, 0.2, -0.25), 0.22, 0.7, "LIPV"),
-    ((-0.75, 0.25, 0.62), 0.26, 0.8, "RSPV"), ((-0.85, 0.2, -0.25), 0.2, 0.6, "RIPV"),
-    ((0.1, -0.75, -0.75), 0.55, 0.15, "valve"),
-]  # fmt: skip
-# As seen from outside: a mirrored template would turn the surface inside out between the tubes.
-TEMPLATE = {"LSPV": ((-0.45, 0.35), 0.17), "LIPV": ((-0.45, -0.25), 0.17),
-            "RSPV": ((0.45, 0.35), 0.17), "RIPV": ((0.45, -0.25), 0.17)}  # fmt: skip
+sys.path.append(str(ROOT / "bench"))
+
+from atrium_templates import TEMPLATE, atrium  # noqa: E402
+
 SQUARE = 0.12  # of the checker, in the disk
 INK = np.array([[0.93, 0.95, 0.98], [0.25, 0.45, 0.65]])
-
-
-def ball(level):
-    """An icosahedron with each face cut in four, level times, on the unit sphere."""
-    g = (1 + 5**0.5) / 2
-    corners = [(s * a, t * b, 0.0) for a, b in ((1.0, g),) for s in (1, -1) for t in (1, -1)]
-    points = np.array([np.roll(c, k) for c in corners for k in range(3)])
-    near = np.linalg.norm(points[:, None] - points[None], axis=2) < 2.1
-    triples = ((a, b, c) for a in range(12) for b in range(a) for c in range(b))
-    faces = [(a, b, c) for a, b, c in triples if near[a, b] and near[b, c] and near[a, c]]
-    faces = [f if np.linalg.det(points[list(f)]) > 0 else f[::-1] for f in faces]
-    points, faces = points / np.linalg.norm(points[0]), np.array(faces)
-    for _ in range(level):
-        ends = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-        edges, number = np.unique(ends, axis=0, return_inverse=True)
-        a, b, c = len(points) + number.reshape(3, -1)
-        middle = points[edges].sum(axis=1)
-        points = np.concatenate([points, middle / np.linalg.norm(middle, axis=1, keepdims=True)])
-        x, y, z = faces.T
-        faces = np.concatenate([np.stack(f, axis=1) for f in ((x, a, c), (a, y, b), (c, b, z), (a, b, c))])
-    return points, faces
-
-
-def atrium(level=4):
-    """Vertices, triangles, and for each tube the vertices of its rim."""
-    points, faces = ball(level)
-    edge = np.linalg.norm(points[faces[0, 0]] - points[faces[0, 1]])
-    rims = []
-    for direction, radius, length, _ in TUBES:
-        axis = np.array(direction) / np.linalg.norm(direction)
-        angle = np.arccos(np.clip(points @ axis / np.linalg.norm(points, axis=1), -1, 1))
-        near = (angle < radius) & (np.abs(np.linalg.norm(points, axis=1) - 1) < 1e-9)
-        faces = faces[~near[faces].any(axis=1)]
-        loop = min(koebe.boundary_loops(compact(points, faces)[1]), key=lambda v: angle[np.unique(faces)[v]].mean())
-        loop = np.unique(faces)[loop]
-        side = points[loop] - np.outer(points[loop] @ axis, axis)
-        side /= np.linalg.norm(side, axis=1, keepdims=True)
-        points[loop] = np.cos(radius + edge / 2) * axis + np.sin(radius + edge / 2) * side
-        for ring in range(1, max(1, round(length / edge)) + 1):
-            rim = points[loop] + edge * axis
-            arm = rim - rim.mean(axis=0)
-            rim -= 0.3 * edge / ring * arm / np.linalg.norm(arm, axis=1)[:, None]
-            fresh = len(points) + np.arange(len(loop))
-            points = np.concatenate([points, rim])
-            after, ahead = np.roll(loop, -1), np.roll(fresh, -1)
-            # The loop has the surface on its left.
-            faces = np.concatenate([faces, np.stack([after, loop, fresh], 1), np.stack([after, fresh, ahead], 1)])
-            loop = fresh
-        rims.append(loop)
-    number = np.full(len(points), -1)
-    number[np.unique(faces)] = np.arange(len(np.unique(faces)))
-    points, faces = compact(points, faces)
-    points = points * np.array([1.25, 0.9, 1.0])
-    return points, faces, [number[rim] for rim in rims]
-
-
-def compact(points, faces):
-    used, numbers = np.unique(faces, return_inverse=True)
-    return points[used], numbers.reshape(-1, 3).astype(np.int32)
 
 
 def squares(uv):
