@@ -37,8 +37,8 @@ def _uv_collection(layer: bpy.types.MeshUVLoopLayer) -> tuple[Any, str]:
 
 
 def selected_uv(mesh: bpy.types.Mesh, layer_name: str) -> list[np.ndarray]:
-    """Whether the corners (C,) are selected in a UV layer, the edges (C,) that start there, and from 5.0 on the faces
-    (P,). Without the layer nothing is. The mesh must not be in Edit Mode."""
+    """The selection in a UV layer: bool arrays of the corners (C,), of the edges (C,) that start at them, and from 5.0
+    on of the faces (P,). A missing layer has no selection. The mesh must not be in Edit Mode."""
     layer = mesh.uv_layers.get(layer_name)
     if layer is not None and not hasattr(layer, "uv"):
         return [read(layer.data, name, bool) for name in _OLD_UV_FLAGS]
@@ -51,7 +51,7 @@ def selected_uv(mesh: bpy.types.Mesh, layer_name: str) -> list[np.ndarray]:
 
 
 def set_selected_uv(mesh: bpy.types.Mesh, layer_name: str, selected: list[np.ndarray]) -> None:
-    """Select exactly that in a UV layer, given as by `selected_uv`. The mesh must not be in Edit Mode."""
+    """Set the selection in a UV layer. @param selected as `selected_uv` returns it. Not in Edit Mode."""
     layer = mesh.uv_layers.get(layer_name)
     if layer is None:
         return
@@ -68,8 +68,8 @@ def set_selected_uv(mesh: bpy.types.Mesh, layer_name: str, selected: list[np.nda
 
 
 def select_edited_uv(face: Any, layer: Any, selected: list[Any]) -> None:
-    """Select that of a face in a UV layer of a mesh in Edit Mode: iterators as the arrays of `selected_uv`, from which
-    it takes the values of this face's corners, and its own."""
+    """Set the UV selection of a face in Edit Mode. @param selected iterators over arrays as `selected_uv` returns them:
+    the next values are those of this face"""
     corner_flags, edge_flags, *of_face = selected
     for corner in face.loops:
         if ONE_UV_SELECTION:

@@ -117,7 +117,7 @@ def _write(obj: MeshObject, layer_name: str, values: np.ndarray, surface: Surfac
 def _select(
     obj: MeshObject, layer_name: str, selected: list[np.ndarray], surface: Surface, faces: np.ndarray
 ) -> None:
-    """Select that in the layer, as `compat.selected_uv` tells it."""
+    """Set the selection in the layer. @param selected as `compat.selected_uv` returns it"""
     if obj.mode != "EDIT":
         compat.set_selected_uv(obj.data, layer_name, selected)
         return

@@ -88,5 +88,5 @@ def _read(obj: MeshObject, choice: LiftChoice) -> LiftOutcome:
     place = mesh_reading.cursor_place(obj) if choice.cursor else None
     graded = mesh_reading.vertex_weights(obj, choice.graded) if choice.graded else None
     if choice.graded and graded is None:
-        raise TransferError(f"{obj.name}: it has no vertex group {choice.graded!r}, which Size Weights names")
+        raise TransferError(f"{obj.name}: it has no vertex group {choice.graded!r}, which Weights names")
     return LiftOutcome(obj.name, surface, obj.matrix_world.determinant() < 0.0, place, graded)

@@ -139,7 +139,7 @@ def test_sizes_follow_a_vertex_group():
     middles = [new[loop][:, 0].mean() for loop in holes]
     assert len(holes) > 5 and sum(middle < -0.15 for middle in middles) == 0
     scenes.select(obj)
-    with pytest.raises(RuntimeError, match="it has no vertex group 'None', which Size Weights names"):
+    with pytest.raises(RuntimeError, match="it has no vertex group 'None', which Weights names"):
         lift(graded="None")
 
 
