@@ -38,9 +38,10 @@ PAGES = {
             "separations", "separation_distance",
         ],
         "family": ["family", "Family"],
+        "permutation_test": ["permutation_test", "PermutationTest", "noise_error", "vertex_noise"],
         "certified_moduli": ["certified_moduli", "CertifiedModuli"],
         "teichmueller": ["teichmueller", "TeichmuellerMap"],
-        "transfer": ["transfer", "Correspondence"],
+        "transfer": ["transfer", "Correspondence", "SphereCorrespondence"],
         "align_domains": ["align_domains", "DomainAlignment"],
     },
     "Steps of the method": {

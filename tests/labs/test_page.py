@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "labs.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 11
+    assert len(blocks) == 12
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
@@ -23,6 +23,7 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
         exec(compile(block, "docs/labs.md", "exec"), names)
     assert (tmp_path / "face.vtu").stat().st_size > 0
     assert np.array_equal(names["again"].uv, names["neutral"].uv)
+    assert names["laid"].misses_deg.max() < 20 and np.isfinite(names["laid"].points).all()
     masked, mask = names["masked"], names["mask"]
     assert 0 < mask.sum() < 500 and np.isnan(masked.uv[mask]).all() and len(masked.loops) == len(names["neutral"].loops)
     assert np.allclose(names["scale"], masked.log_scale, atol=1e-5, equal_nan=True)

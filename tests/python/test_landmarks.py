@@ -175,7 +175,7 @@ def hostile(kind, rng, plain):
         "swapped": lambda: [(plain.points[corners[1 - k]], int(corners[k])) for k in (0, 1)],
         "turned": lambda: [(plain.points[corners[k - 1]], int(corners[k])) for k in range(3)],
         "equal": lambda: [(anywhere(), int(chosen[0])), (anywhere(), int(chosen[-1]))],
-        "vertices": lambda: [(int(rng.integers(SMALL.vertices)), int(v)) for v in chosen],
+        "vertices": lambda: [(int(rng.integers(SMALL.vertex_count)), int(v)) for v in chosen],
         "one": lambda: [(int(rng.choice(inside(SMALL))), int(chosen[0]))],
         "far": lambda: [(rng.standard_normal(3) * 10 ** rng.uniform(-3, 3), int(v)) for v in chosen],
     }[kind]()

@@ -31,7 +31,7 @@ def test_places_are_points_of_the_other_surface():
     b = koebe.uniformize(other, triangles_of(quads).astype(np.int32))
     for a, c in ((A, b), (b, A)):
         places = koebe.transfer(a, c)
-        assert places.faces.shape == (c.vertices,) and places.weights.min() >= 0.0
+        assert places.faces.shape == (c.vertex_count,) and places.weights.min() >= 0.0
         assert np.allclose(places.weights.sum(axis=1), 1.0, atol=1e-12)
         assert np.allclose(placed(*a.surface, places), places.points, atol=1e-12)
         assert places.distances.max() < 0.02  # the height of an arc over an edge of the rim

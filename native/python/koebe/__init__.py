@@ -44,6 +44,8 @@ from ._shapes import (
     separations,
 )
 from ._sphere import SphereMap, sphere_map
+from ._sphere_transfer import SphereCorrespondence
+from ._statistics import PermutationTest, noise_error, permutation_test, vertex_noise
 from ._surface import Surface
 from ._teichmueller import TeichmuellerMap, teichmueller
 from ._tiles import TileMap, ring_map, torus_map
@@ -74,8 +76,10 @@ __all__ = [
     "OptionError",
     "PartsResult",
     "Patch",
+    "PermutationTest",
     "SchottkyMap",
     "SolverError",
+    "SphereCorrespondence",
     "SphereMap",
     "Surface",
     "SurfaceCut",
@@ -112,9 +116,11 @@ __all__ = [
     "module_distance",
     "module_error",
     "module_names",
+    "noise_error",
     "open_surface",
     "pack_disks",
     "parts",
+    "permutation_test",
     "plot",
     "read_field",
     "read_patch",
@@ -129,5 +135,6 @@ __all__ = [
     "transfer",
     "uniformize",
     "uv_to_disk",
+    "vertex_noise",
     "write_field",
 ]

@@ -52,7 +52,7 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -
     {'r_1': 0.2, 'y_2': 0.6, 'r_2': 0.1, 'x_3': -0.4, 'y_3': 0.4, 'r_3': 0.1}
     """
     _require_own_circles(result)
-    return _koebe.conformal_module(*as_circles(result), _chosen_order(result, order))
+    return _koebe.conformal_module(*as_circles(result), chosen_order(result, order))
 
 
 def module_error(result: UniformizeResult, *, order: Sequence[int] | str | None = None) -> np.ndarray:
@@ -71,7 +71,7 @@ def module_error(result: UniformizeResult, *, order: Sequence[int] | str | None 
     """
     if not isinstance(result, UniformizeResult):
         raise TypeError(f"module_error takes a result of uniformize, not {type(result).__name__}")
-    chosen = _chosen_order(result, order)
+    chosen = chosen_order(result, order)
     refined = _koebe.conformal_module(*_refined(result), chosen)
     return _koebe.module_error(conformal_module(result, order=chosen.tolist()), refined)
 
@@ -88,7 +88,8 @@ def _refined(result: UniformizeResult) -> tuple[np.ndarray, np.ndarray]:
     return kept["_refined"]
 
 
-def _chosen_order(result: Any, order: Sequence[int] | str | None) -> np.ndarray:
+def chosen_order(result: Any, order: Sequence[int] | str | None) -> np.ndarray:
+    """The loops in the order that the caller wants, the outer one first."""
     count = len(as_circles(result)[1])
     if isinstance(order, str):
         if order != "canonical":

@@ -15,6 +15,9 @@ from ._native import _koebe
 from ._options import flag, vertex
 from ._result import Beltrami, UniformizeResult, Warning
 from ._shapes import DomainAlignment, mapped_surface
+from ._sphere import SphereMap
+from ._sphere_transfer import SphereCorrespondence, sphere_transfer
+from ._transfer_carry import carried, landmark_pairs
 from .errors import InputError
 
 
@@ -66,32 +69,6 @@ class Correspondence:
         return carried(field, self.triangles, self.faces, self.weights, len(self.uv), labels)
 
 
-def carried(
-    field: Any, triangles: np.ndarray, faces: np.ndarray, weights: np.ndarray, count: int, labels: bool | None
-) -> np.ndarray:
-    """A field at points of triangles, from the field at the vertices."""
-    values = np.asarray(field)
-    if values.ndim not in (1, 2) or len(values) != count:
-        raise InputError(f"the field has the shape {values.shape}, not a row for each of {count} vertices")
-    if values.dtype.kind not in "fiubU":
-        raise InputError(f"the field must have numbers or words, not {values.dtype}")
-    as_labels = values.dtype.kind != "f" if labels is None else flag(labels, "labels")
-    corners, known = triangles[faces], faces >= 0
-    if not as_labels and values.dtype.kind == "U":
-        raise InputError("words have no mean: carry them as labels")
-    if not as_labels:
-        linear = np.einsum("vk,vk...->v...", weights, values[corners].astype(np.float64))
-        return np.where(known.reshape(-1, *(1,) * (values.ndim - 1)), linear, np.nan)
-    if values.ndim == 2:
-        columns = [carried(column, triangles, faces, weights, count, True) for column in values.T]
-        return np.stack(columns, axis=1) if columns else np.zeros((len(faces), 0), values.dtype)
-    here = values[corners]
-    votes = np.einsum("vk,vjk->vj", np.nan_to_num(weights), here[:, :, None] == here[:, None, :])
-    chosen = np.take_along_axis(here, votes.argmax(axis=1)[:, None], axis=1)[:, 0]
-    nothing = {"i": -1, "u": 0, "b": False, "f": np.nan, "U": ""}[values.dtype.kind]
-    return np.where(known, chosen, np.array(nothing, values.dtype))
-
-
 @overload
 def transfer(
     a: UniformizeResult,
@@ -104,6 +81,16 @@ def transfer(
 ) -> Correspondence: ...
 @overload
 def transfer(
+    a: SphereMap,
+    b: SphereMap,
+    field: None = None,
+    *,
+    landmarks: Sequence[tuple[Any, Any]] | None = None,
+    fields: tuple[Any, Any] | None = None,
+    moebius: bool = False,
+) -> SphereCorrespondence: ...
+@overload
+def transfer(
     a: UniformizeResult,
     b: UniformizeResult,
     field: Any,
@@ -112,15 +99,27 @@ def transfer(
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
 ) -> np.ndarray: ...
+@overload
 def transfer(
-    a: UniformizeResult,
-    b: UniformizeResult,
+    a: SphereMap,
+    b: SphereMap,
+    field: Any,
+    *,
+    landmarks: Sequence[tuple[Any, Any]] | None = None,
+    fields: tuple[Any, Any] | None = None,
+    moebius: bool = False,
+) -> np.ndarray: ...
+def transfer(
+    a: UniformizeResult | SphereMap,
+    b: UniformizeResult | SphereMap,
     field: Any = None,
     *,
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
-) -> Correspondence | np.ndarray:
+    fields: tuple[Any, Any] | None = None,
+    moebius: bool = False,
+) -> Correspondence | SphereCorrespondence | np.ndarray:
     """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
 
     The automorphism of the disk that brings the holes nearest lays a's circle domain over b's (align_domains). fit=True
@@ -134,8 +133,14 @@ def transfer(
                which stands for the nearest point of the surface. Then the domain is bent further, circles to circles.
                Of the maps that take landmarks to landmarks exactly and turn no face over, it takes the one with the
                least fourth power of |mu| over the surface. On a rim landmarks are vertices of both
+    fields     of two results of sphere_map: values at a's vertices and at b's, such as sulcal depth. The sphere of b is
+               turned until they correlate best
+    moebius    of two results of sphere_map: not only rotations, but all Moebius maps. Landmarks must be three then
     Holes that could not be bent onto each other give a koebe.Warning, too. Without a hole, or with one, landmarks also
     choose the automorphism of the disk: the one that brings them nearest.
+    Two results of sphere_map, of closed surfaces, correspond through the sphere: as the spheres are, or with landmarks
+    or fields after a rotation of b's. Landmarks then need not meet: `misses_deg` says how near they are, and a point
+    (x, y, z) stands for the nearest vertex. Without a field it returns a SphereCorrespondence.
     Two results of fit_circles with the same circles already lie over each other: circle k corresponds to circle k.
     Raises InputError, also if circles are not the surface's own and for landmarks that exclude each other, and
     SolverError if no such map was found: `elements` are the landmarks, by their places in the list.
@@ -149,13 +154,20 @@ def transfer(
     >>> bool(np.allclose(places.weights.sum(axis=1), 1.0)), places.flipped
     (True, 0)
     """
-    for result in (a, b):
-        if not isinstance(result, UniformizeResult):
-            raise TypeError(f"transfer takes results of uniformize, not {type(result).__name__}")
+    if isinstance(a, SphereMap) and isinstance(b, SphereMap):
+        if match is not None or fit is not True:
+            raise InputError("match and fit are for surfaces with holes")
+        found_on_sphere = sphere_transfer(a, b, landmarks, fields, moebius)
+        return found_on_sphere if field is None else found_on_sphere.carry(field)
+    if fields is not None or moebius:
+        raise InputError("fields and moebius are for two results of sphere_map")
+    if not (isinstance(a, UniformizeResult) and isinstance(b, UniformizeResult)):
+        other = next(type(one).__name__ for one in (a, b) if not isinstance(one, UniformizeResult))
+        raise TypeError(f"transfer takes results of uniformize, or two of sphere_map, not {other}")
     chosen = [] if match is None else as_indices(match, "match", len(a.loops), "loops").tolist()
     if match is not None and not chosen:
         raise InputError("the match must name each of the loops of a once, the outer one first")
-    pairs = _pairs(landmarks)
+    pairs = landmark_pairs(landmarks)
     on_a, on_b = (_places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
     same = _on_one_template(a, b)
     if same and match is None:
@@ -183,14 +195,6 @@ def _on_one_template(a: UniformizeResult, b: UniformizeResult) -> bool:
     if not (isinstance(a, FitResult) and isinstance(b, FitResult)) or len(a.radii) != len(b.radii):
         return False
     return bool(np.allclose(a.centers, b.centers, 0.0, 1e-9) and np.allclose(a.radii, b.radii, 0.0, 1e-9))
-
-
-def _pairs(landmarks: Any) -> list[Any]:
-    pairs = [] if landmarks is None else list(landmarks)
-    for number, pair in enumerate(pairs):
-        if isinstance(pair, (str, bytes)) or not hasattr(pair, "__len__") or len(pair) != 2:
-            raise InputError(f"landmark {number} is no pair: a point on a and one on b", [number], "landmarks")
-    return pairs
 
 
 def _places(result: UniformizeResult, points: list[Any]) -> "list[_koebe.SurfacePoint]":
