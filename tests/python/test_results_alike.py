@@ -89,8 +89,12 @@ def test_labels_are_carried_as_labels():
     same = koebe.transfer(face, face).carry(np.arange(face.vertex_count))
     assert np.array_equal(same, np.arange(face.vertex_count))
     assert np.array_equal(koebe.transfer(other, face, labels), carried)
+    words = np.where(labels > 5, "far", "near")
+    assert np.array_equal(places.carry(words), np.where(carried > 5, "far", "near"))
+    with pytest.raises(koebe.InputError, match="no mean"):
+        places.carry(words, labels=False)
     with pytest.raises(koebe.InputError, match="numbers"):
-        places.carry(np.full(other.vertex_count, "a"))
+        places.carry(np.full(other.vertex_count, None))
 
 
 def test_of_three_labels_the_heaviest_wins_together():
