@@ -61,9 +61,10 @@ def uniformize(
 
     vertices     (V, 3) float32, float64 or whole numbers, any unit, any order, read-only accepted, never modified
     triangles    (F, 3) whole numbers of any width, counter-clockwise seen from outside. In place of both, here and for
-                 every surface: a pair (vertices, triangles); the path of a mesh file (OBJ, OFF, PLY, STL, GLB), as text
-                 or PathLike; a PyVista PolyData or UnstructuredGrid, a trimesh Trimesh, a meshio Mesh or a nibabel
-                 GiftiImage. Files and meshes may have quadrilaterals and polygons. For a mesh, the result's to_mesh()
+                 every surface: a pair (vertices, triangles); the path of a mesh file, as text or PathLike: OBJ, OFF,
+                 PLY, STL, GLB, and by other packages GIfTI, VTK and FreeSurfer's surfaces; a PyVista PolyData or
+                 UnstructuredGrid, a trimesh Trimesh, a meshio Mesh or a nibabel GiftiImage. Files and meshes may have
+                 quadrilaterals and polygons. For a mesh, the result's to_mesh()
                  gives the same kind back, with UVs and fields
     {options}
     mask         (V,) bool: faces with a vertex where it is True are left out, as if they were not there. Vertices keep
