@@ -187,6 +187,7 @@ double torus_dilatation(Complex a, Complex b)
     Complex z = reduced_modulus(a), w = reduced_modulus(b);
     if (z.imag() < w.imag()) std::swap(z, w);
     double least = half_plane_gap(z, w);
+    if (!(least < 1e100)) throw InputError("the moduli of the tori are too far apart");
     // An image of w at a distance d has at least the height of z over exp(d): finitely many (c, d).
     const double reach = w.imag() / z.imag() * (1.0 + least + std::sqrt(least * (least + 2.0)));
     const auto most_c = static_cast<long>(std::sqrt(reach) / w.imag());

@@ -141,6 +141,7 @@ TEST(Teichmueller, of_tori)
     }
     EXPECT_THROW(torus_dilatation(i, {1.0, 0.0}), InputError);
     EXPECT_THROW(torus_dilatation({std::nan(""), 1.0}, i), InputError);
+    EXPECT_THROW(torus_dilatation(1e-300 * i, i), InputError);
 }
 
 TEST(Teichmueller, refuses_other_domains)
