@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "execution/detachable_run.h"
 #include "fit/bend_between.h"
+#include "fit/circle_template.h"
 #include "fit/dilatation_bounds.h"
 #include "fit/plane_beltrami.h"
 #include "fit/template_start.h"
@@ -91,6 +92,16 @@ bool has_arrived(const std::vector<Circle>& circles, const std::vector<Circle>& 
     return true;
 }
 
+/// Circles that are too small take thousands of steps to shrink to, as no face fits beside them.
+void require_wide_circles(const std::vector<Circle>& circles, const char* whose)
+{
+    for (std::size_t k = 0; k < circles.size(); ++k)
+        if (!(circles[k].radius >= least_template_gap))
+            throw InputError(std::string(whose) + " circle " + std::to_string(k) + " has the radius " +
+                                 formatted("%.3g", circles[k].radius) + ": an extremal map needs 1e-6 at least",
+                             ElementKind::loops, {static_cast<Index>(k)});
+}
+
 [[noreturn]] void refuse_teichmueller(double reached, std::vector<Index> blocked)
 {
     throw SolverError("no one-to-one map of one domain to the other was found: faces turn over at " +
@@ -120,6 +131,8 @@ TeichmuellerMap extremal_map(const MappedSurface& a, const std::vector<Circle>& 
     }
     PlanarPoints uv = start.uv;
     if (!has_arrived(start.circles, goal)) {
+        require_wide_circles(domain.circles, "a's");
+        require_wide_circles(b, "b's");
         const BendingInput input{domain.triangles,
                                  domain.loops,
                                  domain.off_circle,

@@ -33,7 +33,7 @@ struct TeichmuellerMap {
 /// @param a all loops with circles of its own @param b circles, the unit circle first
 /// @param match b's loop for each of a's, 0 for 0; empty: match_loops
 /// @throws InputError different numbers of loops, not a circle domain, circles that are not the surface's own, not a
-/// permutation; SolverError no such map was found (a's loops listed); Cancelled
+/// permutation, a radius under 1e-6; SolverError no such map was found (a's loops listed); Cancelled
 KOEBE_API TeichmuellerMap teichmueller_map(const MappedSurface& a, const std::vector<Circle>& b,
                                            const std::vector<int>& match, ExecutionContext& context);
 

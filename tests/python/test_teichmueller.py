@@ -139,6 +139,10 @@ def test_refusals():
     stopped.cancel()
     with pytest.raises(koebe.Cancelled):
         koebe.teichmueller(a, a, cancel=stopped)
+    tiny = circles(*[(*center, radius * 1e-8) for center, radius in zip(a.centers[1:], a.radii[1:], strict=True)])
+    with pytest.raises(koebe.InputError, match="b's circle 1 has the radius") as caught:
+        koebe.teichmueller(a, tiny, match=range(len(a.loops)))
+    assert list(caught.value.elements) == [1]
 
 
 def test_the_command(tmp_path):
