@@ -42,6 +42,8 @@ def test_a_loop_has_its_figures():
     result, ring = MAPS["uniformize"](), MAPS["ring"]()
     assert [loop["radius"] for loop in result.loops] == result.radii.tolist()
     assert sum(loop["rim"] for loop in ring.loops) == 2
+    loop = result.loops[0]
+    assert "radius" in loop and "slit" not in loop and int(loop[0]) in loop and -1 not in loop
     with pytest.raises(KeyError):
         result.loops[0]["colour"]
 

@@ -83,7 +83,8 @@ class Warning(Mapping[str, Any], UserWarning, RuntimeWarning):
 class Loop(np.ndarray):
     """A boundary loop of a result: an int32 array of its vertices, in order with the surface on the left.
 
-    It has the figures of the report, too, by their names: loop["radius"], loop["off_circle"]. `figures` lists them.
+    It has the figures of the report, too, by their names: loop["radius"], loop["off_circle"], "slit" in loop. `figures`
+    lists them.
     Arrays made from it are plain ones.
     """
 
@@ -102,6 +103,9 @@ class Loop(np.ndarray):
         if isinstance(key, str):
             return np.asarray(self) if key == "vertices" else self.figures[key]
         return np.asarray(self)[key]
+
+    def __contains__(self, key: Any) -> bool:
+        return key in self.figures if isinstance(key, str) else key in np.asarray(self)
 
     def __array_wrap__(self, array: Any, *_: Any) -> Any:
         return np.asarray(array)[()]
