@@ -45,7 +45,7 @@ MUTANTS = [
         "cholesky_.refactorize(disks);",
     ),
     ("native/linear/factor/analysis.cpp", "l.rank[v] >= inner_count", "l.rank[v] >= 0"),
-    ("native/lift/solid.cpp", "b, a, count + a", "a, b, count + a"),
+    ("native/lift/solid.cpp", "{b, a, count + source[a]}", "{a, b, count + source[a]}"),
     ("native/lift/meeting_faces.cpp", "way.dot(p - from) > rounding", "way.dot(p - from) > -rounding"),
     ("native/lift/sphere_sheets.cpp", "sizes[part[f]] > sizes[largest]", "sizes[part[f]] < sizes[largest]"),
     ("native/parts/twins.cpp", "(is > 0.0) == mirrored ? -1.0 : 1.0", "1.0"),
