@@ -115,7 +115,7 @@ def entry(name):
     one = getattr(koebe, name)
     if inspect.isclass(one):
         arguments = "" if name in CALLED else "()"  # conf.py hides these
-        return f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: dict, Exception\n\n"
+        return f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: dict, ndarray, Mapping, Exception\n\n"
     if callable(one):
         return f".. autofunction:: koebe.{name}\n\n"
     value = f"   :value: {one!r}\n" if isinstance(one, float) else ""
