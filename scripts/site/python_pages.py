@@ -10,7 +10,7 @@ import typing
 
 import koebe
 from docstrings import linked
-from koebe import _fit, _result
+from koebe import _fit, _report_entries, _result
 from markup import escaped, indented, title, toctree
 
 PAGES = {
@@ -101,7 +101,8 @@ def results(function):
 
 def comment_of(name):
     """The comment above a constant."""
-    found = re.search(rf"((?:^# .*\n)+){name}\b", inspect.getsource(_result), re.MULTILINE)
+    sources = "".join(inspect.getsource(module) for module in (_report_entries, _result))
+    found = re.search(rf"((?:^# .*\n)+){name}\b", sources, re.MULTILINE)
     return " ".join(line.removeprefix("# ") for line in found[1].splitlines()) if found else ""
 
 
@@ -115,7 +116,8 @@ def entry(name):
     one = getattr(koebe, name)
     if inspect.isclass(one):
         arguments = "" if name in CALLED else "()"  # conf.py hides these
-        return f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: dict, ndarray, Mapping, Exception\n\n"
+        others = "dict, ndarray, Mapping, Exception"  # whose members are not ours
+        return f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: {others}\n\n"
     if callable(one):
         return f".. autofunction:: koebe.{name}\n\n"
     value = f"   :value: {one!r}\n" if isinstance(one, float) else ""

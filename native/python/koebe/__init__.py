@@ -29,7 +29,8 @@ from ._load import load
 from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_surface
 from ._parts import PartsResult, parts
 from ._plot import plot
-from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, WARNING_ELEMENTS, Loop, MapReport, UniformizeResult, Warning
+from ._report_entries import WARNING_ELEMENTS, Loop, Warning
+from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, MapReport, UniformizeResult
 from ._schottky import SchottkyMap, schottky_map
 from ._shapes import (
     DomainAlignment,

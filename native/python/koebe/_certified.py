@@ -9,7 +9,7 @@ from ._arrays import as_indices
 from ._input import surface_of
 from ._native import _koebe
 from ._options import callback, filled, takes, token
-from ._result import Warning
+from ._report_entries import Warning
 from ._signatures import CertifiedOptions
 from .errors import InputError
 

@@ -9,7 +9,8 @@ import numpy as np
 from ._corner_mesh import mesh_with_corner_uv
 from ._input import polygons_of, surface_of
 from ._options import callback, filled, token, vertex_weights
-from ._result import Loop, MapReport, Seconds, Source, Warning, figures_of
+from ._report_entries import Loop, Warning
+from ._result import MapReport, Seconds, Source, figures_of
 from .errors import OptionError
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from ._input import surface_of
 from ._native import _koebe
 from ._options import callback, filled, takes, token, vertex_weights
-from ._result import Warning
+from ._report_entries import Warning
 from ._signatures import LiftOptions
 
 if TYPE_CHECKING:

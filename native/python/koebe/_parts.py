@@ -9,7 +9,8 @@ from ._corner_mesh import mesh_with_corner_uv
 from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, filled, takes, token, vertex_weights
-from ._result import MapReport, Source, Warning, figures_of
+from ._report_entries import Warning
+from ._result import MapReport, Source, figures_of
 from ._signatures import PartsOptions
 from .errors import InputError
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ._options import flag
-from ._result import Warning
+from ._report_entries import Warning
 from ._sphere import SphereMap
 from ._transfer_carry import carried, landmark_pairs
 from .errors import InputError, SolverError

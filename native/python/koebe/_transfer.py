@@ -13,7 +13,8 @@ from ._arrays import as_indices, as_numbers
 from ._fit import FitResult
 from ._native import _koebe
 from ._options import flag, vertex
-from ._result import Beltrami, UniformizeResult, Warning
+from ._report_entries import Warning
+from ._result import Beltrami, UniformizeResult
 from ._shapes import DomainAlignment, mapped_surface
 from ._sphere import SphereMap
 from ._sphere_transfer import SphereCorrespondence, sphere_transfer
