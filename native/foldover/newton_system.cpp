@@ -1,10 +1,11 @@
 #include "foldover/newton_system.h"
 
 #include "core/errors.h"
-#include "core/sort_unique.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 
 namespace koebe {
 namespace {
@@ -12,6 +13,23 @@ namespace {
 constexpr double shift = 1e-9;  // share added to the Hessian's diagonal
 
 Eigen::Vector2d vector(Complex z) { return {z.real(), z.imag()}; }
+
+/// Sorts pairs and leaves each of them once: first into a bucket for each first number, which is below `count`.
+void sort_in_buckets(std::vector<std::pair<Index, Index>>& pairs, Index count)
+{
+    std::vector<std::size_t> end(static_cast<std::size_t>(count) + 1, 0);
+    for (const auto& [first, second] : pairs) ++end[first + 1];
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<Index> seconds(pairs.size());
+    for (const auto& [first, second] : pairs) seconds[end[first]++] = second;  // end[first] now is what its name says
+    pairs.clear();
+    for (Index first = 0; first < count; ++first) {
+        const auto from = seconds.begin() + static_cast<std::ptrdiff_t>(first > 0 ? end[first - 1] : 0);
+        const auto to = seconds.begin() + static_cast<std::ptrdiff_t>(end[first]);
+        std::sort(from, to);
+        std::for_each(from, std::unique(from, to), [&](Index second) { pairs.emplace_back(first, second); });
+    }
+}
 
 /// The vector turned clockwise.
 Eigen::Vector2d normal_of(const Eigen::Vector2d& along) { return {along[1], -along[0]}; }
@@ -116,17 +134,14 @@ void NewtonSystem::set_pattern()
             if (const auto [a, b] = ends(f, k); a >= 0) pairs.emplace_back(a, b);
         if (is_shared(f)) add_shared_pairs(f, pairs);
     }
-    sort_unique(pairs);
-    std::vector<Index> begin(pairs.size());  // of each pair in its first column
-    std::vector<Index> rows, outer{0};
-    for (std::size_t i = 0; i < pairs.size();) {
-        const Index column = pairs[i].first, width = width_of[column];
-        std::vector<Index> below;
-        for (; i < pairs.size() && pairs[i].first == column; ++i) {
-            begin[i] = static_cast<Index>(below.size());
-            for (Index r = 0; r < width_of[pairs[i].second]; ++r) below.push_back(pairs[i].second + r);
-        }
-        for (Index c = 0; c < width; ++c) {
+    sort_in_buckets(pairs, unknowns_);
+    std::vector<Index> rows, outer{0}, below;
+    for (auto pair = pairs.begin(); pair != pairs.end();) {
+        const Index column = pair->first;
+        below.clear();
+        for (; pair != pairs.end() && pair->first == column; ++pair)
+            for (Index r = 0; r < width_of[pair->second]; ++r) below.push_back(pair->second + r);
+        for (Index c = 0; c < width_of[column]; ++c) {
             rows.insert(rows.end(), below.begin() + c, below.end());
             outer.push_back(static_cast<Index>(rows.size()));
         }
@@ -140,8 +155,10 @@ void NewtonSystem::set_pattern()
     for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
         std::array<Index, 3> places{-1, -1, -1};
         for (int k = 0; k < 3; ++k)
-            if (const std::pair<Index, Index> pair = ends(f, k); pair.first >= 0)
-                places[k] = begin[std::ranges::lower_bound(pairs, pair) - pairs.begin()];
+            if (const auto [column, row] = ends(f, k); column >= 0) {
+                const auto begin = rows.begin() + outer[column], end = rows.begin() + outer[column + 1];
+                places[k] = static_cast<Index>(std::lower_bound(begin, end, row) - begin);
+            }
         pattern_.places.push_back(places);
     }
 }

@@ -1,4 +1,4 @@
-// Cells of a shape as rows of bits, to count the cells that two shapes share.
+// Cells of a shape as bits, to count the cells that two shapes share.
 #pragma once
 
 #include "parts/cell_shape.h"
@@ -22,8 +22,7 @@ public:
 
 private:
     int width_ = 0, height_ = 0;
-    std::size_t row_words_ = 0;  // with an empty word before the first column, and two empty words behind the last
-    std::vector<std::uint64_t> words_;
+    std::vector<std::uint64_t> words_;  // by columns of words, with an empty one at the left, and two at the right
 };
 
 }  // namespace koebe

@@ -16,8 +16,8 @@ namespace koebe {
 namespace {
 
 constexpr int most_dart_rounds = 8;
-constexpr EvenEffort trial_effort{4, 2};
-constexpr EvenEffort warm_effort{2, 2};  // after some of the darts were closed again
+constexpr EvenEffort trial_effort{2, 1};
+constexpr EvenEffort warm_effort{1, 1};  // after some of the darts were closed again
 constexpr double least_surplus = 0.02;   // of a part's energy: the least promise of one round's darts
 constexpr double reach_of_darts = 0.25;  // radius of a dart's effect on the surface, in roots of its area
 constexpr double refused_around = 0.06;  // radius round the tip of a dart that did not pay: no new tips there

@@ -1,11 +1,16 @@
 #include "core/errors.h"
 #include "island_checks.h"
+#include "parts/cell_mask.h"
 #include "parts/packing.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <set>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -22,6 +27,40 @@ TEST(Packing, islands_lie_apart_in_the_square)
         EXPECT_EQ(packing.margin, margin);
         EXPECT_GE(test::least_gap(outlines, packing), margin) << count;
         for (const IslandPlace& place : packing.places) EXPECT_NEAR(std::abs(place.turn), 1.0, 1e-15);
+    }
+}
+
+TEST(Packing, cells_that_two_masks_share_are_counted)
+{
+    std::mt19937_64 random(3);
+    const auto upto = [&](int most) { return static_cast<int>(random() % static_cast<unsigned>(most + 1)); };
+    const auto random_shape = [&] {
+        CellShape shape{1 + upto(150), 1 + upto(80), {}, {}};
+        for (int row = 0; row < shape.height; ++row)
+            for (int from = upto(40); from < shape.width; from += 1 + upto(60)) {
+                const int to = std::min(shape.width, from + 1 + upto(90));
+                shape.runs.push_back({row, from, to});
+                from = to;
+            }
+        return shape;
+    };
+    const auto cells = [](const CellShape& shape) {
+        std::set<std::pair<int, int>> result;
+        for (const CellRun& run : shape.runs)
+            for (int column = run.from; column < run.to; ++column) result.emplace(column, run.row);
+        return result;
+    };
+    for (int i = 0; i < 60; ++i) {
+        const CellShape a = random_shape(), b = random_shape();
+        const auto in_a = cells(a), in_b = cells(b);
+        for (int k = 0; k < 4; ++k) {
+            const int x = upto(a.width + b.width) - b.width, y = upto(a.height + b.height) - b.height;
+            const auto both = std::ranges::count_if(in_b, [&](const auto& cell) {
+                return in_a.contains({cell.first + x, cell.second + y});
+            });
+            std::int64_t work = 0;
+            EXPECT_EQ(CellMask(a).shared(CellMask(b), x, y, work), both);
+        }
     }
 }
 

@@ -1,11 +1,13 @@
 #include "linear/sparse_cholesky.h"
 
 #include "core/errors.h"
+#include "linear/factor/row_groups.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <utility>
 
 using namespace koebe;
 
@@ -54,6 +56,43 @@ TEST(SparseCholesky, selected_blocks_are_those_of_the_inverse)
         for (std::size_t k = 0; k < cliques.size(); ++k)
             EXPECT_LT((blocks[k] - MatrixXd(inverse(cliques[k], cliques[k]))).cwiseAbs().maxCoeff(), 1e-12) << k;
     }
+}
+
+TEST(SparseCholesky, rows_with_one_pattern_are_analyzed_as_one)
+{
+    const SparseMatrix grid = grid_with_cliques(cliques);
+    std::vector<Index> first{0};  // each row of the grid becomes one, two or three rows
+    for (Index v = 0; v < side * side; ++v) first.push_back(first.back() + 1 + v * v % 3);
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    for (Index v = 0; v < side * side; ++v)
+        for (SparseMatrix::InnerIterator it(grid, v); it; ++it)
+            for (Index c = first[v]; c < first[v + 1]; ++c)
+                for (Index r = first[it.row()]; r < first[it.row() + 1]; ++r)
+                    entries.emplace_back(r, c, r == c ? 3.0 * it.value() : 0.1 * it.value());
+    SparseMatrix matrix(first.back(), first.back());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    EXPECT_EQ(detail::row_groups(matrix).first, first);
+    EXPECT_EQ(detail::row_groups(matrix.triangularView<Eigen::Lower>()).first, first);
+    EXPECT_EQ(detail::row_groups(grid).count(), side * side);
+    EXPECT_TRUE(detail::pattern_of_groups(matrix, {first}).isApprox(0.0 * grid));
+    EXPECT_EQ(detail::pattern_of_groups(matrix, {first}).nonZeros(), (grid.nonZeros() + side * side) / 2);
+
+    const VectorXd f = VectorXd::LinSpaced(matrix.rows(), 0.0, 40.0).array().sin();
+    for (const SparseMatrix& given : {matrix, SparseMatrix(matrix.triangularView<Eigen::Lower>())}) {
+        SparseCholesky cholesky(given);
+        EXPECT_LT((matrix * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
+        cholesky.refactorize(given);
+        EXPECT_LT((matrix * cholesky.solve(f) - f).cwiseAbs().maxCoeff(), 1e-11);
+    }
+}
+
+TEST(SparseCholesky, neighbours_that_other_rows_tell_apart_are_no_group)
+{
+    MatrixXd dense = 4.0 * MatrixXd::Identity(5, 5);
+    for (const auto& [r, c] : {std::pair{1, 0}, {3, 2}, {4, 2}, {4, 3}}) dense(r, c) = dense(c, r) = 1.0;
+    EXPECT_EQ(detail::row_groups(dense.sparseView()).first, (std::vector<Index>{0, 2, 5}));
+    dense(3, 0) = dense(0, 3) = 1.0;  // of 2, 3 and 4 only 3 touches 0, and of 0 and 1 only 0 touches 3
+    EXPECT_EQ(detail::row_groups(dense.sparseView()).first, (std::vector<Index>{0, 1, 2, 3, 4, 5}));
 }
 
 TEST(SparseCholesky, rows_kept_last_give_their_schur_complement_and_extension)

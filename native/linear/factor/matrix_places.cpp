@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace koebe::detail {
 
@@ -38,14 +39,20 @@ void LastPattern::find_places(const Supernodes& l)
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     places_.entry.resize(begin.back());
     places_.place.resize(begin.back());
+    std::vector<std::pair<Index, Index>> at(begin.back());  // column and row of each entry
     std::vector<Index> end(begin.begin(), begin.end() - 1);
     each_entry([&](Index e, Index column, Index row) {
-        const Index s = l.supernode[column], height = l.height(s);
-        const Index* rows = l.rows_of(s);
-        places_.entry[end[s]] = e;
-        places_.place[end[s]++] =
-            static_cast<Index>(std::lower_bound(rows, rows + height, row) - rows) + (column - l.first[s]) * height;
+        const Index i = end[l.supernode[column]]++;
+        places_.entry[i] = e;
+        at[i] = {column, row};
     });
+    std::vector<Index> row_of(l.size());  // in the block of a supernode
+    for (Index s = 0; s < l.count(); ++s) {
+        const Index height = l.height(s);
+        for (Index i = 0; i < height; ++i) row_of[l.rows_of(s)[i]] = i;
+        for (Index i = begin[s]; i < begin[s + 1]; ++i)
+            places_.place[i] = row_of[at[i].second] + (at[i].first - l.first[s]) * height;
+    }
 }
 
 const MatrixPlaces* LastPattern::places(const SparseMatrix& matrix, const Supernodes& l)
