@@ -19,6 +19,8 @@
 #include "shape/separation_distance.h"
 #include "surface/mirror.h"
 #include "transfer/correspondence.h"
+#include "transfer/sphere_places.h"
+#include "transfer/sphere_registration.h"
 #include "transfer/surface_point.h"
 
 #include <pybind11/complex.h>
@@ -146,6 +148,41 @@ void bind_shapes(py::module_& m)
               parts["warnings"] = to_object(to_json(found.warnings));
               return parts;
           });
+    py::class_<SpherePlaces>(m, "SpherePlaces")
+        .def(py::init<const Vertices&, const Triangles&>())
+        .def("at", [](const SpherePlaces& all, const Vertices& places) {
+            Eigen::VectorX<Index> faces(places.rows());
+            Vertices weights(places.rows(), 3);
+            for (Eigen::Index i = 0; i < places.rows(); ++i) {
+                const SurfacePoint at = all.at(places.row(i).transpose());
+                faces[i] = at.face;
+                weights.row(i) = at.weights;
+            }
+            return std::make_pair(std::move(faces), std::move(weights));
+        });
+    m.def("register_spheres", [](const Vertices& vertices_a, const Triangles& triangles_a, const Vertices& points_a,
+                                 const MatrixXd& fields_a, const Vertices& vertices_b, const Triangles& triangles_b,
+                                 const Vertices& points_b, const MatrixXd& fields_b,
+                                 const std::vector<Index>& landmarks, const Vertices& places, double stiffness) {
+        const SphereSurface a{vertices_a, triangles_a, points_a, fields_a};
+        const SphereSurface b{vertices_b, triangles_b, points_b, fields_b};
+        std::vector<SphereLandmark> pairs;
+        for (std::size_t i = 0; i < landmarks.size(); ++i)
+            pairs.push_back({landmarks[i], places.row(static_cast<Eigen::Index>(i)).transpose()});
+        const SphereRegistration found = without_gil(py::none(), {}, [&](ExecutionContext& context) {
+            return run_detachable<SphereRegistration>(context, [a, b, pairs, stiffness](ExecutionContext& own) {
+                fix_product_blocks();
+                return register_spheres(a, b, pairs, stiffness, own);
+            });
+        });
+        py::dict parts;
+        parts["sphere"] = found.points;
+        parts["beltrami"] = py::dict(py::arg("mean") = found.beltrami.mean, py::arg("max") = found.beltrami.max);
+        parts["log_area_sd"] = found.log_area_sd;
+        parts["steps"] = found.steps;
+        parts["settled"] = found.settled;
+        return parts;
+    });
     m.def("align_domains",
           [](const PlanarPoints& source_centers, const VectorXd& source_radii, const PlanarPoints& target_centers,
              const VectorXd& target_radii, const std::vector<int>& match) {

@@ -4,6 +4,7 @@
 #include "core/counted.h"
 #include "core/enum_words.h"
 #include "core/sort_unique.h"
+#include "even/even_map.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
 #include "mesh/loop_with.h"
@@ -13,6 +14,7 @@
 #include "quality/shared_warnings.h"
 #include "quality/take_verdict.h"
 #include "sphere/closed_sphere.h"
+#include "sphere/even_sphere.h"
 #include "sphere/opened_sphere.h"
 #include "sphere/sphere_check.h"
 #include "sphere/sphere_layout.h"
@@ -284,6 +286,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
 {
     const Vertices& vertices = mesh.vertices;
     const Triangles& triangles = mesh.triangles;
+    require_even(options.even);
     fix_product_blocks();
     MapClock clock;
     SphereResult result;
@@ -321,6 +324,8 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
             sphere = std::move(*other);
             opened = true;
         }
+    result.even =
+        options.even > 0.0 && make_sphere_even(domain, options.even, sphere.points, context) ? options.even : 0.0;
     const Eigen::Matrix3d turn = mesh.turn * best_rotation(sphere.points, directions_of(domain, weights), weights);
     sphere.points = sphere.points * turn.transpose();
     for (Eigen::Index v = 0; v < sphere.points.rows(); ++v) sphere.points.row(v).normalize();
@@ -351,6 +356,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     result.sweeps = map.sweeps;
     result.changes = map.changes;
     warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, opened, result);
+    if (*result.even < options.even) warn_not_even({}, result.warnings);
     take_verdict(
         {.most_lost = options.most_lost, .advice = "Finer faces, the other layout or parts (koebe parts) lose less"},
         result);

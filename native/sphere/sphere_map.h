@@ -25,8 +25,9 @@ KOEBE_API const char* to_string(SphereLayout layout) noexcept;
 /// For a closed surface the tolerance is on the change of the points.
 struct SphereOptions : CutDomainOptions {
     SphereLayout layout = SphereLayout::equirectangular;
+    double even = 0.0;  ///< 0: conformal, 1: true to size (sphere/even_sphere.h)
 
-    KOEBE_OPTIONS_OVER(CutDomainOptions, SphereOptions, layout)
+    KOEBE_OPTIONS_OVER(CutDomainOptions, SphereOptions, layout, even)
 };
 
 /// A loop on the sphere. Its roundness is measured in the disk.
@@ -49,7 +50,8 @@ struct SphereLayoutReport {
 struct SphereResult : SweptMapReport {
     Vertices points;                ///< (V, 3) unit vectors in the input's order; unused vertices at (0, 0, 1)
     std::vector<SphereLoop> loops;  ///< by falling length
-    double mean_point = 0.0;  ///< length of the area-weighted mean of the points: 0 except for moves after the balance
+    /// Length of the area-weighted mean of the points: 0 except for moves after the balance, and for `even`.
+    double mean_point = 0.0;
     /// Faces that are not upright on the sphere in exact arithmetic; among them those whose longest edge is under
     /// sphere_resolution.
     std::vector<Index> flipped_on_sphere, below_sphere_resolution;
@@ -62,7 +64,7 @@ struct SphereResult : SweptMapReport {
 /// to their directions from the surface's middle.
 ///
 /// A closed surface is mapped by closed_sphere.h. A surface with holes is mapped by uniformize and stereographic
-/// projection; the outer circle becomes a cap like the others.
+/// projection; the outer circle becomes a cap like the others. `even` then moves the vertices that are on no loop.
 /// @throws InputError, TopologyError genus and the errors of analyze_surface, SolverError, Cancelled; a map that is not
 /// one to one is reported as not converged
 KOEBE_API SphereResult sphere_map(const Vertices& vertices, const Triangles& triangles, const SphereOptions& options,

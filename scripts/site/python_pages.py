@@ -37,7 +37,7 @@ PAGES = {
             "conformal_module", "module_names", "module_error", "module_distance", "canonical_order", "match_loops",
             "separations", "separation_distance",
         ],
-        "family": ["family", "Family"],
+        "family": ["family", "Family", "SphereFamily"],
         "permutation_test": ["permutation_test", "PermutationTest", "noise_error", "vertex_noise"],
         "certified_moduli": ["certified_moduli", "CertifiedModuli"],
         "teichmueller": ["teichmueller", "TeichmuellerMap"],

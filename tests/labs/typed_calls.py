@@ -42,4 +42,4 @@ def refused(vertices: np.ndarray, triangles: np.ndarray) -> None:
     koebe.flatten(vertices, triangles, unit="cm")  # type: ignore[call-arg]
     koebe.Surface(vertices, triangles, metod="ck")  # type: ignore[call-arg]
     koebe.boundary_loops(triangles, count=3)  # type: ignore[call-arg]
-    koebe.family([], eror=True)  # type: ignore[call-arg]
+    koebe.family([], eror=True)  # type: ignore[call-overload]

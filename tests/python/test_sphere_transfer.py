@@ -34,7 +34,7 @@ def potato(rounds, seed=3):
 POINTS, FACES, ROUND = potato(3)
 FINE = potato(4)
 SPHERE = koebe.sphere_map(POINTS, FACES)
-TURN = inner._rotation(np.array([0.5, -0.1, 0.7, 0.5]) / np.linalg.norm([0.5, -0.1, 0.7, 0.5]))
+TURN = inner._rotations(np.array([[0.5, -0.1, 0.7, 0.5]]) / np.linalg.norm([0.5, -0.1, 0.7, 0.5]))[0]
 
 
 def depth(directions):
@@ -64,7 +64,7 @@ def test_a_point_lies_in_the_triangle_that_is_found():
     places = random.normal(size=(4000, 3))
     places /= np.linalg.norm(places, axis=1)[:, None]
     for result in (SPHERE, moved(SPHERE, inner._near_identity(np.array([0.3, 0.2, 0.1, 1.4, -0.8, 0.5])))):
-        faces, weights = inner._Located(result).at(places)
+        faces, weights = inner._Located(result.points, result.triangles).at(places)
         there = np.einsum("nk,nkc->nc", weights, result.points[FACES[faces]])
         assert np.allclose(there / np.linalg.norm(there, axis=1)[:, None], places, atol=1e-9)
 
@@ -80,7 +80,7 @@ def test_a_finer_mesh_of_the_surface_corresponds_point_by_point():
 
 def test_landmarks_turn_a_turned_surface_back():
     turned = koebe.sphere_map(POINTS @ TURN.T, FACES)
-    spun = moved(turned, inner._turned(inner._rotation(np.array([0.1, 0.9, -0.3, 0.2]) / np.sqrt(0.95))))
+    spun = moved(turned, inner._turned(inner._rotations(np.array([[0.1, 0.9, -0.3, 0.2]]) / np.sqrt(0.95))[0]))
     places = koebe.transfer(SPHERE, spun, landmarks=[(5, 5), (100, 100), (tuple(POINTS[222]), 222)])
     assert places.misses_deg.max() < 1e-4 and np.isclose(places.alignment[0, 0], 1.0)
     assert np.allclose(places.points, POINTS, atol=1e-4)

@@ -45,6 +45,7 @@ from ._shapes import (
     separations,
 )
 from ._sphere import SphereMap, sphere_map
+from ._sphere_family import SphereFamily
 from ._sphere_transfer import SphereCorrespondence
 from ._statistics import PermutationTest, noise_error, permutation_test, vertex_noise
 from ._surface import Surface
@@ -81,6 +82,7 @@ __all__ = [
     "SchottkyMap",
     "SolverError",
     "SphereCorrespondence",
+    "SphereFamily",
     "SphereMap",
     "Surface",
     "SurfaceCut",

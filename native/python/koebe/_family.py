@@ -1,11 +1,11 @@
-"""Many shapes with their loops in one order, so that their modules are comparable vectors."""
+"""Many shapes with their loops in one order, so that their modules are comparable vectors; many closed surfaces."""
 
 import csv
 import io
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from ._arrays import as_indices
 from ._files import whole_file
 from ._options import flag, whole
 from ._shapes import conformal_module, match_loops, module_error, module_names
+from ._sphere import SphereMap
+from ._sphere_family import SphereFamily, sphere_family
+from ._sphere_transfer import STIFFNESS
 from .errors import InputError
 
 
@@ -63,6 +66,19 @@ class Family:
             file.write(text.getvalue().encode())
 
 
+@overload
+def family(
+    results: Sequence[SphereMap],
+    *,
+    reference: int = 0,
+    labels: Sequence[str] | None = None,
+    landmarks: Sequence[Sequence[Any]] | None = None,
+    fields: Sequence[Any] | None = None,
+    moebius: bool = False,
+    bend: bool = False,
+    stiffness: float = STIFFNESS,
+) -> SphereFamily: ...
+@overload
 def family(
     results: Sequence[Any],
     *,
@@ -71,8 +87,22 @@ def family(
     orders: Sequence[Sequence[int]] | None = None,
     labels: Sequence[str] | None = None,
     error: bool = False,
-) -> Family:
-    """Take one order of the loops for all shapes, and compute their modules in it.
+) -> Family: ...
+def family(
+    results: Sequence[Any],
+    *,
+    reference: int = 0,
+    order: Sequence[int] | None = None,
+    orders: Sequence[Sequence[int]] | None = None,
+    labels: Sequence[str] | None = None,
+    error: bool = False,
+    landmarks: Sequence[Sequence[Any]] | None = None,
+    fields: Sequence[Any] | None = None,
+    moebius: bool = False,
+    bend: bool = False,
+    stiffness: float = STIFFNESS,
+) -> Family | SphereFamily:
+    """Take one order of the loops for all shapes, and compute their modules in it; or lay closed surfaces over one.
 
     results     of uniformize, or objects with centers and radii: equally many loops each, at least two
     reference   the shape whose loops set the order: the others' loops are matched to them (match_loops)
@@ -80,6 +110,10 @@ def family(
     orders      of every shape's loops, given by you; then nothing is matched
     labels      of the shapes, such as file names; None: 0, 1, 2, ...
     error       also compute error bars of the modules (module_error), which maps a finer mesh for each
+    landmarks, fields    of results of sphere_map: of every shape its landmarks, in one order, or its fields
+    moebius, bend, stiffness    of results of sphere_map, as in transfer
+    Results of sphere_map, of closed surfaces, give a SphereFamily: each shape corresponds to the reference by
+    `transfer`, and the points that correspond have a mean and distances.
     module_distance takes the best order for its two shapes, so three such distances need not obey the triangle
     inequality; the distances of a family do. Raises InputError, also for circles that are not the surface's own.
 
@@ -95,6 +129,13 @@ def family(
     shapes = list(results)
     if not shapes:
         raise InputError("there are no shapes")
+    if all(isinstance(shape, SphereMap) for shape in shapes):
+        if order is not None or orders is not None or error:
+            raise InputError("order, orders and error are for surfaces with holes")
+        how: dict[str, Any] = {"moebius": moebius, "bend": bend, "stiffness": stiffness}
+        return sphere_family(shapes, reference, labels, landmarks, fields, **how)
+    if landmarks is not None or fields is not None or moebius or bend:
+        raise InputError("landmarks, fields, moebius and bend are for results of sphere_map")
     count = len(shapes[0].radii)
     for number, shape in enumerate(shapes):
         if len(shape.radii) != count:

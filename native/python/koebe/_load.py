@@ -13,11 +13,13 @@ from ._domain_map import DomainMap
 from ._fit import FitResult
 from ._parts import PartsResult
 from ._result import Source, UniformizeResult
+from ._sphere_transfer import loaded_correspondence
 from .errors import InputError
 
 
 def load(path: str | os.PathLike[str]) -> Any:
-    """Read a result written by `save`, as its class: UniformizeResult, CutResult, PartsResult, SphereMap, ...
+    """Read a result written by `save`, as its class: UniformizeResult, CutResult, PartsResult, SphereMap,
+    SphereCorrespondence, ...
 
     Raises InputError for a file that is not a result, OSError for one that cannot be read.
 
@@ -30,6 +32,8 @@ def load(path: str | os.PathLike[str]) -> Any:
     """
     try:
         with np.load(path, allow_pickle=False) as file:
+            if "kind" in file and str(file["kind"]) == "SphereCorrespondence":
+                return loaded_correspondence(file)
             report = json.loads(str(file["report"]))
             source = Source(file["vertices"], file["triangles"], kept=file.get("kept"))
             uv, flipped = file["uv"], file["flipped_faces"]

@@ -85,6 +85,7 @@ class RingOptions(TorusOptions, total=False):
 class SphereOptions(TileOptions, total=False):
     """Options of `sphere_map`."""
 
+    even: float
     layout: Literal["equirectangular", "octahedral"]
 
 

@@ -30,7 +30,7 @@ class SphereMap(DomainMap):
                      area in 32-bit UVs; below_resolution, the flipped faces that are too small for 32-bit UVs
     loops            list of Loop, by falling length: vertices, center, radius (of the cap), roundness,
                      roundness_least_squares, off_circle
-    mean_point       length of the mean of the surface's points by area, 0 if the map is balanced
+    mean_point       length of the mean of the surface's points by area, 0 if the map is balanced and conformal
     converged, sweeps, changes    of the circles, or of the points of a closed surface, in each sweep
     turned           faces turned to the orientation of the others
     angle_error_deg, beltrami, area_distortion, conformal_energy    as in MapReport, of the flat faces between the
@@ -69,8 +69,8 @@ class SphereMap(DomainMap):
 def sphere_map(vertices: Any, triangles: Any = None, **given: "Unpack[SphereOptions]") -> SphereMap:
     """Map a surface of genus 0, closed or with any number of holes, conformally to the sphere, with round holes.
 
-    Of all such maps this one has the least area distortion: the mean over the surface of the log of area on the surface
-    over area on the sphere. It is rotated like the surface.
+    Of all conformal maps this one has the least area distortion: the mean over the surface of the log of area on the
+    surface over area on the sphere. It is rotated like the surface. even above 0 then trades angles for areas.
 
     vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
     {options}

@@ -1,22 +1,48 @@
 """Takes points of one closed surface to another, through their maps to the sphere."""
 
+import json
+import os
+import warnings as python_warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 
+from ._files import whole_file
+from ._native import _koebe
 from ._options import flag
 from ._report_entries import Warning
+from ._result import Beltrami
 from ._sphere import SphereMap
 from ._transfer_carry import carried, landmark_pairs
-from .errors import InputError, SolverError
+from .errors import InputError, OptionError
 
-_CELLS = 48  # squares along an edge of the cube on which vertices are looked up
+_CELLS = 48  # squares along an edge of the cube on which a field is looked up
 _ROTATIONS = 4000  # tried for fields: 9 degrees apart
 _SAMPLES = 600  # vertices at which fields are compared in the search
 _FINE = 1500  # and in the last steps
+STIFFNESS = 0.1
 _BEST = 4  # rotations from which the search goes on
+
+
+class Bending(TypedDict):
+    """How a sphere was bent over another, after the best rotation or Moebius map.
+
+    beltrami      |mu|, mean over the surface's area and max over the faces: 0 without bending
+    log_area_sd   standard deviation of the log of the area factor, by the surface's area
+    similarity_before    correlation of the fields before the bending, or None
+    flipped       faces that the bending has turned over: 0
+    steps         Newton steps
+    settled       whether the minimization ended by itself
+    """
+
+    beltrami: Beltrami
+    log_area_sd: float
+    similarity_before: float | None
+    flipped: int
+    steps: int
+    settled: bool
 
 
 @dataclass(frozen=True)
@@ -26,39 +52,70 @@ class SphereCorrespondence:
     faces       (V_b,) int32 triangle of a that holds the point
     weights     (V_b, 3) its barycentric coordinates there: at least 0, sum 1
     points      (V_b, 3) the point in space, in a's unit
+    sphere      (V_b, 3) the point on a's sphere
     alignment   (4, 4) Lorentz matrix L of the Moebius map that lays b's sphere over a's: x goes to y / t with
                 (t, y) = L (1, x). A rotation has L[0, 0] = 1
     misses_deg  (n,) how far each landmark misses its partner on the sphere, degrees
-    similarity  correlation of the two fields after the alignment, by area on b, or None
-    warnings    list of Warning
+    similarity  correlation of the two fields, by area on b, or None
+    bending     a dict (beltrami, log_area_sd, similarity_before, flipped, steps, settled), or None with bend=False
+    triangles, count    a's triangles and its number of vertices
+    own_sphere, own_triangles    b's sphere, and its triangles
+    warnings    list of Warning: 'not_converged' if the bending did not settle
     A vertex of b without a face corresponds to nothing: its face is -1, all else NaN.
     """
 
     faces: np.ndarray
     weights: np.ndarray
     points: np.ndarray
+    sphere: np.ndarray
     alignment: np.ndarray
     misses_deg: np.ndarray
     similarity: float | None
+    bending: Bending | None
     triangles: np.ndarray
     count: int
+    own_sphere: np.ndarray
+    own_triangles: np.ndarray
     warnings: list[Warning] = field(default_factory=list)
 
     def __repr__(self) -> str:
         angle = np.degrees(np.arccos(np.clip(0.5 * (np.trace(_rotation_of(self.alignment)) - 1.0), -1.0, 1.0)))
-        told = ""
+        told = "" if self.bending is None else f", bent by |mu| {self.bending['beltrami']['mean']:.3g} in the mean"
         if len(self.misses_deg):
-            told = f", {len(self.misses_deg)} landmarks miss by up to {self.misses_deg.max():.3g} deg"
+            told += f", {len(self.misses_deg)} landmarks miss by up to {self.misses_deg.max():.3g} deg"
         like = "" if self.similarity is None else f", fields correlate by {self.similarity:.3g}"
         return f"<koebe.SphereCorrespondence {len(self.points)} points, turned by {angle:.3g} deg{told}{like}>"
 
     def __call__(self, directions: Any) -> np.ndarray:
         """The points (n, 3) of a's sphere at points (n, 3) of b's sphere."""
-        return _applied(self.alignment, np.asarray(directions, np.float64))
+        places = np.asarray(directions, np.float64)
+        if self.bending is None:
+            return _applied(self.alignment, places)
+        faces, weights = _Located(self.own_sphere, self.own_triangles).at(places)
+        there = np.einsum("nk,nkc->nc", weights, self.sphere[self.own_triangles[faces]])
+        return there / np.linalg.norm(there, axis=1, keepdims=True)
 
     def carry(self, field: Any, *, labels: bool | None = None) -> np.ndarray:
         """Values (V_b,) or (V_b, k) at b's vertices of a field at a's vertices, as Correspondence.carry."""
         return carried(field, self.triangles, self.faces, self.weights, self.count, labels)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the correspondence to a file for `koebe.load`: NumPy's .npz. The file is complete or absent."""
+        parts = dict(vars(self))
+        report = {name: parts.pop(name) for name in ("similarity", "bending", "count")}
+        report["warnings"] = [dict(warning) for warning in parts.pop("warnings")]
+        with whole_file(path) as file:
+            np.savez_compressed(
+                file, kind=np.array("SphereCorrespondence"), report=np.array(json.dumps(report)), **parts
+            )
+
+
+def loaded_correspondence(file: Any) -> SphereCorrespondence:
+    """The correspondence in a file that `save` wrote."""
+    report = json.loads(str(file["report"]))
+    warnings = [Warning(warning) for warning in report.pop("warnings")]
+    arrays = {name: file[name] for name in file if name not in ("kind", "report")}
+    return SphereCorrespondence(**arrays, **report, warnings=warnings)
 
 
 def sphere_transfer(
@@ -67,100 +124,162 @@ def sphere_transfer(
     landmarks: Sequence[tuple[Any, Any]] | None,
     fields: tuple[Any, Any] | None,
     moebius: bool,
+    bend: bool,
+    stiffness: float,
 ) -> SphereCorrespondence:
-    """The correspondence by the Moebius map, or the rotation, that fits landmarks or fields best."""
+    """The correspondence by the Moebius map, or the rotation, that fits landmarks or fields best, then bent or not."""
     for name, one in (("a", a), ("b", b)):
         if len(one.loops):
             raise InputError(f"{name} has {len(one.loops)} holes: transfer takes spheres of closed surfaces, and disks")
         if one.on_sphere["flipped"]:
             raise InputError(f"the map of {name} to the sphere is not one to one: no point is sure")
-    if landmarks is not None and fields is not None:
-        raise InputError("give landmarks, or fields, not both")
-    located = _Located(a)
-    pairs = landmark_pairs(landmarks)
-    on_a, on_b = (_directions(one, [pair[side] for pair in pairs]) for side, one in enumerate((a, b)))
-    free, similarity = flag(moebius, "moebius"), None
-    if fields is not None:
-        matrix, similarity = _by_fields(located, b, fields, free)
-    elif not pairs:
-        matrix = np.eye(4)
-    elif free and len(pairs) < 3:
+    free, bent, pairs = flag(moebius, "moebius"), flag(bend, "bend"), landmark_pairs(landmarks)
+    if landmarks is not None and fields is not None and not bent:
+        raise InputError("give landmarks, or fields, not both: only bend=True fits both")
+    if bent and not pairs and fields is None:
+        raise InputError("bend needs fields, or landmarks")
+    if not (np.ndim(stiffness) == 0 and np.isfinite(stiffness) and stiffness > 0.0):
+        raise OptionError(f"stiffness must be a finite number above 0, not {stiffness!r}")
+    located = _Located(a.points, a.triangles)
+    on_a, on_b = (_vertices(one, [pair[side] for pair in pairs]) for side, one in enumerate((a, b)))
+    both = None if fields is None else _checked(fields, a, b)
+    if both is not None and len(pairs) < 3:
+        matrix = _by_fields(located, b, both, free)
+    elif free and 0 < len(pairs) < 3:
         raise InputError("a Moebius map needs three landmarks at least")
     else:
-        matrix = _by_landmarks(on_b, on_a, free)
-    used = b._source.used
+        matrix = _by_landmarks(b.points[on_b], a.points[on_a], free) if pairs else np.eye(4)
+    used, sphere = b._source.used, np.full((b.vertex_count, 3), np.nan)
+    sphere[used] = _applied(matrix, b.points[used])
+    bending: Bending | None = None
+    if bent:
+        before = None if both is None else _similarity(located, sphere, b, both)
+        none = np.zeros((0, 0))
+        sphere, bending = _bent(a, b, sphere, both or (none, none), on_a, on_b, float(stiffness))
+        bending |= {"similarity_before": before, "flipped": 0}  # else register_spheres has raised an error
+        sphere[~used] = np.nan
     faces, weights = np.full(b.vertex_count, -1, np.int32), np.full((b.vertex_count, 3), np.nan)
-    faces[used], weights[used] = located.at(_applied(matrix, b.points[used]))
+    faces[used], weights[used] = located.at(sphere[used])
     points = np.einsum("vk,vkc->vc", weights, a.vertices[a.triangles[faces]])
-    cosines = np.einsum("nc,nc->n", _applied(matrix, on_b), on_a) if pairs else np.zeros(0)
-    misses = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
-    return SphereCorrespondence(faces, weights, points, matrix, misses, similarity, a.triangles, a.vertex_count)
+    misses = np.degrees(2.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(sphere[on_b] - a.points[on_a], axis=1), 0.0, 1.0)))
+    similarity = None if both is None else _similarity(located, sphere, b, both)
+    told = []
+    if bending is not None and not bending["settled"]:
+        text = "the bending ended before it settled: a greater stiffness settles sooner"
+        told.append(Warning(kind="not_converged", elements=[], text=text))
+        python_warnings.warn(told[0], stacklevel=3)
+    return SphereCorrespondence(
+        faces, weights, points, sphere, matrix, misses, similarity, bending, a.triangles, a.vertex_count, b.points,
+        b.triangles, told,
+    )  # fmt: skip
 
 
-def _directions(result: SphereMap, places: list[Any]) -> np.ndarray:
-    """(n, 3) points on the sphere of vertices, or of the vertices nearest to points in space."""
-    found = np.zeros((len(places), 3))
-    vertices = result.vertices[result._source.used]
+def _bent(
+    a: SphereMap,
+    b: SphereMap,
+    sphere: np.ndarray,
+    fields: tuple[np.ndarray, np.ndarray],
+    on_a: np.ndarray,
+    on_b: np.ndarray,
+    stiffness: float,
+) -> tuple[np.ndarray, Bending]:
+    """b's vertices on a's sphere after the bending, and its figures."""
+    found = _koebe.register_spheres(
+        a.vertices, _upright(a.points, a.triangles), _anywhere(a.points), fields[0],
+        b.vertices, _upright(b.points, b.triangles), _anywhere(sphere), fields[1],
+        on_b.tolist(), a.points[on_a], stiffness,
+    )  # fmt: skip
+    return found.pop("sphere"), found
+
+
+def _checked(fields: Any, a: SphereMap, b: SphereMap) -> tuple[np.ndarray, np.ndarray]:
+    """The fields of both, (V_a, k) and (V_b, k) float64. Raises InputError."""
+    if not isinstance(fields, (tuple, list)) or len(fields) != 2:
+        raise InputError("fields must be a pair: values at a's vertices and at b's")
+    on_a, on_b = (np.asarray(values, np.float64) for values in fields)
+    for name, values, one in (("a", on_a, a), ("b", on_b, b)):
+        if values.ndim not in (1, 2) or len(values) != one.vertex_count or values.size == 0:
+            raise InputError(f"the field of {name} must be ({one.vertex_count},), or have columns, not {values.shape}")
+    if on_a.shape[1:] != on_b.shape[1:]:
+        raise InputError(f"the fields have {on_a.shape[1:]} and {on_b.shape[1:]} columns")
+    on_a, on_b = on_a.reshape(len(on_a), -1), on_b.reshape(len(on_b), -1)
+    for name, values, one in (("a", on_a, a), ("b", on_b, b)):
+        known = np.where(np.isfinite(values), values, np.nan)[one._source.used]
+        if np.isnan(known).all(axis=0).any():
+            raise InputError("the fields have no values")
+        if (np.nanmax(known, axis=0) - np.nanmin(known, axis=0) <= 1e-12 * np.nanmax(np.abs(known), axis=0)).any():
+            raise InputError(f"the field of {name} is the same everywhere")
+    return on_a, on_b
+
+
+def _vertices(result: SphereMap, places: list[Any]) -> np.ndarray:
+    """(n,) vertices: as named, or nearest to points in space."""
+    found = np.zeros(len(places), np.int64)
     numbers = np.flatnonzero(result._source.used)
     for number, place in enumerate(places):
         if isinstance(place, (int, np.integer)) and not isinstance(place, bool):
             if not 0 <= place < result.vertex_count or not np.isfinite(result.points[place]).all():
                 raise InputError(f"landmark {number} is no vertex of the surface: {place}", [number], "landmarks")
-            found[number] = result.points[place]
+            found[number] = place
             continue
         position = np.asarray(place, np.float64)
         if position.shape != (3,) or not np.isfinite(position).all():
             raise InputError(f"landmark {number} is neither a vertex nor a point (x, y, z)", [number], "landmarks")
-        found[number] = result.points[numbers[((vertices - position) ** 2).sum(axis=1).argmin()]]
+        found[number] = numbers[((result.vertices[numbers] - position) ** 2).sum(axis=1).argmin()]
     return found
 
 
-class _Located:
-    """Where points lie among the triangles of a sphere: a walk from a vertex nearby."""
+def _anywhere(points: np.ndarray) -> np.ndarray:
+    """The points (V, 3), with vertices that have no face at (0, 0, 1)."""
+    return np.where(np.isfinite(points), points, [0.0, 0.0, 1.0])
 
-    def __init__(self, a: SphereMap) -> None:
-        self.triangles, self.points = a.triangles, a.points
-        edges = self.triangles[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2)  # edge k is opposite to corner k
-        key = np.sort(edges, axis=1) @ np.array([len(self.points), 1], np.int64)
-        order = np.argsort(key, kind="stable")
-        partner = np.empty(len(key), np.int64)
-        partner[order[0::2]], partner[order[1::2]] = order[1::2], order[0::2]
-        self.across = (partner // 3).reshape(-1, 3)
-        corner = self.points[self.triangles]
-        self.normals = np.stack([np.cross(corner[:, (k + 1) % 3], corner[:, (k + 2) % 3]) for k in range(3)], axis=1)
-        cell = _cells(corner.sum(axis=1))
-        self.first = np.zeros(6 * _CELLS * _CELLS, np.int64)
-        self.first[:] = -1
-        self.first[cell] = np.arange(len(self.triangles))
-        filled = np.flatnonzero(self.first >= 0)
-        empty = np.flatnonzero(self.first < 0)
-        self.first[empty] = self.first[filled[np.minimum(np.searchsorted(filled, empty), len(filled) - 1)]]
+
+def _upright(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """The triangles (F, 3), those that were turned to the others' orientation with two corners exchanged."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    turned = np.einsum("fk,fk->f", a, np.cross(b - a, c - a)) < 0.0
+    return np.where(turned[:, None], triangles[:, [0, 2, 1]], triangles)
+
+
+class _Located:
+    """Where points lie among the triangles of a sphere."""
+
+    def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None:
+        self.triangles, upright = triangles, _upright(points, triangles)
+        self.turned = (upright != triangles).any(axis=1)
+        self.native = _koebe.SpherePlaces(_anywhere(points), upright)
 
     def at(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """The triangles (n,) that hold points on the sphere, and the weights (n, 3) of their corners."""
-        here = self.first[_cells(places)]
-        sides = np.einsum("nkc,nc->nk", self.normals[here], places)
-        walking = np.flatnonzero(sides.min(axis=1) < 0.0)
-        random = np.random.default_rng(0)
-        for step in range(4 * int(np.sqrt(len(self.triangles))) + 200):
-            if not len(walking):
-                break
-            side = sides[walking]
-            if step % 4 == 3:  # a walk in a circle ends by chance
-                side = np.where(side < 0.0, -random.random(side.shape), 1.0)
-            here[walking] = self.across[here[walking], side.argmin(axis=1)]
-            sides[walking] = np.einsum("nkc,nc->nk", self.normals[here[walking]], places[walking])
-            walking = walking[sides[walking].min(axis=1) < 0.0]
-        for n in walking:  # on an edge, by rounding, or lost: the best of all triangles
-            every = self.normals @ places[n]
-            least = every.min(axis=1) / np.maximum(np.abs(every).max(axis=1), np.finfo(float).tiny)
-            facing = np.einsum("fc,c->f", self.points[self.triangles].sum(axis=1), places[n]) > 0.0
-            here[n] = np.where(facing, least, -np.inf).argmax()
-            sides[n] = every[here[n]]
-            if least[here[n]] < -1e-6:
-                raise SolverError("a point of the sphere lies in no triangle")
-        weights = np.maximum(sides, 0.0)
-        return here.astype(np.int32), weights / weights.sum(axis=1, keepdims=True)
+        faces, weights = self.native.at(places)
+        return faces, np.where(self.turned[faces, None], weights[:, [0, 2, 1]], weights)
+
+    def values(self, field: np.ndarray, places: np.ndarray) -> np.ndarray:
+        """Fields (V, k) at points (n, 3) of the sphere: NaN beside a vertex where they are NaN."""
+        faces, weights = self.at(places)
+        return np.einsum("nc,nck->nk", weights, field[self.triangles[faces]])
+
+
+def _similarity(located: _Located, sphere: np.ndarray, b: SphereMap, fields: tuple[np.ndarray, np.ndarray]) -> float:
+    """Mean correlation of the fields by area on b, with b's vertices at places (V, 3) on a's sphere."""
+    used = b._source.used
+    return float(_correlation(located.values(fields[0], sphere[used]), fields[1][used], vertex_areas(b)[used]))
+
+
+def vertex_areas(result: SphereMap) -> np.ndarray:
+    """(V,) twice the area of the faces around each vertex."""
+    a, b, c = result.vertices[result.triangles].transpose(1, 0, 2)
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return np.bincount(result.triangles.ravel(), np.repeat(area, 3), minlength=result.vertex_count)
+
+
+def _middles() -> np.ndarray:
+    """(6 * _CELLS^2, 3) directions: one through each square of `_cells`."""
+    side, u, v = np.meshgrid(np.arange(6), *[(np.arange(_CELLS) + 0.5) * 2.0 / _CELLS - 1.0] * 2, indexing="ij")
+    axis, rows, found = side.ravel() // 2, np.arange(side.size), np.empty((side.size, 3))
+    found[rows, axis] = 1.0 - 2.0 * (side.ravel() % 2)
+    found[rows, (axis + 1) % 3], found[rows, (axis + 2) % 3] = u.ravel(), v.ravel()
+    return found / np.linalg.norm(found, axis=1, keepdims=True)
 
 
 def _cells(places: np.ndarray) -> np.ndarray:
@@ -235,52 +354,40 @@ def _by_landmarks(source: np.ndarray, target: np.ndarray, free: bool) -> np.ndar
     return matrix
 
 
-def _by_fields(located: _Located, b: SphereMap, fields: Any, free: bool) -> tuple[np.ndarray, float]:
-    """The map of greatest correlation of the fields, and the correlation. All rotations are tried, then small steps."""
-    if not isinstance(fields, (tuple, list)) or len(fields) != 2:
-        raise InputError("fields must be a pair: values at a's vertices and at b's")
-    on_a, on_b = (np.asarray(values, np.float64) for values in fields)
-    for name, values, count in (("a", on_a, len(located.points)), ("b", on_b, b.vertex_count)):
-        if values.shape != (count,):
-            raise InputError(f"the field of {name} must be ({count},), not {values.shape}")
-    values_a, known_a = np.nan_to_num(on_a), np.isfinite(on_a)
-    corners = b.vertices[b.triangles]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    weight = np.bincount(b.triangles.ravel(), np.repeat(area, 3), minlength=b.vertex_count)
-    weight[~np.isfinite(on_b)] = 0.0
-    if not weight.any() or not known_a.any():
-        raise InputError("the fields have no values")
+def _by_fields(located: _Located, b: SphereMap, fields: tuple[np.ndarray, np.ndarray], free: bool) -> np.ndarray:
+    """The map of greatest correlation of the fields. All rotations are tried, then small steps."""
+    weight = np.where(np.isfinite(fields[1]).any(axis=1), vertex_areas(b), 0.0)
     random = np.random.default_rng(0)
     sample = random.choice(len(weight), min(_FINE, int((weight > 0).sum())), False, weight / weight.sum())
-    there, wanted = b.points[sample], on_b[sample]
+    there, wanted = b.points[sample], fields[1][sample]
+    table = located.values(fields[0], _middles())
 
-    def similarity(matrix: np.ndarray, count: int, quick: bool = False) -> float:
-        places = _applied(matrix, there[:count])
-        if quick:  # the value at a corner of a triangle nearby
-            near = located.triangles[located.first[_cells(places)], 0]
-            found, known = values_a[near], known_a[near]
-        else:
-            faces, weights = located.at(places)
-            near = located.triangles[faces]
-            found, known = (weights * values_a[near]).sum(axis=1), known_a[near].all(axis=1)
-        return _correlation(found[known], wanted[:count][known])
+    def similarity(matrix: np.ndarray, count: int) -> float:
+        return float(_correlation(located.values(fields[0], _applied(matrix, there[:count])), wanted[:count]))
 
-    start = [_turned(_rotation(quaternion)) for quaternion in _quaternions(_ROTATIONS)]
-    start.append(np.eye(4))
-    scores = [similarity(matrix, _SAMPLES, quick=True) for matrix in start]
+    rotations = np.concatenate([_rotations(_quaternions(_ROTATIONS)), np.eye(3)[None]])
+    scores = np.concatenate([
+        _correlation(table[_cells((there[:_SAMPLES] @ some.transpose(0, 2, 1)).reshape(-1, 3))]
+                     .reshape(len(some), -1, wanted.shape[1]), wanted[:_SAMPLES])
+        for some in np.array_split(rotations, 40)
+    ])  # fmt: skip
+    start = [_turned(rotation) for rotation in rotations]
     best = [start[k] for k in np.argsort(scores)[::-1][:_BEST]]
     climbed = [_climbed(lambda m: similarity(m, _SAMPLES), matrix, 3, 0.1, 0.02) for matrix in best]
     matrix = max(climbed, key=lambda m: similarity(m, len(there)))
-    matrix = _climbed(lambda m: similarity(m, len(there)), matrix, 6 if free else 3, 0.05, 5e-4)
-    return matrix, similarity(matrix, len(there))
+    return _climbed(lambda m: similarity(m, len(there)), matrix, 6 if free else 3, 0.05, 5e-4)
 
 
-def _correlation(x: np.ndarray, y: np.ndarray) -> float:
-    if len(x) < 3:
-        return -1.0
-    x, y = x - x.mean(), y - y.mean()
-    size = np.sqrt((x @ x) * (y @ y))
-    return float(x @ y / size) if size > 0.0 else -1.0
+def _correlation(x: np.ndarray, y: np.ndarray, weights: np.ndarray | None = None) -> Any:
+    """The mean over k of the correlations of (..., n, k) and (n, k) numbers along n, where both are known; -1: none."""
+    known = np.isfinite(x) & np.isfinite(y)
+    share = known if weights is None else known * weights[:, None]
+    share = share / np.maximum(share.sum(axis=-2, keepdims=True), np.finfo(float).tiny)
+    x, y = np.where(known, x, 0.0), np.where(known, y, 0.0)
+    x, y = x - (share * x).sum(axis=-2, keepdims=True), y - (share * y).sum(axis=-2, keepdims=True)
+    size = np.sqrt((share * x * x).sum(axis=-2) * (share * y * y).sum(axis=-2))
+    enough = (size > 0.0) & ((share > 0.0).sum(axis=-2) > 2)
+    return np.where(enough, (share * x * y).sum(axis=-2) / np.where(enough, size, 1.0), -1.0).mean(axis=-1)
 
 
 def _climbed(
@@ -307,10 +414,11 @@ def _quaternions(count: int) -> np.ndarray:
     return np.stack([inner * np.sin(a), inner * np.cos(a), outer * np.sin(b), outer * np.cos(b)], axis=1)
 
 
-def _rotation(quaternion: np.ndarray) -> np.ndarray:
-    x, y, z, w = quaternion
+def _rotations(quaternions: np.ndarray) -> np.ndarray:
+    """(n, 3, 3) of quaternions (n, 4) x, y, z, w."""
+    x, y, z, w = quaternions.T
     return np.array([
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ])  # fmt: skip
+    ]).transpose(2, 0, 1)  # fmt: skip

@@ -15,6 +15,7 @@ from ._native import _koebe
 from ._options import whole
 from ._result import Source, UniformizeResult
 from ._shapes import chosen_order, conformal_module
+from ._sphere_family import SphereFamily
 from ._surface import Surface
 from .errors import InputError, KoebeError, OptionError, SolverError
 
@@ -151,7 +152,7 @@ def permutation_test(distances: Any, groups: Any, *, permutations: int = 9999, s
     """Test whether two or more groups of shapes differ, by their distances alone (PERMANOVA) [Anderson 2001].
 
     distances     (N, N) symmetric, such as the distances of a `family`, or of separation_distance for all pairs; or the
-                  Family itself
+                  Family or SphereFamily itself
     groups        (N,) the group of each shape: any labels
     permutations  of the labels, at random; if there are no more than these, all are taken
     seed          of the random numbers: the same seed gives the same p
@@ -164,7 +165,7 @@ def permutation_test(distances: Any, groups: Any, *, permutations: int = 9999, s
     >>> found.p < 0.05, found.exact
     (True, True)
     """
-    matrix = distances.distances if isinstance(distances, Family) else distances
+    matrix = distances.distances if isinstance(distances, (Family, SphereFamily)) else distances
     matrix = as_points(matrix, "distances", len(np.asarray(matrix)))
     count = len(matrix)
     if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0) or matrix.diagonal().any() or (matrix < 0.0).any():

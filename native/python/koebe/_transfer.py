@@ -17,7 +17,7 @@ from ._report_entries import Warning
 from ._result import Beltrami, UniformizeResult
 from ._shapes import DomainAlignment, mapped_surface
 from ._sphere import SphereMap
-from ._sphere_transfer import SphereCorrespondence, sphere_transfer
+from ._sphere_transfer import STIFFNESS, SphereCorrespondence, sphere_transfer
 from ._transfer_carry import carried, landmark_pairs
 from .errors import InputError
 
@@ -89,6 +89,8 @@ def transfer(
     landmarks: Sequence[tuple[Any, Any]] | None = None,
     fields: tuple[Any, Any] | None = None,
     moebius: bool = False,
+    bend: bool = False,
+    stiffness: float = STIFFNESS,
 ) -> SphereCorrespondence: ...
 @overload
 def transfer(
@@ -109,6 +111,8 @@ def transfer(
     landmarks: Sequence[tuple[Any, Any]] | None = None,
     fields: tuple[Any, Any] | None = None,
     moebius: bool = False,
+    bend: bool = False,
+    stiffness: float = STIFFNESS,
 ) -> np.ndarray: ...
 def transfer(
     a: UniformizeResult | SphereMap,
@@ -120,6 +124,8 @@ def transfer(
     landmarks: Sequence[tuple[Any, Any]] | None = None,
     fields: tuple[Any, Any] | None = None,
     moebius: bool = False,
+    bend: bool = False,
+    stiffness: float = STIFFNESS,
 ) -> Correspondence | SphereCorrespondence | np.ndarray:
     """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
 
@@ -135,13 +141,17 @@ def transfer(
                Of the maps that take landmarks to landmarks exactly and turn no face over, it takes the one with the
                least fourth power of |mu| over the surface. On a rim landmarks are vertices of both
     fields     of two results of sphere_map: values at a's vertices and at b's, such as sulcal depth. The sphere of b is
-               turned until they correlate best
+               turned until they correlate best. Several fields are columns: (V_a, k) and (V_b, k)
     moebius    of two results of sphere_map: not only rotations, but all Moebius maps. Landmarks must be three then
+    bend       of two results of sphere_map: then bend b's sphere, without turning a face over, until the fields agree
+               and landmarks meet exactly. With bend=True both may be given
+    stiffness  of this bending, above 0: its elastic energy over half the mean square difference of the fields, which
+               have mean 0 and standard deviation 1
     Holes that could not be bent onto each other give a koebe.Warning, too. Without a hole, or with one, landmarks also
     choose the automorphism of the disk: the one that brings them nearest.
     Two results of sphere_map, of closed surfaces, correspond through the sphere: as the spheres are, or with landmarks
-    or fields after a rotation of b's. Landmarks then need not meet: `misses_deg` says how near they are, and a point
-    (x, y, z) stands for the nearest vertex. Without a field it returns a SphereCorrespondence.
+    or fields after a rotation of b's. Without bend=True landmarks need not meet: `misses_deg` says how near they are. A
+    point (x, y, z) stands for the nearest vertex. Without a field it returns a SphereCorrespondence.
     Two results of fit_circles with the same circles already lie over each other: circle k corresponds to circle k.
     Raises InputError, also if circles are not the surface's own and for landmarks that exclude each other, and
     SolverError if no such map was found: `elements` are the landmarks, by their places in the list.
@@ -158,10 +168,10 @@ def transfer(
     if isinstance(a, SphereMap) and isinstance(b, SphereMap):
         if match is not None or fit is not True:
             raise InputError("match and fit are for surfaces with holes")
-        found_on_sphere = sphere_transfer(a, b, landmarks, fields, moebius)
+        found_on_sphere = sphere_transfer(a, b, landmarks, fields, moebius, bend, stiffness)
         return found_on_sphere if field is None else found_on_sphere.carry(field)
-    if fields is not None or moebius:
-        raise InputError("fields and moebius are for two results of sphere_map")
+    if fields is not None or moebius or bend:
+        raise InputError("fields, moebius and bend are for two results of sphere_map")
     if not (isinstance(a, UniformizeResult) and isinstance(b, UniformizeResult)):
         other = next(type(one).__name__ for one in (a, b) if not isinstance(one, UniformizeResult))
         raise TypeError(f"transfer takes results of uniformize, or two of sphere_map, not {other}")
