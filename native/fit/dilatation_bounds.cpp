@@ -1,7 +1,7 @@
 #include "fit/dilatation_bounds.h"
 
-#include "surface/harmonic_map.h"
-#include "surface/laplacian.h"
+#include "fit/plane_beltrami.h"
+#include "surface/harmonic_solver.h"
 
 #include <Eigen/QR>
 
@@ -20,80 +20,72 @@ constexpr double flat_q = 1e-3;         // of the mean |q|: smaller ones count a
 constexpr double dependent = 1e-9;      // of products: relative
 constexpr double nothing_bent = 1e-14;  // of |mu|
 
-struct DomainFaces {
-    VectorXd area;          // (F) 0: turned over
-    Eigen::MatrixX3cd hat;  // (F, 3) gradients of the corners' hat functions
-};
-
-DomainFaces faces_of(const Triangles& triangles, const PlanarPoints& uv)
+/// (F) areas, 0 for faces that are turned over here or by mu.
+VectorXd upright_areas(const Triangles& triangles, const PlanarPoints& uv, const VectorXcd& mu)
 {
-    DomainFaces faces{VectorXd::Zero(triangles.rows()), Eigen::MatrixX3cd::Zero(triangles.rows(), 3)};
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const auto at = [&](int k) { return Complex(uv(triangles(f, k % 3), 0), uv(triangles(f, k % 3), 1)); };
-        const double area = 0.5 * (std::conj(at(1) - at(0)) * (at(2) - at(0))).imag();
-        if (!(area > 0.0)) continue;
-        faces.area[f] = area;
-        for (int k = 0; k < 3; ++k) faces.hat(f, k) = Complex(0.0, 0.5) * (at(k + 2) - at(k + 1)) / area;
+    VectorXd area = VectorXd::Zero(mu.size());
+    for (Eigen::Index f = 0; f < area.size(); ++f) {
+        const Complex p = face_edge(uv, triangles, f, 1), q = face_edge(uv, triangles, f, 2);
+        if (std::abs(mu[f]) < 1.0) area[f] = std::max(0.5 * (std::conj(p) * q).imag(), 0.0);
     }
-    return faces;
+    return area;
 }
 
-/// (F, columns) 2 du/dz of harmonic functions u with these values on vertices.
-Eigen::MatrixXcd forms_of(const Triangles& triangles, const PlanarPoints& uv, const DomainFaces& faces,
-                          const std::vector<Index>& held, const MatrixXd& values)
+/// (F, C) 2 du/dz of functions u (V, C) in faces with area.
+Eigen::MatrixXcd forms_of(const Triangles& triangles, const PlanarPoints& uv, const VectorXd& area, const MatrixXd& u)
 {
-    const EdgeLengths lengths = edge_lengths(uv, triangles);
-    Eigen::MatrixXcd forms = Eigen::MatrixXcd::Zero(triangles.rows(), values.cols());
-    for (Eigen::Index k = 0; k < values.cols(); k += 2) {
-        const bool two = k + 1 < values.cols();
-        VectorXcd both = values.col(k).cast<Complex>();
-        if (two) both += Complex(0.0, 1.0) * values.col(k + 1);
-        both = harmonic_map(triangles, lengths, static_cast<Index>(uv.rows()), held, both);
-        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-            for (int corner = 0; corner < 3; ++corner) {
-                const Complex value = both[triangles(f, corner)], hat = std::conj(faces.hat(f, corner));
-                forms(f, k) += value.real() * hat;
-                if (two) forms(f, k + 1) += value.imag() * hat;
-            }
+    Eigen::MatrixXcd forms = Eigen::MatrixXcd::Zero(triangles.rows(), u.cols());
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        if (!(area[f] > 0.0)) continue;
+        const Complex p = face_edge(uv, triangles, f, 1), q = face_edge(uv, triangles, f, 2);
+        const auto rise = [&](int corner) { return u.row(triangles(f, corner)) - u.row(triangles(f, 0)); };
+        forms.row(f) = Complex(0.0, 0.5) / area[f] * (std::conj(q) * rise(1) - std::conj(p) * rise(2));
     }
     return forms;
 }
 
-/// Forms of the holes' harmonic measures, and of Green's functions.
-struct DomainForms {
-    Eigen::MatrixXcd measures;        // (F, holes)
-    std::vector<Index> poles;         // vertices
-    std::vector<VectorXcd> of_poles;  // (F) each
-};
-
-DomainForms domain_forms(const Triangles& triangles, const PlanarPoints& uv, const std::vector<VertexLoop>& loops,
-                         const DomainFaces& faces)
+/// Vertices as far as possible from rims and from each other.
+std::vector<Index> pole_vertices(const PlanarPoints& uv, const std::vector<Index>& rim)
 {
-    std::vector<Index> rim;
-    for (const VertexLoop& loop : loops) rim.insert(rim.end(), loop.begin(), loop.end());
-    const auto rim_size = static_cast<Eigen::Index>(rim.size());
-    MatrixXd values = MatrixXd::Zero(rim_size, static_cast<Eigen::Index>(loops.size()) - 1);
-    auto begin = static_cast<Eigen::Index>(loops[0].size());
-    for (std::size_t k = 1; k < loops.size(); ++k) {
-        const auto size = static_cast<Eigen::Index>(loops[k].size());
-        values.col(static_cast<Eigen::Index>(k) - 1).segment(begin, size).setOnes();
-        begin += size;
-    }
-    DomainForms forms{forms_of(triangles, uv, faces, rim, values), {}, {}};
-    if (loops.size() < 4) return forms;
+    std::vector<Index> poles;
     VectorXd room = VectorXd::Constant(uv.rows(), std::numeric_limits<double>::infinity());
     const auto keep_off = [&](Index v) { room = room.cwiseMin((uv.rowwise() - uv.row(v)).rowwise().norm()); };
     for (const Index v : rim) keep_off(v);
-    rim.push_back(-1);
-    VectorXd one = VectorXd::Zero(rim_size + 1);
-    one[rim_size] = 1.0;
     for (int i = 0; i < green_poles; ++i) {
         Eigen::Index pole = 0;
         if (!(room.maxCoeff(&pole) > 0.0)) break;
-        rim.back() = static_cast<Index>(pole);
-        keep_off(rim.back());
-        forms.poles.push_back(rim.back());
-        forms.of_poles.push_back(forms_of(triangles, uv, faces, rim, one).col(0));
+        poles.push_back(static_cast<Index>(pole));
+        keep_off(poles.back());
+    }
+    return poles;
+}
+
+/// Forms of the holes' harmonic measures, and of Green's functions.
+struct DomainForms {
+    Eigen::MatrixXcd measures;  // (F, holes)
+    std::vector<Index> poles;   // vertices
+    Eigen::MatrixXcd of_poles;  // (F, poles)
+};
+
+DomainForms domain_forms(const Triangles& triangles, const PlanarPoints& uv, const std::vector<VertexLoop>& loops,
+                         const VectorXd& area)
+{
+    std::vector<Index> rim;
+    for (const VertexLoop& loop : loops) rim.insert(rim.end(), loop.begin(), loop.end());
+    const EdgeLengths lengths = edge_lengths(uv, triangles);
+    const auto forms_with = [&](const std::vector<Index>& held, const MatrixXd& values) {
+        const DirichletSolver solver = harmonic_solver(triangles, lengths, static_cast<Index>(uv.rows()), held);
+        return forms_of(triangles, uv, area, solver.solve(values));
+    };
+    MatrixXd values = MatrixXd::Zero(uv.rows(), static_cast<Eigen::Index>(loops.size()) - 1);
+    for (std::size_t k = 1; k < loops.size(); ++k) values(loops[k], static_cast<Eigen::Index>(k) - 1).setOnes();
+    DomainForms forms{forms_with(rim, values), {}, {}};
+    if (loops.size() > 3) forms.poles = pole_vertices(uv, rim);
+    forms.of_poles.resize(triangles.rows(), static_cast<Eigen::Index>(forms.poles.size()));
+    rim.push_back(-1);
+    for (std::size_t i = 0; i < forms.poles.size(); ++i) {
+        rim.back() = forms.poles[i];
+        forms.of_poles.col(static_cast<Eigen::Index>(i)) = forms_with(rim, VectorXd::Unit(uv.rows(), forms.poles[i]));
     }
     return forms;
 }
@@ -136,7 +128,8 @@ Eigen::MatrixXcd quadratic_differentials(const DomainForms& all, const Triangles
     }
     for (std::size_t i = 0; i < all.poles.size(); ++i)
         products.middleCols(squares + of_a_pole * static_cast<Eigen::Index>(i), of_a_pole) =
-            all.of_poles[i].asDiagonal() * (forms * vanishing_at(all.poles[i], triangles, area, forms));
+            all.of_poles.col(static_cast<Eigen::Index>(i)).asDiagonal() *
+            (forms * vanishing_at(all.poles[i], triangles, area, forms));
     for (Eigen::Index k = 0; k < products.cols(); ++k) products.col(k) /= area.dot(products.col(k).cwiseAbs());
     return products;
 }
@@ -159,26 +152,23 @@ double reich_strebel(const VectorXd& area, const VectorXcd& mu, const VectorXcd&
 DilatationBounds dilatation_bounds(const Triangles& triangles, const PlanarPoints& uv,
                                    const std::vector<VertexLoop>& loops, const VectorXcd& mu)
 {
-    DomainFaces faces = faces_of(triangles, uv);
-    for (Eigen::Index f = 0; f < mu.size(); ++f)
-        if (!(std::abs(mu[f]) < 1.0)) faces.area[f] = 0.0;
+    const VectorXd area = upright_areas(triangles, uv, mu);
     DilatationBounds bounds;
-    if (loops.size() < 2 || !((faces.area.array() > 0.0).select(mu.cwiseAbs(), 0.0).maxCoeff() > nothing_bent))
-        return bounds;
-    const DomainForms forms = domain_forms(triangles, uv, loops, faces);
-    const Eigen::MatrixXcd products = quadratic_differentials(forms, triangles, faces.area);
+    if (loops.size() < 2 || !((area.array() > 0.0).select(mu.cwiseAbs(), 0.0).maxCoeff() > nothing_bent)) return bounds;
+    const DomainForms forms = domain_forms(triangles, uv, loops, area);
+    const Eigen::MatrixXcd products = quadratic_differentials(forms, triangles, area);
     if (!products.allFinite()) return bounds;
     VectorXd pairing(products.cols());
     for (Eigen::Index k = 0; k < products.cols(); ++k) {
         double sum = 0.0;
         for (Eigen::Index f = 0; f < mu.size(); ++f)
-            if (faces.area[f] > 0.0) sum += faces.area[f] * (mu[f] * products(f, k)).real() / (1.0 - std::norm(mu[f]));
+            if (area[f] > 0.0) sum += area[f] * (mu[f] * products(f, k)).real() / (1.0 - std::norm(mu[f]));
         pairing[k] = sum;
     }
     VectorXd size = forms.measures.cwiseAbs2().rowwise().sum();
     for (int i = 0; i < reweightings; ++i) {
-        const double mean = faces.area.dot(size) / faces.area.sum();
-        const VectorXd root = (faces.area.array() / (size.array().square() + std::pow(flat_q * mean, 2)).sqrt()).sqrt();
+        const double mean = area.dot(size) / area.sum();
+        const VectorXd root = (area.array() / (size.array().square() + std::pow(flat_q * mean, 2)).sqrt()).sqrt();
         MatrixXd rows(2 * products.rows(), products.cols());
         rows << root.asDiagonal() * products.real(), root.asDiagonal() * products.imag();
         Eigen::CompleteOrthogonalDecomposition<MatrixXd> gram;
@@ -186,10 +176,10 @@ DilatationBounds dilatation_bounds(const Triangles& triangles, const PlanarPoint
         gram.compute(rows.transpose() * rows);
         const VectorXcd q = products * gram.solve(pairing).cast<Complex>();
         size = q.cwiseAbs();
-        if (!(faces.area.dot(size) > 0.0) || !size.allFinite()) break;
-        const double least = 1.0 / reich_strebel(faces.area, mu, q, -1.0);
+        if (!(area.dot(size) > 0.0) || !size.allFinite()) break;
+        const double least = 1.0 / reich_strebel(area, mu, q, -1.0);
         if (i > 0 && !(least > bounds.lower)) continue;
-        bounds = {std::max(least, 1.0), std::max(reich_strebel(faces.area, mu, q, 1.0), 1.0)};
+        bounds = {std::max(least, 1.0), std::max(reich_strebel(area, mu, q, 1.0), 1.0)};
     }
     return bounds;
 }

@@ -1,7 +1,7 @@
 // The Beltrami coefficients of a map between two planar meshes that is linear in each face.
 #pragma once
 
-#include "core/types.h"
+#include "core/complex_places.h"
 
 #include <Eigen/Core>
 
@@ -9,12 +9,17 @@
 
 namespace koebe {
 
+/// The edge of face f from its first corner to another one.
+inline Complex face_edge(const PlanarPoints& points, const Triangles& triangles, Eigen::Index f, int corner)
+{
+    return complex_at(points, triangles(f, corner)) - complex_at(points, triangles(f, 0));
+}
+
 /// (F) mu of each face of the map `from` -> `to`; 1 for faces without area, and for faces that the map turns over.
 inline VectorXcd plane_beltrami(const PlanarPoints& from, const Triangles& triangles, const PlanarPoints& to)
 {
     const auto edge = [&](const PlanarPoints& points, Eigen::Index f, int corner) {
-        const Eigen::RowVector2d way = points.row(triangles(f, corner)) - points.row(triangles(f, 0));
-        return Complex(way[0], way[1]);
+        return face_edge(points, triangles, f, corner);
     };
     VectorXcd mu(triangles.rows());
     for (Eigen::Index f = 0; f < mu.size(); ++f) {

@@ -1,11 +1,9 @@
 #include "io/gltf_writer.h"
 
 #include "core/errors.h"
-#include "io/glb_container.h"
-#include "io/gltf_model.h"
+#include "io/glb_editor.h"
 #include "io/refusals.h"
 
-#include <cstring>
 #include <limits>
 #include <map>
 #include <optional>
@@ -14,85 +12,10 @@
 namespace koebe {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::GlbEditor;
+using Json = GlbEditor::Json;
 
 constexpr const char* uv_name = "TEXCOORD_0";
-constexpr std::size_t alignment = 4;
-
-Json& member(Json& object, const char* name, Json fallback)
-{
-    if (!object.contains(name)) object[name] = std::move(fallback);
-    return object[name];
-}
-
-/// The file's JSON, and data that are added behind its binary data.
-class GlbEditor {
-public:
-    explicit GlbEditor(std::string_view glb) : file_(io::read_glb(glb)), model_(io::read_gltf_model(glb)) {}
-
-    Json& primitive(std::size_t mesh, std::size_t place) { return file_.json["meshes"][mesh]["primitives"][place]; }
-
-    /// An accessor of new data. @param stride of vertex attributes; 0: indices
-    int add(const std::string& data, std::size_t stride, Json accessor)
-    {
-        Json view{{"buffer", buffer()}, {"byteOffset", begin_ + data_.size()}, {"byteLength", data.size()}};
-        if (stride > 0) view["byteStride"] = stride;
-        view["target"] = stride > 0 ? TINYGLTF_TARGET_ARRAY_BUFFER : TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
-        data_.append(data).append((alignment - data.size() % alignment) % alignment, '\0');
-        Json& views = member(file_.json, "bufferViews", Json::array());
-        views.push_back(std::move(view));
-        accessor["bufferView"] = views.size() - 1;
-        file_.json["accessors"].push_back(std::move(accessor));
-        return static_cast<int>(file_.json["accessors"].size()) - 1;
-    }
-
-    /// An accessor's elements, and copies of some behind them: a new accessor, otherwise as it was.
-    int with_copies(int number, const std::vector<Index>& sources, std::size_t count)
-    {
-        const std::string elements = io::accessor_elements(model_, number, static_cast<std::ptrdiff_t>(count));
-        const std::size_t size = io::accessor_element_bytes(model_.accessors[static_cast<std::size_t>(number)]);
-        const std::size_t stride = (size + alignment - 1) / alignment * alignment;
-        std::string data((count + sources.size()) * stride, '\0');
-        const auto copy = [&](std::size_t from, std::size_t to) {
-            std::memcpy(data.data() + to * stride, elements.data() + from * size, size);
-        };
-        for (std::size_t v = 0; v < count; ++v) copy(v, v);
-        for (std::size_t k = 0; k < sources.size(); ++k) copy(static_cast<std::size_t>(sources[k]), count + k);
-        Json accessor = file_.json["accessors"][static_cast<std::size_t>(number)];
-        for (const char* old : {"byteOffset", "sparse"}) accessor.erase(old);
-        accessor["count"] = count + sources.size();
-        return add(data, stride, std::move(accessor));
-    }
-
-    std::string bytes()
-    {
-        if (!data_.empty())
-            file_.json["buffers"][static_cast<std::size_t>(buffer())]["byteLength"] = begin_ + data_.size();
-        return io::glb_bytes(file_, data_);
-    }
-
-private:
-    /// The buffer of the binary chunk, which must be the first one and have no other place.
-    int buffer()
-    {
-        Json& buffers = member(file_.json, "buffers", Json::array());
-        if (buffers.empty()) buffers.push_back({{"byteLength", 0}});
-        if (buffers[0].contains("uri"))
-            throw InputError("the first buffer of the GLB file is text: save the file with binary data");
-        if (!begun_) {
-            // Padding of the chunk is no part of the buffer: new data begin behind it.
-            begin_ = file_.binary.size();
-            begun_ = true;
-        }
-        return 0;
-    }
-
-    io::GlbContainer file_;
-    tinygltf::Model model_;
-    std::string data_;
-    std::size_t begin_ = 0;
-    bool begun_ = false;
-};
 
 /// Vertices of primitives that share them, with the UVs that they got so far.
 class SharedVertices {
@@ -147,14 +70,15 @@ std::string packed_indices(const std::vector<Index>& indices)
 }
 
 /// Indices of triangles, as short as the vertices allow: the largest number of a type is no vertex.
-int add_indices(GlbEditor& editor, const std::vector<Index>& indices, std::size_t vertex_count)
+int add_indices(GlbEditor& editor, const std::vector<Index>& indices, std::size_t vertex_count, int replaced)
 {
     const bool narrow = vertex_count <= std::numeric_limits<std::uint16_t>::max();
     return editor.add(
         narrow ? packed_indices<std::uint16_t>(indices) : packed_indices<std::uint32_t>(indices), 0,
         {{"componentType", narrow ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
          {"count", indices.size()},
-         {"type", "SCALAR"}});
+         {"type", "SCALAR"}},
+        replaced);
 }
 
 /// Primitives with the same vertices: new attributes, and what stands for them.
@@ -184,16 +108,16 @@ void write_set(GlbEditor& editor, std::size_t mesh, const VertexSet& set)
     const std::size_t count = set.vertices.count() + set.vertices.sources().size();
     attributes[uv_name] =
         editor.add(set.vertices.uv_data(), sizeof(GltfPoint),
-                   {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", count}, {"type", "VEC2"}});
+                   {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", count}, {"type", "VEC2"}},
+                   attributes.value(uv_name, GlbEditor::no_accessor));
     for (std::size_t k = 0; k < set.primitives.size(); ++k) {
         const GltfPrimitive& primitive = *set.primitives[k];
-        const int indices = set.indices[k] == primitive.corner_vertex ? -1 : add_indices(editor, set.indices[k], count);
         Json& json = editor.primitive(mesh, primitive.place);
         json["attributes"] = attributes;
         if (json.contains("extensions")) json["extensions"].erase("KHR_draco_mesh_compression");  // of the old vertices
         if (!targets.empty()) json["targets"] = targets;
-        if (indices < 0) continue;
-        json["indices"] = indices;
+        if (set.indices[k] == primitive.corner_vertex) continue;
+        json["indices"] = add_indices(editor, set.indices[k], count, json.value("indices", GlbEditor::no_accessor));
         json.erase("mode");  // triangles
     }
 }

@@ -22,9 +22,9 @@ std::vector<GltfPoint> gltf_points(const PlanarPoints& uv);
 
 /// The GLB file with these UVs as TEXCOORD_0 of its meshes.
 ///
-/// Materials, skins, morph targets, animations and all other contents stay, and the old binary data stays in its place,
-/// bit for bit. The new data follow it. Where a vertex has several UVs, the primitive gets copies of the vertex, with
-/// all of its attributes and morph targets, behind its vertices; strips and fans become lists then.
+/// Materials, skins, morph targets, animations and all other contents stay, bit for bit. Data that only replaced
+/// accessors used leave the file (io/glb_editor.h). Where a vertex has several UVs, the primitive gets copies of the
+/// vertex, with all of its attributes and morph targets, behind its vertices; strips and fans become lists then.
 /// @param meshes of read_gltf_meshes @param uvs for each of them: (C) of the corners of its faces
 /// @throws InputError the file would have more than 4 GiB, or too many vertices
 std::string glb_with_corner_uvs(std::string_view glb, const std::vector<GltfMesh>& meshes,

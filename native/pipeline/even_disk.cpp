@@ -1,6 +1,7 @@
 #include "pipeline/even_disk.h"
 
 #include "circles/crowded_circles.h"
+#include "core/complex_places.h"
 #include "core/errors.h"
 #include "even/even_map.h"
 #include "pipeline/final_check.h"
@@ -18,8 +19,6 @@ namespace koebe {
 namespace {
 
 constexpr double shortest_drawn = 1e-7;  // disk units: a smaller loop is too small to tell which way it turns
-
-Complex at(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
 std::vector<RoundLoop> round_loops(const MapInput& whole, const CircleMap& map, double scale)
 {
@@ -49,7 +48,7 @@ bool are_apart(const std::vector<RoundLoop>& round, const std::vector<Track>& tr
 VectorXcd image_of(const VertexLoop& loop, const PlanarPoints& points)
 {
     VectorXcd image(static_cast<Eigen::Index>(loop.size()));
-    for (std::size_t i = 0; i < loop.size(); ++i) image[static_cast<Eigen::Index>(i)] = at(points, loop[i]);
+    for (std::size_t i = 0; i < loop.size(); ++i) image[static_cast<Eigen::Index>(i)] = complex_at(points, loop[i]);
     return image;
 }
 
@@ -107,7 +106,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
         circle =
             k == 0 ? Circle{} : Circle{(circle.center - outer.center) / outer.radius, circle.radius / outer.radius};
         for (const Index v : round[k].vertices) {
-            const Complex place = Track{.circle = circle}.nearest(at(relaxed.uv, v));
+            const Complex place = Track{.circle = circle}.nearest(complex_at(relaxed.uv, v));
             relaxed.uv.row(v) << place.real(), place.imag();
         }
     }

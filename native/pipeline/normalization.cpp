@@ -1,6 +1,7 @@
 #include "pipeline/normalization.h"
 
 #include "circles/moebius.h"
+#include "core/complex_places.h"
 #include "pipeline/flip_removal.h"
 
 #include <algorithm>
@@ -15,8 +16,6 @@ constexpr double settled = 1e-10;   // disk units: the remaining distance is mov
 constexpr double worthwhile = 0.5;  // share of the distance from 0 that a round may leave
 constexpr double on_circle = 1e-9;  // disk units: off the unit circle by rounding alone
 
-Complex at(const PlanarPoints& uv, Index vertex) { return {uv(vertex, 0), uv(vertex, 1)}; }
-
 /// The image of a circle inside the disk. Its radius is not computed as a difference of points: for a tiny circle that
 /// would lose too many digits.
 Circle image_of(const Circle& circle, const Moebius& moebius)
@@ -29,10 +28,10 @@ Circle image_of(const Circle& circle, const Moebius& moebius)
 /// The centre's place in a map of the solver's surface. If it lies in a flap, the flap is drawn first.
 Complex center_of(const MapInput& whole, const FlapCut& cut, const CircleMap& map, ExecutionContext& context)
 {
-    if (cut.flaps.empty()) return at(map.uv, whole.center);
+    if (cut.flaps.empty()) return complex_at(map.uv, whole.center);
     const auto kept = std::ranges::find(cut.vertices, whole.center);
-    if (kept != cut.vertices.end()) return at(map.uv, static_cast<Index>(kept - cut.vertices.begin()));
-    return at(hang_back(whole, cut, map, context).uv, whole.center);
+    if (kept != cut.vertices.end()) return complex_at(map.uv, static_cast<Index>(kept - cut.vertices.begin()));
+    return complex_at(hang_back(whole, cut, map, context).uv, whole.center);
 }
 
 }  // namespace
@@ -75,10 +74,10 @@ void put_in_place(const MapInput& whole, CircleMap& map)
 {
     if (held_vertices(whole).empty()) return;
     Moebius moebius;
-    if (whole.center >= 0) moebius.a = at(map.uv, whole.center);
+    if (whole.center >= 0) moebius.a = complex_at(map.uv, whole.center);
     if (!(std::abs(moebius.a) < 1.0)) return;
     if (whole.point >= 0) {
-        const Complex image = moebius(at(map.uv, whole.point));
+        const Complex image = moebius(complex_at(map.uv, whole.point));
         moebius.turn = std::conj(image) / std::abs(image);
     }
     if (moebius.a == 0.0 && moebius.turn == 1.0) return;

@@ -5,18 +5,12 @@
 
 #include <pybind11/eigen.h>
 
-#include <mutex>
-
 namespace py = pybind11;
 
 namespace koebe::python {
 namespace {
 
-/// One call at a time: a second thread waits for the first.
-struct SharedDial {
-    EvenDial dial;
-    std::timed_mutex busy;
-};
+using SharedDial = SharedObject<EvenDial>;
 
 }  // namespace
 
@@ -24,14 +18,13 @@ void bind_even_dial(py::module_& m)
 {
     py::class_<SharedDial>(m, "EvenDial")
         .def(py::init([](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                         const Eigen::Ref<const PlanarPoints>& points, bool round) {
-            return new SharedDial{EvenDial(vertices, triangles, points, round), {}};
-        }))
+                         const Eigen::Ref<const PlanarPoints>& points,
+                         bool round) { return new SharedDial{EvenDial(vertices, triangles, points, round)}; }))
         .def("move", [](SharedDial& shared, double even, int steps, const CancelToken& cancel) {
             return without_gil(py::none(), cancel, [&](ExecutionContext& context) {
                 const auto lock = alone(shared.busy, context);
-                const bool moved = shared.dial.move(even, steps, context);
-                return std::make_pair(shared.dial.points(), moved);
+                const bool moved = shared.object.move(even, steps, context);
+                return std::make_pair(shared.object.points(), moved);
             });
         });
 }

@@ -91,7 +91,14 @@ auto detached(Compute compute, bool is_short = false)
     });
 }
 
-/// One call at a time on a shared object: a second thread waits for the first, and may be cancelled meanwhile.
+/// An object for one call at a time.
+template <typename Object>
+struct SharedObject {
+    Object object;
+    std::timed_mutex busy = {};
+};
+
+/// Locks a shared object: a second thread waits for the first, and may be cancelled meanwhile.
 inline std::unique_lock<std::timed_mutex> alone(std::timed_mutex& busy, const ExecutionContext& context)
 {
     std::unique_lock lock(busy, std::defer_lock);

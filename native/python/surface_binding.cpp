@@ -5,18 +5,12 @@
 
 #include <pybind11/eigen.h>
 
-#include <mutex>
-
 namespace py = pybind11;
 
 namespace koebe::python {
 namespace {
 
-/// One call at a time: a second thread waits for the first.
-struct SharedSolver {
-    SurfaceSolver solver;
-    std::timed_mutex busy;
-};
+using SharedSolver = SharedObject<SurfaceSolver>;
 
 }  // namespace
 
@@ -26,15 +20,14 @@ void bind_surface(py::module_& m)
         .def(py::init([](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                          const UniformizeOptions& options) {
             return new SharedSolver{detached([points = Vertices(vertices), faces = Triangles(triangles), options] {
-                                        return SurfaceSolver(points, faces, options);
-                                    }),
-                                    {}};
+                return SurfaceSolver(points, faces, options);
+            })};
         }))
         .def("uniformize", [](SharedSolver& shared, const Eigen::Ref<const Vertices>& vertices,
                               const py::object& progress, const CancelToken& cancel) {
             return without_gil(progress, cancel, [&](ExecutionContext& context) {
                 const auto lock = alone(shared.busy, context);
-                return shared.solver.uniformize(vertices, context);
+                return shared.object.uniformize(vertices, context);
             });
         });
 }

@@ -40,7 +40,7 @@ std::string parts_svg(const PlanarPoints& corner_uv, const std::vector<Index>& p
         std::string& path = paths[static_cast<std::size_t>(part[f])];
         for (int k = 0; k < 3; ++k) {
             const auto corner = corner_uv.row(3 * static_cast<Eigen::Index>(f) + k);
-            path += (k == 0 ? "M" : "L") + pixels(corner[0]) + " " + pixels(rows - corner[1]);
+            path += (k == 0 ? 'M' : 'L') + pixels(corner[0]) + " " + pixels(rows - corner[1]);
         }
         path += "z";
     }

@@ -67,7 +67,7 @@ private:
         const char* const kinds[] = {"cut", "seam", "mark"};
         std::string steps;
         for (const auto& point : line.points.rowwise())
-            steps += (steps.empty() ? "M" : "L") + number(x(point[0])) + " " + number(y(point[1]));
+            steps += (steps.empty() ? 'M' : 'L') + number(x(point[0])) + " " + number(y(point[1]));
         return "<path" + attribute("class", kinds[static_cast<int>(line.kind)]) +
                attribute("data-piece", std::to_string(line.piece)) + attribute("d", steps + (line.closed ? "Z" : "")) +
                "/>\n";

@@ -42,7 +42,7 @@ std::string seen_edges(const Triangles& triangles, const Vertices& points, const
     sort_unique(edges);
     std::string path;
     for (const std::vector<Index>& trail : edge_trails(edges, static_cast<Index>(points.rows())))
-        for (std::size_t i = 0; i < trail.size(); ++i) path += (i == 0 ? "M" : "L") + view.place(points.row(trail[i]));
+        for (std::size_t i = 0; i < trail.size(); ++i) path += (i == 0 ? 'M' : 'L') + view.place(points.row(trail[i]));
     return path;
 }
 
@@ -63,7 +63,7 @@ std::string seen_small_cap(const Cap& cap, const BallView& view)
             const double length = p.norm();
             if (length > 0.0) p /= length;
         }
-        path += (i == 0 ? "M" : "L") + view.place(p);
+        path += (i == 0 ? 'M' : 'L') + view.place(p);
     }
     return seen ? path + "z" : "";
 }

@@ -16,7 +16,7 @@ std::string tile_svg(const TileResult& result)
 {
     std::string faces;
     for (Eigen::Index c = 0; c < result.uv.rows(); ++c) {
-        faces += (c % 3 == 0 ? "M" : "L") + pixels(result.uv(c, 0)) + " " + pixels(-result.uv(c, 1));
+        faces += (c % 3 == 0 ? 'M' : 'L') + pixels(result.uv(c, 0)) + " " + pixels(-result.uv(c, 1));
         if (c % 3 == 2) faces += "z";
     }
     const Eigen::RowVector2d low = result.uv.colwise().minCoeff(), high = result.uv.colwise().maxCoeff();

@@ -1,6 +1,7 @@
 #include "transfer/landmark_map.h"
 
 #include "circles/circle_projection.h"
+#include "core/complex_places.h"
 #include "core/errors.h"
 #include "foldover/foldover_free.h"
 #include "linear/sparse_cholesky.h"
@@ -32,14 +33,10 @@ constexpr double least_height = 1e-9;        // of a face that moves, over its l
 constexpr double most_cotangent = 20.0;      // of an angle, for the displacement
 constexpr double least_area = 1e-3;          // of a face or around a vertex, over the mean
 
-Complex at(const PlanarPoints& points, Eigen::Index i) { return {points(i, 0), points(i, 1)}; }
-
-void put(PlanarPoints& points, Eigen::Index i, Complex z) { points.row(i) << z.real(), z.imag(); }
-
 double doubled_area(const Triangles& triangles, const PlanarPoints& uv, Eigen::Index f)
 {
-    const Complex a = at(uv, triangles(f, 0));
-    return std::imag(std::conj(at(uv, triangles(f, 1)) - a) * (at(uv, triangles(f, 2)) - a));
+    const Complex a = complex_at(uv, triangles(f, 0));
+    return std::imag(std::conj(complex_at(uv, triangles(f, 1)) - a) * (complex_at(uv, triangles(f, 2)) - a));
 }
 
 /// Place of a vertex after a share t of its path: on a parabola of this height over the distance, or on its circle.
@@ -104,8 +101,8 @@ private:
         std::vector<Index> whole;
         std::vector<double> areas;
         for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-            const Complex a = at(aligned_, triangles(f, 0)), b = at(aligned_, triangles(f, 1)),
-                          c = at(aligned_, triangles(f, 2));
+            const Complex a = complex_at(aligned_, triangles(f, 0)), b = complex_at(aligned_, triangles(f, 1)),
+                          c = complex_at(aligned_, triangles(f, 2));
             const double longest = std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c)});
             if (doubled_area(triangles, aligned_, f) > least_height * longest &&
                 doubled_area(triangles, start_, f) > 0.0) {
@@ -144,7 +141,7 @@ private:
     {
         const VertexLoop& loop = target_.loops[k].vertices;
         const Circle& circle = circles_[k];
-        const auto arm = [&](std::size_t i) { return at(points, loop[i % loop.size()]) - circle.center; };
+        const auto arm = [&](std::size_t i) { return complex_at(points, loop[i % loop.size()]) - circle.center; };
         std::vector<std::pair<std::size_t, double>> held;  // places of landmarks in the loop, and their turns
         for (const Pin& pin : pins_) {
             if (pin.loop != static_cast<int>(k)) continue;
@@ -160,16 +157,17 @@ private:
             const std::size_t last = h + 1 < held.size() ? next : next + loop.size();
             std::vector<double> angle{0.0};
             for (std::size_t i = first; i < last; ++i) {
-                const Complex from = at(before, loop[i % loop.size()]) - circle.center;
-                const Complex to = at(before, loop[(i + 1) % loop.size()]) - circle.center;
+                const Complex from = complex_at(before, loop[i % loop.size()]) - circle.center;
+                const Complex to = complex_at(before, loop[(i + 1) % loop.size()]) - circle.center;
                 angle.push_back(angle.back() + std::abs(std::arg(to / from)));
             }
             for (std::size_t i = first; i < last; ++i) {
                 const Index v = loop[i % loop.size()];
                 if (problem_.mobility[v] != Mobility::sliding && i != first) continue;
                 const double share = angle.back() > 0.0 ? angle[i - first] / angle.back() : 0.0;
-                const Complex from = at(before, v) - circle.center;
-                put(points, v, circle.center + from * std::polar(1.0, (1.0 - share) * turn + share * next_turn));
+                const Complex from = complex_at(before, v) - circle.center;
+                put_complex(points, v,
+                            circle.center + from * std::polar(1.0, (1.0 - share) * turn + share * next_turn));
             }
         }
     }
@@ -179,7 +177,7 @@ private:
     {
         PlanarPoints wanted = now;
         for (std::size_t k = 0; k < circles_.size(); ++k) turn_rim(wanted, k, t, bow);
-        for (const Pin& pin : pins_) put(wanted, pin.vertex, on_way(pin, circles_, t, bow));
+        for (const Pin& pin : pins_) put_complex(wanted, pin.vertex, on_way(pin, circles_, t, bow));
         const PlanarPoints there = now + PlanarPoints(extension.solve(wanted - now));
         for (Eigen::Index v = 0; v < wanted.rows(); ++v)
             if (!fixed_[v]) wanted.row(v) = there.row(v);
@@ -212,7 +210,7 @@ private:
             std::vector<Complex> arms;
             for (const Index v : target_.loops[k].vertices)
                 if (!std::ranges::binary_search(target_.loops[k].off_circle, v))
-                    arms.push_back(at(uv, v) - circles_[k].center);
+                    arms.push_back(complex_at(uv, v) - circles_[k].center);
             const Eigen::Map<const VectorXcd> all(arms.data(), static_cast<Eigen::Index>(arms.size()));
             if (!run_once_round(all, k == 0 ? 1 : -1)) return false;
         }
