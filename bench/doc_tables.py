@@ -24,6 +24,7 @@ import polyhedron_error
 import predicted_rates
 import print_choices
 import promises
+import round_trips
 import shape_distances
 import stretched_cylinders
 import table_one
@@ -370,6 +371,7 @@ TABLES = {
         lambda row: [SAMPLES / "make_obj.py"],
     ),
     "templates": Table(atrium_templates.HEAD, list(atrium_templates.TEMPLATES), atrium_templates.cells, lambda row: []),
+    "round_trips": Table(round_trips.HEAD, round_trips.ROWS, round_trips.cells, lambda row: []),
     "teichmueller": Table(
         stretched_cylinders.HEAD, list(stretched_cylinders.ROWS), stretched_cylinders.cells, lambda row: []
     ),

@@ -8,14 +8,11 @@ import sys
 from pathlib import Path
 
 import koebe
-import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
+import saved_figure
 from koebe._plot import _in_pieces
-from PIL import Image
-
-matplotlib.use("agg")
-import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
+from matplotlib.collections import PolyCollection
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.append(str(ROOT / "bench"))
@@ -31,14 +28,15 @@ def squares(uv):
     return INK[dark]
 
 
-def draw_surface(axes, vertices, faces, uv):
-    pieces = _in_pieces(np.concatenate([vertices, uv], axis=1)[faces], 4)
+def draw_surface(axes, vertices, faces, values, paint=squares):
+    """The surface from behind, in the colours that `paint` gives to values (n, k) between those of the vertices."""
+    pieces = _in_pieces(np.concatenate([vertices, values], axis=1)[faces], 4)
     corners = pieces[:, :, :3]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
     order = np.argsort(corners[:, :, 1].mean(axis=1))  # seen from +y, the back of the atrium
     shade = (0.55 + 0.45 * np.abs(normal @ np.array([-0.3, 0.8, 0.52])))[:, None]
-    color = np.clip(squares(pieces[:, :, 3:].mean(axis=1)) * shade, 0, 1)[order]
+    color = np.clip(paint(pieces[:, :, 3:].mean(axis=1)) * shade, 0, 1)[order]
     flat = corners[order][:, :, [0, 2]] * np.array([-1, 1])
     axes.add_collection(PolyCollection(flat, facecolors=color, edgecolors=color, linewidths=0.2))
     axes.set(xlim=(-2.4, 2.4), ylim=(-2.0, 2.2), aspect="equal")
@@ -70,9 +68,7 @@ def main():
     for axis, title in zip(axes, ("the surface", "its conformal circles", "the template"), strict=True):
         axis.set_title(title, fontsize=9, pad=8)
         axis.set_axis_off()
-    path = ROOT / "docs/images/fit.png"
-    figure.savefig(path, dpi=100)
-    Image.open(path).convert("RGB").quantize(48).save(path, optimize=True)
+    saved_figure.save(figure, "fit.png")
 
 
 if __name__ == "__main__":

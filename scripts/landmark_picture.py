@@ -7,15 +7,12 @@ PYTHONPATH=build/python build/venv-labs/bin/python scripts/landmark_picture.py
 from pathlib import Path
 
 import koebe
-import matplotlib
+import matplotlib.pyplot as plt
 import meshio
 import numpy as np
+import saved_figure
 from koebe._plot import _in_pieces
-from PIL import Image
-
-matplotlib.use("agg")
-import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
+from matplotlib.collections import PolyCollection
 
 ROOT = Path(__file__).resolve().parents[1]
 PLACES = [(0.0, -0.386), (0.0, 0.33), (0.0, -1.0), (-0.35, -0.45), (0.35, -0.45), (0.3, 0.45), (-0.3, 0.45)]  # x and z
@@ -50,9 +47,7 @@ def main():
         back = koebe.transfer(surprised, neutral, landmarks=[(v, v) for v in landmarks]).points[marks][:, [0, 2]]
         axis.plot(*there.T, "o", markerfacecolor="none", color="#222222", markersize=7)
         axis.plot(*back.T, "o", color="#d1495b", markersize=3)
-    path = ROOT / "docs/images/labs_landmarks.png"
-    figure.savefig(path, dpi=90)
-    Image.open(path).convert("RGB").quantize(48).save(path, optimize=True)
+    saved_figure.save(figure, "labs_landmarks.png", 256, 90)
 
 
 if __name__ == "__main__":

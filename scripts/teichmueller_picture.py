@@ -8,13 +8,10 @@ import sys
 from pathlib import Path
 
 import koebe
-import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
-from PIL import Image
-
-matplotlib.use("agg")
-import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
+import saved_figure
+from matplotlib.collections import PolyCollection
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.append(str(ROOT / "bench"))
@@ -61,9 +58,7 @@ def main():
     for axis, title in zip(axes, ("a", "a's domain", "mapped to b's", "b"), strict=True):
         axis.set_title(title, fontsize=9, pad=8)
         axis.set_axis_off()
-    path = ROOT / "docs/images/teichmueller.png"
-    figure.savefig(path, dpi=100)
-    Image.open(path).convert("RGB").quantize(96).save(path, optimize=True)
+    saved_figure.save(figure, "teichmueller.png", 96)
 
 
 if __name__ == "__main__":

@@ -183,6 +183,11 @@ void bind_shapes(py::module_& m)
         parts["settled"] = found.settled;
         return parts;
     });
+    m.def("places_in_domain", [](const PlanarPoints& uv, const Triangles& triangles, const PlanarPoints& points) {
+        PlacesInTriangles found =
+            detached([uv, triangles, points] { return nearest_triangles(uv, triangles, points); });
+        return py::make_tuple(found.face, found.weights, found.distance);
+    });
     m.def("align_domains",
           [](const PlanarPoints& source_centers, const VectorXd& source_radii, const PlanarPoints& target_centers,
              const VectorXd& target_radii, const std::vector<int>& match) {

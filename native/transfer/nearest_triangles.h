@@ -1,6 +1,7 @@
 // Finds the triangles of a mesh that are nearest to given points.
 #pragma once
 
+#include "core/api.h"
 #include "core/types.h"
 
 namespace koebe {
@@ -17,8 +18,8 @@ Eigen::RowVector3d weights_in_triangle(const Eigen::RowVector3d& point, const Ei
 
 /// Uses CGAL's tree of bounding boxes. Triangles without area count as segments or points.
 /// @param corners (V, 2) finite @param triangles (F, 3), F >= 1 @param points (n, 2) finite
-PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles& triangles,
-                                    const PlanarPoints& points);
+KOEBE_API PlacesInTriangles nearest_triangles(const PlanarPoints& corners, const Triangles& triangles,
+                                              const PlanarPoints& points);
 
 /// Finds nearest triangles in space. @param corners (V, 3) @param points (n, 3)
 PlacesInTriangles nearest_triangles(const Vertices& corners, const Triangles& triangles, const Vertices& points);

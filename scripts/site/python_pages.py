@@ -42,6 +42,7 @@ PAGES = {
         "certified_moduli": ["certified_moduli", "CertifiedModuli"],
         "teichmueller": ["teichmueller", "TeichmuellerMap"],
         "transfer": ["transfer", "Correspondence", "SphereCorrespondence"],
+        "to_image": ["to_image", "from_image"],
         "align_domains": ["align_domains", "DomainAlignment"],
     },
     "Steps of the method": {

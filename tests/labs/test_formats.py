@@ -52,6 +52,34 @@ def test_freesurfers_surface_is_a_surface(folder):
     assert sorted(map(len, koebe.boundary_loops("lh.white"))) == sorted(map(len, result.loops))
 
 
+def test_a_map_lies_in_the_volume_of_its_surface(folder):
+    """FreeSurfer adds the centre cras to all points of a surface."""
+    volume = {
+        "head": [2, 0, 20], "valid": "1  # volume info valid", "filename": "../mri/filled-pretess255.mgz",
+        "volume": [256, 240, 200], "voxelsize": [1, 1.25, 1], "xras": [-1, 0, 0], "yras": [0, 0, -1],
+        "zras": [0, 1, 0], "cras": [3.5, -17.25, 8.125],
+    }  # fmt: skip
+    nibabel.freesurfer.write_geometry("lh.pial", SINGLE, TRIANGLES, volume_info=volume)
+    koebe.uniformize("lh.pial").export("lh.map")
+    nibabel.save(koebe.uniformize("lh.pial").to_mesh(), "p.gii")
+    koebe.uniformize("p.gii").export("lh.again")
+    for name in ("lh.map", "lh.again"):
+        found = nibabel.freesurfer.read_geometry(name, read_metadata=True)[2]
+        assert set(found) == set(volume) and all(np.array_equal(found[row], volume[row]) for row in volume)
+    scanner = nibabel.load("p.gii")
+    scanner.darrays[0].coordsys.dataspace = 1
+    koebe.uniformize(scanner).export("lh.scanner")
+    for name, told in (("lh.scanner", None), ("lh.unknown", {**volume, "valid": "0"})):
+        if told:
+            nibabel.freesurfer.write_geometry("lh.pial", SINGLE, TRIANGLES, volume_info=told)
+            koebe.uniformize("lh.pial").export(name)
+        with pytest.warns(UserWarning):
+            assert not nibabel.freesurfer.read_geometry(name, read_metadata=True)[2]
+    with open("lh.pial", "rb+") as file:  # a footer that cannot be read
+        file.truncate(os.path.getsize("lh.pial") - 40)
+    assert koebe.uniformize("lh.pial").flipped == 0
+
+
 def test_a_sphere_keeps_the_number_of_vertices(folder):
     """GIfTI files of one cortex belong together by the numbers of vertices. The map has cuts all the same."""
     sphere = koebe.sphere_map("rh.ball")

@@ -22,6 +22,7 @@ from ._fields import disk_to_uv, uv_to_disk
 from ._fit import FitResult, fit_circles
 from ._flatten import FlattenResult, flatten
 from ._formats import Patch, read_patch
+from ._image import from_image, to_image
 from ._koebe import CancelToken, __version__
 from ._layout import fit_circle, mirror_image, pack_disks
 from ._lift import LiftResult, lift
@@ -111,6 +112,7 @@ __all__ = [
     "fit_circle",
     "fit_circles",
     "flatten",
+    "from_image",
     "harmonic_map",
     "lift",
     "load",
@@ -134,6 +136,7 @@ __all__ = [
     "separations",
     "sphere_map",
     "teichmueller",
+    "to_image",
     "torus_map",
     "transfer",
     "uniformize",

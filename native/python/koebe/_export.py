@@ -22,6 +22,8 @@ from ._formats import (
     patch_bytes,
     quiet,
     structure_of,
+    volume_info,
+    volume_meta,
 )
 from ._meshes import LOG_SCALE, SPHERE, is_gifti, kind_of, read_mesh
 from .errors import FileError, InputError
@@ -52,8 +54,10 @@ def export(result: Any, path: str | os.PathLike[str]) -> None:
         content = _patch(result)
     elif is_freesurfer_name(path):
         points, triangles = flat_surface(result)
-        freesurfer = package_of("nibabel.freesurfer")
-        content = saved_bytes(low, lambda place: freesurfer.write_geometry(place, points, triangles, "by koebe"))
+        freesurfer, volume = package_of("nibabel.freesurfer"), volume_info(result._source.mesh)
+        content = saved_bytes(
+            low, lambda place: freesurfer.write_geometry(place, points, triangles, "by koebe", volume_info=volume)
+        )
     else:
         raise InputError(
             f"{name}: no format has this name. Known are .gii, .surf.gii, .shape.gii, .vtk, .vtu, .vtp, .obj, "
@@ -152,9 +156,10 @@ def _gifti_surface(result: Any, name: str) -> Any:
     sphere = hasattr(result, "points")
     kind = "Anatomical" if getattr(result, "is_surface", False) else "Spherical" if sphere else "Flat"
     closed = sphere and not len(result.loops)
-    return gifti_of(
-        points, triangles, {"AnatomicalStructurePrimary": _structure(result, name), "GeometricType": kind}, closed
-    )
+    meta = {"AnatomicalStructurePrimary": _structure(result, name), "GeometricType": kind}
+    if kind == "Anatomical":
+        meta |= volume_meta(volume_info(result._source.mesh) or {})
+    return gifti_of(points, triangles, meta, closed)
 
 
 def _gifti_fields(result: Any, name: str) -> Any:

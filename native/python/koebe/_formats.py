@@ -10,7 +10,7 @@ import io
 import os
 import re
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -129,9 +129,40 @@ def _freesurfer(path: str | os.PathLike[str]) -> Any:
         )
     if head[:3] == _CURV:
         raise InputError(f"{os.fspath(path)} has values at vertices, no surface: koebe.read_field reads it")
-    with read_by("nibabel.freesurfer", path) as freesurfer:
-        points, triangles = freesurfer.read_geometry(os.fspath(path))
-    return gifti_of(points, triangles, {"AnatomicalStructurePrimary": structure_of(path)})
+    with read_by("nibabel.freesurfer", path) as freesurfer, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # most surfaces of other programs know no volume
+        try:
+            points, triangles, volume = freesurfer.read_geometry(os.fspath(path), read_metadata=True)
+        except (OSError, ValueError):
+            (points, triangles), volume = freesurfer.read_geometry(os.fspath(path)), {}
+    return gifti_of(points, triangles, {"AnatomicalStructurePrimary": structure_of(path), **volume_meta(volume)})
+
+
+def volume_meta(volume: Mapping[str, Any]) -> dict[str, str]:
+    """FreeSurfer's volume info in FreeSurfer's words of GIfTI, if it is valid."""
+    if not str(volume.get("valid", "")).startswith("1"):
+        return {}
+    words = {
+        key: f"{number:.10g}" for row, keys in _VOLUME.items() for key, number in zip(keys, volume[row], strict=True)
+    }
+    return words | {_VOLUME_FILE: volume["filename"]}
+
+
+def volume_info(mesh: Any) -> dict[str, Any] | None:
+    """The volume info of a GiftiImage for nibabel's write_geometry. None if there is none, and for points in the
+    scanner's coordinates, to which FreeSurfer would add the centre twice."""
+    for array in getattr(mesh, "darrays", []):
+        meta = dict(array.meta)
+        if getattr(array.coordsys, "dataspace", 0) == _SCANNER:
+            return None
+        try:
+            rows = {row: np.array([float(meta[key]) for key in keys]) for row, keys in _VOLUME.items()}
+        except (KeyError, ValueError):
+            continue
+        rows["volume"] = rows["volume"].astype(int)
+        name = meta.get(_VOLUME_FILE, "")
+        return {"head": np.array([2, 0, 20]), "valid": "1  # volume info valid", "filename": name, **rows}
+    return None
 
 
 def structure_of(path: str | os.PathLike[str]) -> str:
@@ -167,6 +198,14 @@ class Patch:
         return f"<koebe.Patch {len(self.vertices)} vertices, {int(self.border.sum())} at the border>"
 
 
+# The rows of FreeSurfer's volume info, and the words for their numbers that FreeSurfer writes into GIfTI.
+_VOLUME = {
+    "volume": ("VolGeomWidth", "VolGeomHeight", "VolGeomDepth"),
+    "voxelsize": ("VolGeomXsize", "VolGeomYsize", "VolGeomZsize"),
+    **{f"{axis.lower()}ras": tuple(f"VolGeom{axis}_{way}" for way in "RAS") for axis in "XYZC"},
+}
+_VOLUME_FILE = "VolGeomFname"
+_SCANNER = 1  # NIFTI_XFORM_SCANNER_ANAT
 _PATCH_ROW = np.dtype([("vertex", ">i4"), ("point", ">f4", 3)])
 
 
