@@ -25,8 +25,9 @@ KOEBE_API const char* to_string(SphereLayout layout) noexcept;
 /// For a closed surface the tolerance is on the change of the points.
 struct SphereOptions : CutDomainOptions {
     SphereLayout layout = SphereLayout::equirectangular;
+    int threads = 0;  ///< at most; 0: all cores. The result is the same for any number
 
-    KOEBE_OPTIONS_OVER(CutDomainOptions, SphereOptions, layout)
+    KOEBE_OPTIONS_OVER(CutDomainOptions, SphereOptions, layout, threads)
 };
 
 /// A loop on the sphere. Its roundness is measured in the disk.

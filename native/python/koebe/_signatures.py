@@ -86,6 +86,7 @@ class SphereOptions(TileOptions, total=False):
     """Options of `sphere_map`."""
 
     layout: Literal["equirectangular", "octahedral"]
+    threads: int
 
 
 class SchottkyOptions(TileOptions, total=False):
