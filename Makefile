@@ -42,7 +42,7 @@ endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
 .PHONY: help build native programs wheel package dist matrix docs paper listing web lint lint-python lint-native lint-workflows check check-native check-form \
-        test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon figures guide-pictures reliability samples clean distclean
+        test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon bench-many figures guide-pictures reliability samples clean distclean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
@@ -264,6 +264,9 @@ reproduce: programs ## the paper's tables, rates and figures: out/reproduce/
 
 bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python bench/addon_overhead.py
+
+bench-many: native build/venv-labs/.done ## COUNT=10000 small surfaces at once: surfaces a second a core, what processes and Dask cost
+	PYTHONPATH=build/python build/venv-labs/bin/python bench/many_surfaces.py $(COUNT)
 
 figures: programs $(DONE)/install-blender ## measure the figures of README.md and docs/ and write them there; the guide's drawn pictures
 	$(PYTHON) bench/doc_figures.py

@@ -20,7 +20,7 @@ class ChoiceJob(Job):
         selected_only: bool = False,
         refused: list[tuple[str, str]] | None = None,
     ) -> None:
-        """Read the objects. @param options only layer and checker are used. Raises as `Job`."""
+        """Read the objects. @param options only layer, checker and threads are used. Raises as `Job`."""
         self.choice = choice
         self._begin()
         super().__init__(objects, options, selected_only, refused)

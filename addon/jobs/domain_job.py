@@ -24,7 +24,7 @@ class DomainJob(ChoiceJob):
     """Maps to the domain of its choice."""
 
     def _map(self, task: Task, progress: Progress | None) -> DomainOutcome:
-        return map_domain(self.koebe, task, self.choice, progress, self.cancel_token)
+        return map_domain(self.koebe, task, self.choice, progress, self.cancel_token, self.options.threads)
 
     def _pattern(self, plan: map_writing.Plan, size: float) -> Pattern:
         """The checker that continues over the cuts."""

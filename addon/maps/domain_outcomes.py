@@ -33,6 +33,8 @@ class DomainIsland:
     cuts         (E,) bool, edges of the surface along which the UVs are cut
     """
 
+    on_threads: ClassVar[bool] = False  # whether the solver's function has `threads`
+
     island: Island
     result: Any = LATER
     error: Exception | None = None
@@ -202,7 +204,12 @@ def islands_to_map(surface: Surface) -> list[Island]:
 
 
 def map_domain(
-    koebe: ModuleType, task: Task, choice: Chosen, progress: Progress | None = None, cancel: Any = None
+    koebe: ModuleType,
+    task: Task,
+    choice: Chosen,
+    progress: Progress | None = None,
+    cancel: Any = None,
+    threads: int = 0,
 ) -> DomainOutcome:
     """Map each island of the selected faces of a surface to the domain of the choice. Polygons stay whole.
 
@@ -215,7 +222,8 @@ def map_domain(
         size = len(one.island.triangles)
         with failing_alone(koebe, [one]):
             loops = checked_loops(koebe, one.island, choice.domain)
-            one.map(koebe, task, choice, loops, progress=share_of(progress, done, size, total), cancel=cancel)
+            run = {"threads": threads} if one.on_threads else {}
+            one.map(koebe, task, choice, loops, progress=share_of(progress, done, size, total), cancel=cancel, **run)
             one.judge(koebe, choice.most_lost)
         done += size
     return outcome_type(task, ones, choice)

@@ -4,7 +4,7 @@
 import dataclasses
 import functools
 from types import ModuleType
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -24,6 +24,8 @@ class SphereIsland(DomainIsland):
 
     torn     triangles (k,) that no UVs of the layout fit
     """
+
+    on_threads: ClassVar[bool] = True
 
     torn: np.ndarray = LATER
 

@@ -30,22 +30,30 @@ bool names_twice(const Triangles& triangles, Index f)
 
 /// Marks duplicate faces: all faces with the same vertices except the one that agrees with most of its neighbours, or
 /// the first of several such. @param left_out (F) changed
-void leave_out_duplicates(const Triangles& triangles, std::vector<char>& left_out)
+void leave_out_duplicates(const Triangles& triangles, Index vertex_count, std::vector<char>& left_out)
 {
-    std::vector<std::pair<std::array<Index, 3>, Index>> faces;
-    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
-        std::array<Index, 3> corners{triangles(f, 0), triangles(f, 1), triangles(f, 2)};
-        std::ranges::sort(corners);
-        if (!left_out[f]) faces.emplace_back(corners, f);
-    }
-    std::ranges::sort(faces);
+    const auto count = static_cast<Index>(triangles.rows());
+    const auto corners = [&](Index f) {
+        std::array<Index, 3> result{triangles(f, 0), triangles(f, 1), triangles(f, 2)};
+        std::ranges::sort(result);
+        return std::pair(result, f);
+    };
+    std::vector<Index> begin(static_cast<std::size_t>(vertex_count) + 1, 0);  // of the faces with each lowest corner
+    for (Index f = 0; f < count; ++f) begin[triangles.row(f).minCoeff() + 1] += left_out[f] ? 0 : 1;
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<Index> faces(static_cast<std::size_t>(begin.back())), cursor(begin.begin(), begin.end() - 1);
+    for (Index f = 0; f < count; ++f)
+        if (!left_out[f]) faces[cursor[triangles.row(f).minCoeff()]++] = f;
     std::vector<std::pair<Index, Index>> steps;  // along edges of all faces without duplicates
     std::vector<std::vector<Index>> groups;
-    for (std::size_t i = 0; i < faces.size();) {
-        std::vector<Index> group;
-        const std::size_t first = i;
-        for (; i < faces.size() && faces[i].first == faces[first].first; ++i) group.push_back(faces[i].second);
-        if (group.size() > 1) groups.push_back(std::move(group));
+    for (Index v = 0; v < vertex_count; ++v) {
+        const auto last = faces.begin() + begin[v + 1];
+        std::ranges::sort(faces.begin() + begin[v], last, {}, corners);
+        for (auto run = faces.begin() + begin[v]; run != last;) {
+            const auto end = std::find_if(run, last, [&](Index f) { return corners(f).first != corners(*run).first; });
+            if (end - run > 1) groups.emplace_back(run, end);
+            run = end;
+        }
     }
     if (groups.empty()) return;
     for (const auto& group : groups)
@@ -201,7 +209,7 @@ CanonicalMesh canonical_mesh(const Vertices& vertices, const Triangles& triangle
     const auto vertex_count = static_cast<Index>(vertices.rows());
     std::vector<char> left_out(static_cast<std::size_t>(triangles.rows()));
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) left_out[f] = names_twice(triangles, f);
-    leave_out_duplicates(triangles, left_out);
+    leave_out_duplicates(triangles, vertex_count, left_out);
     const std::vector<Index> twin = twins_of(triangles, vertex_count, left_out);
     JoinedFaces faces{triangles, twin, vertex_count};
     number_patches(faces, left_out);

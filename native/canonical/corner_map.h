@@ -4,6 +4,7 @@
 #include "canonical/canonical_mesh.h"
 #include "execution/detachable_run.h"
 #include "execution/execution.h"
+#include "execution/thread_share.h"
 
 namespace koebe {
 
@@ -11,11 +12,13 @@ namespace koebe {
 /// alone.
 /// @param compute (const CanonicalMesh&, ExecutionContext&) -> Result; holds copies, as it may outlive the call
 /// @param name (const CanonicalMesh&, Result&): renames the members that a CornerMapReport does not have
+/// @param threads at most; 0: all cores
 template <class Result, class Compute, class Name>
 Result corner_map(const Vertices& vertices, const Triangles& triangles, ExecutionContext& context,
-                  const Compute& compute, const Name& name)
+                  const Compute& compute, const Name& name, int threads = 1)
 {
-    return run_detachable<Result>(context, [vertices, triangles, compute, name](ExecutionContext& own) {
+    return run_detachable<Result>(context, [vertices, triangles, compute, name, threads](ExecutionContext& own) {
+        const ThreadShare share(threads);
         const auto compute_here = [&](const CanonicalMesh& mesh) { return compute(mesh, own); };
         const auto name_all = [&](const CanonicalMesh& mesh, Result& result) {
             mesh.name_corners(result.uv);
@@ -38,7 +41,9 @@ Result corner_map(const Vertices& vertices, const Triangles& triangles, const Op
         here.polygon = mesh.of_faces(options.polygon);
         return compute(mesh, here, own);
     };
-    return corner_map<Result>(vertices, triangles, context, compute_here, name);
+    int threads = 1;
+    if constexpr (requires { options.threads; }) threads = options.threads;
+    return corner_map<Result>(vertices, triangles, context, compute_here, name, threads);
 }
 
 }  // namespace koebe

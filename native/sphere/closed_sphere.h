@@ -4,6 +4,7 @@
 #include "execution/execution.h"
 #include "iteration/iteration_options.h"
 #include "iteration/koebe_outcome.h"
+#include "quality/report.h"
 #include "surface/periodic_surface.h"
 
 #include <vector>
@@ -15,6 +16,7 @@ struct ClosedSphereMap {
     VectorXcd z;  ///< (V) finite; balanced (spherical_balance.h), up to a rotation of the sphere
     bool converged = false;
     std::vector<double> changes;  ///< largest move of a point on the sphere in each sweep
+    StageSeconds seconds;         ///< metric, factor and iterate
 };
 
 /// The conformal map of a closed surface of genus 0 to the sphere.

@@ -1,5 +1,6 @@
 #include "sphere/sphere_check.h"
 
+#include "execution/each_in_pieces.h"
 #include "planar/boundary_crossings.h"
 
 #include <Eigen/Geometry>
@@ -88,13 +89,15 @@ SphereFaults find_sphere_faults(const Triangles& triangles, const std::vector<Ve
                                 const Vertices& points, const std::vector<Cap>& caps)
 {
     SphereFaults faults;
-    double covered = 0.0;
-    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
-        covered += solid_angle(points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
-        if (upright_on_sphere(triangles, points, f)) continue;
-        faults.flipped.push_back(f);
+    const auto face_count = static_cast<Index>(triangles.rows());
+    VectorXd areas(face_count);
+    each_in_pieces(face_count, [&](Index f) {
+        areas[f] = solid_angle(points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
+    });
+    double covered = areas.sum();
+    faults.flipped = found_in_pieces(face_count, [&](Index f) { return !upright_on_sphere(triangles, points, f); });
+    for (const Index f : faults.flipped)
         if (longest_edge_on_sphere(triangles, points, f) < sphere_resolution) faults.below_resolution.push_back(f);
-    }
     for (std::size_t k = 0; k < loops.size(); ++k) {
         double extent = 0.0;
         for (const Index v : loops[k]) extent = std::max(extent, (points.row(v) - points.row(loops[k][0])).norm());

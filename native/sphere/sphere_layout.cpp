@@ -1,6 +1,7 @@
 #include "sphere/sphere_layout.h"
 
 #include "core/tolerances.h"
+#include "execution/each_in_pieces.h"
 #include "sphere/sphere_polygons.h"
 
 #include <Eigen/Geometry>
@@ -159,9 +160,10 @@ PlanarPoints sphere_layout(const Triangles& triangles, const Vertices& points, c
                            const std::vector<Index>& polygon, SphereLayout layout, SphereLayoutReport& report)
 {
     PlanarPoints uv(triangles.size(), 2);
-    const auto count = static_cast<std::size_t>(triangles.rows());
+    const auto face_count = static_cast<Index>(triangles.rows());
+    const auto count = static_cast<std::size_t>(face_count);
     LayoutMarks marks{std::vector<char>(count, 0), std::vector<char>(count, 0)};
-    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+    each_in_pieces(face_count, [&](Index f) {
         FaceCorners p;
         for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = points.row(triangles(f, k)).transpose();
         const Placed placed = layout == SphereLayout::octahedral
@@ -170,10 +172,10 @@ PlanarPoints sphere_layout(const Triangles& triangles, const Vertices& points, c
         for (int k = 0; k < 3; ++k) uv.row(3 * f + k) = placed.uv[static_cast<std::size_t>(k)];
         marks.crossing[static_cast<std::size_t>(f)] = placed.crossing ? 1 : 0;
         marks.torn[static_cast<std::size_t>(f)] = placed.torn ? 1 : 0;
-    }
+    });
     join_polygons(triangles, points, polygon, layout, uv, marks);
     report = {};
-    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+    for (Index f = 0; f < face_count; ++f) {
         if (marks.crossing[static_cast<std::size_t>(f)]) report.crossing.push_back(f);
         if (marks.torn[static_cast<std::size_t>(f)]) report.torn.push_back(f);
     }

@@ -5,6 +5,7 @@
 #include "core/enum_words.h"
 #include "core/sort_unique.h"
 #include "even/even_map.h"
+#include "execution/each_in_pieces.h"
 #include "flaps/flaps.h"
 #include "linear/dense_spd.h"
 #include "mesh/loop_with.h"
@@ -50,6 +51,7 @@ struct PlaneMap {
     bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;
+    StageSeconds seconds;
     std::vector<Warning> warnings;  // with the input's vertices and the domain's loops
 };
 
@@ -58,6 +60,7 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
 {
     UniformizeOptions map_options;
     map_options.outer = OuterLoop::longest;
+    map_options.threads = options.threads;
     static_cast<SweepOptions&>(map_options) = options;
     map_options.most_lost = 1.0;  // the sphere has its own verdict
     const UniformizeResult disk = uniformize_here(vertices, triangles, map_options, context);
@@ -83,6 +86,7 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
         if (flap.loop == static_cast<int>(map.outer)) map.flaps.push_back(std::move(flap));
     map.converged = disk.converged;
     map.sweeps = disk.sweeps;
+    map.seconds = disk.seconds;
     for (const KoebeStep& step : disk.history) map.changes.push_back(step.change);
     map.warnings =
         with_loops_renumbered(disk, report,
@@ -190,8 +194,9 @@ Vertices directions_of(const PeriodicSurface& domain, const VectorXd& weights)
 {
     const Eigen::RowVector3d middle = weights.transpose() * domain.vertices / std::max(weights.sum(), 1e-300);
     Vertices directions = domain.vertices.rowwise() - middle;
-    for (Eigen::Index v = 0; v < directions.rows(); ++v)
+    each_in_pieces(directions.rows(), [&](Eigen::Index v) {
         if (const double length = directions.row(v).norm(); length > 0.0) directions.row(v) /= length;
+    });
     return directions;
 }
 
@@ -200,7 +205,7 @@ ComputedDistortion distortion_on_sphere(const PeriodicSurface& domain, const Ver
 {
     const Triangles& triangles = domain.surface.triangles;
     PlanarPoints flat(triangles.size(), 2);
-    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+    each_in_pieces(static_cast<Index>(triangles.rows()), [&](Index f) {
         const SpherePoint a = points.row(triangles(f, 0)), b = points.row(triangles(f, 1)).transpose() - a,
                           c = points.row(triangles(f, 2)).transpose() - a;
         const double along = b.norm(), share = along > 0.0 ? b.dot(c) / along : 0.0;
@@ -208,7 +213,7 @@ ComputedDistortion distortion_on_sphere(const PeriodicSurface& domain, const Ver
         flat.row(3 * f) << 0.0, 0.0;
         flat.row(3 * f + 1) << along, 0.0;
         flat.row(3 * f + 2) << share, upright_on_sphere(triangles, points, f) ? height : -height;
-    }
+    });
     return measure_corner_distortion(domain.vertices, triangles, flat);
 }
 
@@ -305,13 +310,14 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
         map.z = std::move(closed.z);
         map.converged = closed.converged;
         map.changes = std::move(closed.changes);
+        map.seconds = closed.seconds;
         map.sweeps = static_cast<int>(map.changes.size());
     } else {
         ExecutionContext own([&](double done, const std::string& name) { context.report(0.1 + 0.7 * done, name); }, {},
                              [&] { context.checkpoint(); });
         map = holed_plane_map(vertices, triangles, domain, options, own);
     }
-    clock.end(&StageSeconds::iterate);
+    clock.take(map.seconds);
 
     context.begin_stage("finish", 0.8, 1.0);
     const SphericalBalance balance = balance_on_sphere(map.z, weights);
@@ -327,8 +333,9 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     result.even =
         options.even > 0.0 && make_sphere_even(domain, options.even, sphere.points, context) ? options.even : 0.0;
     const Eigen::Matrix3d turn = mesh.turn * best_rotation(sphere.points, directions_of(domain, weights), weights);
-    sphere.points = sphere.points * turn.transpose();
-    for (Eigen::Index v = 0; v < sphere.points.rows(); ++v) sphere.points.row(v).normalize();
+    each_in_pieces(sphere.points.rows(), [&](Eigen::Index v) {
+        sphere.points.row(v) = (turn * sphere.points.row(v).transpose()).normalized().transpose();
+    });
     for (Cap& cap : sphere.caps) cap.center = (turn * cap.center).normalized();
     turn_back_on_sphere(domain, sphere, context);  // for faces that rounding after the rotation has turned over
     result.mean_point = (weights.transpose() * sphere.points).norm() / weights.sum();

@@ -1,6 +1,7 @@
 #include "sphere/sphere_repair.h"
 
 #include "core/sort_unique.h"
+#include "execution/thread_share.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/repair_effort.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -32,23 +34,15 @@ public:
           triangles_(domain.surface.triangles),
           map_(map),
           context_(context),
-          effort_(triangles_.rows(), 1000000),
-          loop_of_(static_cast<std::size_t>(domain.surface.vertex_count), -1),
-          faces_of_(static_cast<std::size_t>(domain.surface.vertex_count))
+          effort_(triangles_.rows(), 1000000)
     {
-        for (std::size_t k = 0; k < domain.loops.size(); ++k)
-            for (const Index v : domain.loops[k]) loop_of_[v] = static_cast<int>(k);
-        for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
-            for (const Index v : triangles_.row(f)) faces_of_[v].push_back(f);
-        off_.assign(loop_of_.size(), 0);
-        for (const Index v : map.off_circle) off_[v] = 1;
     }
 
     std::size_t run()
     {
-        std::vector<Index> all(static_cast<std::size_t>(triangles_.rows()));
-        for (std::size_t f = 0; f < all.size(); ++f) all[f] = static_cast<Index>(f);
-        std::vector<Index> left = tangled(all);
+        std::vector<Index> left = all_tangled();
+        if (left.empty()) return 0;
+        prepare();
         for (const LoopFreedom loops : {LoopFreedom::held, LoopFreedom::sliding, LoopFreedom::freed}) {
             if (loops != LoopFreedom::held && domain_.loops.empty()) break;
             for (const int rings : sphere_ring_counts)
@@ -64,17 +58,38 @@ public:
         map_.off_circle.clear();
         for (Index v = 0; v < domain_.surface.vertex_count; ++v)
             if (off_[v]) map_.off_circle.push_back(v);
-        return tangled(all).size();
+        return all_tangled().size();
     }
 
 private:
+    void prepare()
+    {
+        const std::size_t vertices = static_cast<std::size_t>(domain_.surface.vertex_count);
+        loop_of_.assign(vertices, -1);
+        faces_of_.resize(vertices);
+        off_.assign(vertices, 0);
+        for (std::size_t k = 0; k < domain_.loops.size(); ++k)
+            for (const Index v : domain_.loops[k]) loop_of_[v] = static_cast<int>(k);
+        for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
+            for (const Index v : triangles_.row(f)) faces_of_[v].push_back(f);
+        for (const Index v : map_.off_circle) off_[v] = 1;
+    }
+
+    bool is_tangled(Index f) const
+    {
+        return !upright_on_sphere(triangles_, map_.points, f) &&
+               longest_edge_on_sphere(triangles_, map_.points, f) >= sphere_resolution;
+    }
+
+    std::vector<Index> all_tangled() const
+    {
+        return found_in_pieces(static_cast<Index>(triangles_.rows()), [&](Index f) { return is_tangled(f); });
+    }
+
     std::vector<Index> tangled(const std::vector<Index>& faces) const
     {
         std::vector<Index> result;
-        for (const Index f : faces)
-            if (!upright_on_sphere(triangles_, map_.points, f) &&
-                longest_edge_on_sphere(triangles_, map_.points, f) >= sphere_resolution)
-                result.push_back(f);
+        std::ranges::copy_if(faces, std::back_inserter(result), [&](Index f) { return is_tangled(f); });
         return result;
     }
 

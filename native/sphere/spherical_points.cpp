@@ -1,5 +1,7 @@
 #include "sphere/spherical_points.h"
 
+#include "execution/each_in_pieces.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <Eigen/Dense>
 
@@ -19,7 +21,7 @@ SpherePoint on_sphere(Complex z)
 Vertices on_sphere(const VectorXcd& z)
 {
     Vertices points(z.size(), 3);
-    for (Eigen::Index v = 0; v < z.size(); ++v) points.row(v) = on_sphere(z[v]).transpose();
+    each_in_pieces(z.size(), [&](Eigen::Index v) { points.row(v) = on_sphere(z[v]).transpose(); });
     return points;
 }
 

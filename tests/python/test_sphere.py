@@ -172,6 +172,14 @@ def test_the_map_is_balanced(kind):
         assert -(weights @ growth) > 0
 
 
+def test_any_number_of_threads_gives_the_same_bits():
+    vertices, triangles = icosphere(72)  # more than 50,000 vertices: the matrices are factored in pieces
+    vertices = vertices * [1.0, 0.8, 1.3]
+    one, three = (koebe.sphere_map(vertices, triangles, threads=threads) for threads in (1, 3))
+    assert one.converged and np.array_equal(one.points, three.points) and np.array_equal(one.uv, three.uv)
+    assert min(one.seconds[stage] for stage in ("topology", "metric", "factor", "iterate", "finish")) > 0
+
+
 TETRAHEDRON = np.array([(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)], float)
 TETRAHEDRON_FACES = np.array([(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)], np.int32)
 

@@ -173,7 +173,8 @@ std::vector<std::string> map_command(const BatchRequest& request, const std::str
     const bool says_threads = std::ranges::any_of(request.forwarded, [](const CLI::Option* option) {
         return option->count() > 0 && option->check_name("--threads");
     });
-    if (request.domain == disk_domain && request.workers != 1 && !says_threads) words.emplace_back("--threads=1");
+    const bool has_threads = request.domain == disk_domain || find_row(request.domain, "threads") != nullptr;
+    if (has_threads && request.workers != 1 && !says_threads) words.emplace_back("--threads=1");
     words.insert(words.end(), {batch::utf8(file.source), batch::utf8(scratch.output)});
     return words;
 }

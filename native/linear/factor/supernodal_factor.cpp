@@ -1,6 +1,6 @@
 #include "linear/factor/supernodal_factor.h"
 
-#include "execution/thread_share.h"
+#include "execution/each_in_pieces.h"
 #include "linear/factor/front.h"
 #include "linear/factor/piece_factor.h"
 
@@ -89,10 +89,11 @@ MatrixXd SupernodalFactor::solve(const MatrixXd& right_hand_side) const
     MatrixXd result(right_hand_side.rows(), right_hand_side.cols());
     if (result.size() == 0) return result;
     MatrixXd x(right_hand_side.rows(), right_hand_side.cols());
-    for (Index j = 0; j < size(); ++j) x.row(j) = right_hand_side.row(order[j]);
+    for (Eigen::Index c = 0; c < x.cols(); ++c)
+        each_in_pieces(size(), [&](Index j) { x(j, c) = right_hand_side(order[j], c); });
     solve_lower(x);
     solve_upper(x);
-    for (Index j = 0; j < size(); ++j) result.row(order[j]) = x.row(j);
+    for (Eigen::Index c = 0; c < x.cols(); ++c) each_in_pieces(size(), [&](Index j) { result(order[j], c) = x(j, c); });
     return result;
 }
 

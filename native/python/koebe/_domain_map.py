@@ -98,4 +98,5 @@ def domain_map(
         options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.polygon = polygons_of(given["polygon"], source)
     native = source.call(function, options, progress, cancel)
+    said.pop("threads", None)  # the result is the same for any number
     return made({**native.report(), "options": said}, native, source)

@@ -87,6 +87,7 @@ class SphereOptions(TileOptions, total=False):
 
     even: float
     layout: Literal["equirectangular", "octahedral"]
+    threads: int
 
 
 class SchottkyOptions(TileOptions, total=False):
