@@ -51,7 +51,7 @@ def test_a_known_deformation_is_found_again(size, near):
     before = degrees(koebe.transfer(SPHERE, SPHERE).sphere, there)
     away = degrees(places.sphere, there)
     assert before.mean() > 12 and away.mean() < near and np.percentile(away, 90) < 2 * near
-    assert places.similarity > 0.98 > 0.7 > places.bending["similarity_before"]
+    assert places.similarity > 0.95 > 0.7 > places.bending["similarity_before"]
     assert places.bending["settled"] and places.bending["beltrami"]["max"] < 0.8 and not places.warnings
     assert_one_to_one(places)
 
