@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "labs.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 12
+    assert len(blocks) == 14
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
@@ -24,6 +24,11 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert (tmp_path / "face.vtu").stat().st_size > 0
     assert np.array_equal(names["again"].uv, names["neutral"].uv)
     assert names["laid"].misses_deg.max() < 20 and np.isfinite(names["laid"].points).all()
+    bent, closed = names["bent"], names["closed"]
+    assert bent.misses_deg.max() < 1e-6 and bent.bending["flipped"] == 0
+    assert bent.similarity > bent.bending["similarity_before"]
+    assert np.array_equal(koebe.load(tmp_path / "bent.npz").sphere, bent.sphere)
+    assert closed.mean.shape == names["sphere"].vertices.shape and closed.distances[0, 1] > 0
     masked, mask = names["masked"], names["mask"]
     assert 0 < mask.sum() < 500 and np.isnan(masked.uv[mask]).all() and len(masked.loops) == len(names["neutral"].loops)
     assert np.allclose(names["scale"], masked.log_scale, atol=1e-5, equal_nan=True)
