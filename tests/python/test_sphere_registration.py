@@ -5,6 +5,7 @@ import pickle
 import koebe
 import numpy as np
 import pytest
+from koebe import _sphere_alignment as alignment
 from koebe import _sphere_transfer as inner
 from test_sphere_transfer import FACES, POINTS, ROUND, SPHERE, TURN, depth, moved, potato
 
@@ -40,7 +41,7 @@ def assert_one_to_one(places, triangles=FACES):
 def without_search(sphere, **options):
     """transfer without the search for the best rotation, which takes most of the time."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(inner, "_by_fields", lambda *_: np.eye(4))
+        patch.setattr(inner, "by_fields", lambda *_: np.eye(4))
         return koebe.transfer(sphere, sphere, **options)
 
 
@@ -63,7 +64,7 @@ def test_without_a_difference_nothing_is_bent():
 
 
 def test_a_turn_is_found_and_not_bent():
-    other = moved(SPHERE, inner._turned(TURN))
+    other = moved(SPHERE, alignment._turned(TURN))
     places = koebe.transfer(SPHERE, other, fields=(depth(ROUND), depth(ROUND)), bend=True)
     assert degrees(places.sphere, SPHERE.points).max() < 1.0 and places.bending["beltrami"]["max"] < 0.03
 

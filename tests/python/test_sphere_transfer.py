@@ -6,6 +6,7 @@ import warnings
 import koebe
 import numpy as np
 import pytest
+from koebe import _sphere_alignment as alignment
 from koebe import _sphere_transfer as inner
 
 
@@ -34,7 +35,7 @@ def potato(rounds, seed=3):
 POINTS, FACES, ROUND = potato(3)
 FINE = potato(4)
 SPHERE = koebe.sphere_map(POINTS, FACES)
-TURN = inner._rotations(np.array([[0.5, -0.1, 0.7, 0.5]]) / np.linalg.norm([0.5, -0.1, 0.7, 0.5]))[0]
+TURN = alignment._rotations(np.array([[0.5, -0.1, 0.7, 0.5]]) / np.linalg.norm([0.5, -0.1, 0.7, 0.5]))[0]
 
 
 def depth(directions):
@@ -45,7 +46,7 @@ def depth(directions):
 
 def moved(result, matrix):
     other = copy.copy(result)
-    other.points = inner._applied(matrix, result.points)
+    other.points = alignment.applied(matrix, result.points)
     return other
 
 
@@ -63,7 +64,7 @@ def test_a_point_lies_in_the_triangle_that_is_found():
     random = np.random.default_rng(2)
     places = random.normal(size=(4000, 3))
     places /= np.linalg.norm(places, axis=1)[:, None]
-    for result in (SPHERE, moved(SPHERE, inner._near_identity(np.array([0.3, 0.2, 0.1, 1.4, -0.8, 0.5])))):
+    for result in (SPHERE, moved(SPHERE, alignment._near_identity(np.array([0.3, 0.2, 0.1, 1.4, -0.8, 0.5])))):
         faces, weights = inner._Located(result.points, result.triangles).at(places)
         there = np.einsum("nk,nkc->nc", weights, result.points[FACES[faces]])
         assert np.allclose(there / np.linalg.norm(there, axis=1)[:, None], places, atol=1e-9)
@@ -80,14 +81,14 @@ def test_a_finer_mesh_of_the_surface_corresponds_point_by_point():
 
 def test_landmarks_turn_a_turned_surface_back():
     turned = koebe.sphere_map(POINTS @ TURN.T, FACES)
-    spun = moved(turned, inner._turned(inner._rotations(np.array([[0.1, 0.9, -0.3, 0.2]]) / np.sqrt(0.95))[0]))
+    spun = moved(turned, alignment._turned(alignment._rotations(np.array([[0.1, 0.9, -0.3, 0.2]]) / np.sqrt(0.95))[0]))
     places = koebe.transfer(SPHERE, spun, landmarks=[(5, 5), (100, 100), (tuple(POINTS[222]), 222)])
     assert places.misses_deg.max() < 1e-4 and np.isclose(places.alignment[0, 0], 1.0)
     assert np.allclose(places.points, POINTS, atol=1e-4)
 
 
 def test_landmarks_find_a_moebius_map():
-    matrix = inner._near_identity(np.array([0.4, -0.7, 0.2, 0.5, 0.3, -0.4]))
+    matrix = alignment._near_identity(np.array([0.4, -0.7, 0.2, 0.5, 0.3, -0.4]))
     other = moved(SPHERE, matrix)
     pairs = [(k, k) for k in (3, 90, 200, 400)]
     rigid = koebe.transfer(SPHERE, other, landmarks=pairs)
@@ -103,7 +104,7 @@ def test_landmarks_find_a_moebius_map():
 @pytest.mark.slow
 @pytest.mark.parametrize("boost", [0.0, 0.35])
 def test_a_field_finds_the_turn_and_the_moebius_map(boost):
-    matrix = inner._near_identity(np.array([0.0, 0, 0, boost, -boost / 2, 0])) @ inner._turned(TURN)
+    matrix = alignment._near_identity(np.array([0.0, 0, 0, boost, -boost / 2, 0])) @ alignment._turned(TURN)
     other = moved(SPHERE, matrix)
     places = koebe.transfer(SPHERE, other, fields=(depth(ROUND), depth(ROUND)), moebius=bool(boost))
     away = np.degrees(np.arccos(np.clip((places(other.points) * SPHERE.points).sum(axis=1), -1, 1)))

@@ -12,7 +12,6 @@ struct RowGroups {
     std::vector<Index> first;  ///< the first row of each group, and the end
 
     Index count() const { return static_cast<Index>(first.size()) - 1; }
-    Index size(Index group) const { return first[group + 1] - first[group]; }
 };
 
 /// @param matrix symmetric: the lower triangle, or both triangles

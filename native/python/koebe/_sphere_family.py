@@ -8,6 +8,7 @@ import numpy as np
 
 from ._options import whole
 from ._sphere import SphereMap
+from ._sphere_alignment import nearest_rotation
 from ._sphere_transfer import SphereCorrespondence, vertex_areas
 from ._transfer import transfer
 from .errors import InputError
@@ -102,8 +103,7 @@ def _over_their_mean(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
 
 
 def _laid_over(shape: np.ndarray, other: np.ndarray, weights: np.ndarray) -> np.ndarray:
-    """The shape (n, 3), moved and turned to lie nearest to the other [Kabsch 1976]."""
+    """The shape (n, 3), moved and turned to lie nearest to the other."""
     middle, there = weights @ shape, weights @ other
-    u, _, v = np.linalg.svd((other - there).T @ ((shape - middle) * weights[:, None]))
-    turn = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v
+    turn = nearest_rotation((other - there).T @ ((shape - middle) * weights[:, None]))
     return (shape - middle) @ turn.T + there

@@ -3,7 +3,7 @@
 import json
 import os
 import warnings as python_warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypedDict
 
@@ -15,15 +15,11 @@ from ._options import flag
 from ._report_entries import Warning
 from ._result import Beltrami
 from ._sphere import SphereMap
+from ._sphere_alignment import applied, by_fields, by_landmarks, correlation, nearest_rotation
 from ._transfer_carry import carried, landmark_pairs
 from .errors import InputError, OptionError
 
-_CELLS = 48  # squares along an edge of the cube on which a field is looked up
-_ROTATIONS = 4000  # tried for fields: 9 degrees apart
-_SAMPLES = 600  # vertices at which fields are compared in the search
-_FINE = 1500  # and in the last steps
 STIFFNESS = 0.1
-_BEST = 4  # rotations from which the search goes on
 
 
 class Bending(TypedDict):
@@ -79,7 +75,8 @@ class SphereCorrespondence:
     warnings: list[Warning] = field(default_factory=list)
 
     def __repr__(self) -> str:
-        angle = np.degrees(np.arccos(np.clip(0.5 * (np.trace(_rotation_of(self.alignment)) - 1.0), -1.0, 1.0)))
+        turn = nearest_rotation(self.alignment[1:, 1:])
+        angle = np.degrees(np.arccos(np.clip(0.5 * (np.trace(turn) - 1.0), -1.0, 1.0)))
         told = "" if self.bending is None else f", bent by |mu| {self.bending['beltrami']['mean']:.3g} in the mean"
         if len(self.misses_deg):
             told += f", {len(self.misses_deg)} landmarks miss by up to {self.misses_deg.max():.3g} deg"
@@ -90,7 +87,7 @@ class SphereCorrespondence:
         """The points (n, 3) of a's sphere at points (n, 3) of b's sphere."""
         places = np.asarray(directions, np.float64)
         if self.bending is None:
-            return _applied(self.alignment, places)
+            return applied(self.alignment, places)
         faces, weights = _Located(self.own_sphere, self.own_triangles).at(places)
         there = np.einsum("nk,nkc->nc", weights, self.sphere[self.own_triangles[faces]])
         return there / np.linalg.norm(there, axis=1, keepdims=True)
@@ -144,13 +141,13 @@ def sphere_transfer(
     on_a, on_b = (_vertices(one, [pair[side] for pair in pairs]) for side, one in enumerate((a, b)))
     both = None if fields is None else _checked(fields, a, b)
     if both is not None and len(pairs) < 3:
-        matrix = _by_fields(located, b, both, free)
+        matrix = by_fields(located.values, b.points, vertex_areas(b), both, free)
     elif free and 0 < len(pairs) < 3:
         raise InputError("a Moebius map needs three landmarks at least")
     else:
-        matrix = _by_landmarks(b.points[on_b], a.points[on_a], free) if pairs else np.eye(4)
+        matrix = by_landmarks(b.points[on_b], a.points[on_a], free) if pairs else np.eye(4)
     used, sphere = b._source.used, np.full((b.vertex_count, 3), np.nan)
-    sphere[used] = _applied(matrix, b.points[used])
+    sphere[used] = applied(matrix, b.points[used])
     bending: Bending | None = None
     if bent:
         before = None if both is None else _similarity(located, sphere, b, both)
@@ -263,7 +260,7 @@ class _Located:
 def _similarity(located: _Located, sphere: np.ndarray, b: SphereMap, fields: tuple[np.ndarray, np.ndarray]) -> float:
     """Mean correlation of the fields by area on b, with b's vertices at places (V, 3) on a's sphere."""
     used = b._source.used
-    return float(_correlation(located.values(fields[0], sphere[used]), fields[1][used], vertex_areas(b)[used]))
+    return float(correlation(located.values(fields[0], sphere[used]), fields[1][used], vertex_areas(b)[used]))
 
 
 def vertex_areas(result: SphereMap) -> np.ndarray:
@@ -271,154 +268,3 @@ def vertex_areas(result: SphereMap) -> np.ndarray:
     a, b, c = result.vertices[result.triangles].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     return np.bincount(result.triangles.ravel(), np.repeat(area, 3), minlength=result.vertex_count)
-
-
-def _middles() -> np.ndarray:
-    """(6 * _CELLS^2, 3) directions: one through each square of `_cells`."""
-    side, u, v = np.meshgrid(np.arange(6), *[(np.arange(_CELLS) + 0.5) * 2.0 / _CELLS - 1.0] * 2, indexing="ij")
-    axis, rows, found = side.ravel() // 2, np.arange(side.size), np.empty((side.size, 3))
-    found[rows, axis] = 1.0 - 2.0 * (side.ravel() % 2)
-    found[rows, (axis + 1) % 3], found[rows, (axis + 2) % 3] = u.ravel(), v.ravel()
-    return found / np.linalg.norm(found, axis=1, keepdims=True)
-
-
-def _cells(places: np.ndarray) -> np.ndarray:
-    """The square of a cube round the sphere that each direction goes through."""
-    axis = np.abs(places).argmax(axis=1)
-    rows = np.arange(len(places))
-    long = places[rows, axis]
-    two = [places[rows, (axis + k) % 3] / np.where(long == 0.0, 1.0, np.abs(long)) for k in (1, 2)]
-    u, v = (np.clip(((one + 1.0) * 0.5 * _CELLS).astype(int), 0, _CELLS - 1) for one in two)
-    return ((2 * axis + (long < 0.0)) * _CELLS + u) * _CELLS + v
-
-
-def _applied(matrix: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """The images (n, 3), unit vectors."""
-    images = matrix[0, 0] + places @ matrix[0, 1:], matrix[1:, 0] + places @ matrix[1:, 1:].T
-    moved = images[1] / images[0][:, None]
-    return moved / np.linalg.norm(moved, axis=1, keepdims=True)
-
-
-def _near_identity(six: np.ndarray) -> np.ndarray:
-    """The Lorentz matrix exp(G): a turn by the vector six[:3] and a boost by six[3:]."""
-    generator = np.zeros((4, 4))
-    x, y, z = six[:3]
-    generator[1:, 1:] = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]
-    generator[0, 1:] = generator[1:, 0] = six[3:]
-    halvings = max(0, int(np.ceil(np.log2(max(np.abs(generator).sum(), 1e-300)))) + 4)
-    small, term, total = generator / 2.0**halvings, np.eye(4), np.eye(4)
-    for k in range(1, 14):
-        term = term @ small / k
-        total = total + term
-    for _ in range(halvings):
-        total = total @ total
-    return total
-
-
-def _rotation_of(matrix: np.ndarray) -> np.ndarray:
-    """The rotation next to a Lorentz matrix's block of space."""
-    u, _, v = np.linalg.svd(matrix[1:, 1:])
-    return u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v
-
-
-def _turned(rotation: np.ndarray) -> np.ndarray:
-    matrix = np.eye(4)
-    matrix[1:, 1:] = rotation
-    return matrix
-
-
-def _by_landmarks(source: np.ndarray, target: np.ndarray, free: bool) -> np.ndarray:
-    """The rotation of least squares [Kabsch 1976], or the Moebius map of least squares, by Newton's method."""
-    u, _, v = np.linalg.svd(target.T @ source)
-    matrix = _turned(u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v)
-    if not free:
-        return matrix
-    damping, unit = 1e-3, 1e-6
-    misses = (_applied(matrix, source) - target).ravel()
-    for _ in range(200):
-        slopes = [(_applied(_near_identity(unit * e) @ matrix, source) - target).ravel() - misses for e in np.eye(6)]
-        jacobian = np.array(slopes).T / unit
-        normal = jacobian.T @ jacobian
-        step = np.linalg.solve(normal + damping * np.eye(6), -jacobian.T @ misses)
-        tried = _near_identity(step) @ matrix
-        after = (_applied(tried, source) - target).ravel()
-        if after @ after < misses @ misses:
-            gain = misses @ misses - after @ after
-            matrix, misses, damping = tried, after, max(damping / 10.0, 1e-15)
-            if gain < 1e-15 * (1.0 + after @ after):
-                break
-        elif damping > 1e6:
-            break
-        else:
-            damping *= 10.0
-    return matrix
-
-
-def _by_fields(located: _Located, b: SphereMap, fields: tuple[np.ndarray, np.ndarray], free: bool) -> np.ndarray:
-    """The map of greatest correlation of the fields. All rotations are tried, then small steps."""
-    weight = np.where(np.isfinite(fields[1]).any(axis=1), vertex_areas(b), 0.0)
-    random = np.random.default_rng(0)
-    sample = random.choice(len(weight), min(_FINE, int((weight > 0).sum())), False, weight / weight.sum())
-    there, wanted = b.points[sample], fields[1][sample]
-    table = located.values(fields[0], _middles())
-
-    def similarity(matrix: np.ndarray, count: int) -> float:
-        return float(_correlation(located.values(fields[0], _applied(matrix, there[:count])), wanted[:count]))
-
-    rotations = np.concatenate([_rotations(_quaternions(_ROTATIONS)), np.eye(3)[None]])
-    scores = np.concatenate([
-        _correlation(table[_cells((there[:_SAMPLES] @ some.transpose(0, 2, 1)).reshape(-1, 3))]
-                     .reshape(len(some), -1, wanted.shape[1]), wanted[:_SAMPLES])
-        for some in np.array_split(rotations, 40)
-    ])  # fmt: skip
-    start = [_turned(rotation) for rotation in rotations]
-    best = [start[k] for k in np.argsort(scores)[::-1][:_BEST]]
-    climbed = [_climbed(lambda m: similarity(m, _SAMPLES), matrix, 3, 0.1, 0.02) for matrix in best]
-    matrix = max(climbed, key=lambda m: similarity(m, len(there)))
-    return _climbed(lambda m: similarity(m, len(there)), matrix, 6 if free else 3, 0.05, 5e-4)
-
-
-def _correlation(x: np.ndarray, y: np.ndarray, weights: np.ndarray | None = None) -> Any:
-    """The mean over k of the correlations of (..., n, k) and (n, k) numbers along n, where both are known; -1: none."""
-    known = np.isfinite(x) & np.isfinite(y)
-    share = known if weights is None else known * weights[:, None]
-    share = share / np.maximum(share.sum(axis=-2, keepdims=True), np.finfo(float).tiny)
-    x, y = np.where(known, x, 0.0), np.where(known, y, 0.0)
-    x, y = x - (share * x).sum(axis=-2, keepdims=True), y - (share * y).sum(axis=-2, keepdims=True)
-    size = np.sqrt((share * x * x).sum(axis=-2) * (share * y * y).sum(axis=-2))
-    enough = (size > 0.0) & ((share > 0.0).sum(axis=-2) > 2)
-    return np.where(enough, (share * x * y).sum(axis=-2) / np.where(enough, size, 1.0), -1.0).mean(axis=-1)
-
-
-def _climbed(
-    score: Callable[[np.ndarray], float], matrix: np.ndarray, directions: int, step: float, least: float
-) -> np.ndarray:
-    """From here to where no step of this size makes the score greater: a search by a pattern."""
-    best = score(matrix)
-    while step > least:
-        moves = [_near_identity(sign * step * np.eye(6)[k]) @ matrix for k in range(directions) for sign in (1.0, -1.0)]
-        scores = [score(move) for move in moves]
-        if max(scores) > best:
-            best, matrix = max(scores), moves[int(np.argmax(scores))]
-        else:
-            step *= 0.5
-    return matrix
-
-
-def _quaternions(count: int) -> np.ndarray:
-    """Rotations that lie evenly [Alexa 2022, Super-Fibonacci spirals]."""
-    s = np.arange(count) + 0.5
-    phi, psi = np.sqrt(2.0), 1.533751168755204288118041
-    inner, outer = np.sqrt(s / count), np.sqrt(1.0 - s / count)
-    a, b = 2.0 * np.pi * s / phi, 2.0 * np.pi * s / psi
-    return np.stack([inner * np.sin(a), inner * np.cos(a), outer * np.sin(b), outer * np.cos(b)], axis=1)
-
-
-def _rotations(quaternions: np.ndarray) -> np.ndarray:
-    """(n, 3, 3) of quaternions (n, 4) x, y, z, w."""
-    x, y, z, w = quaternions.T
-    return np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]).transpose(2, 0, 1)  # fmt: skip
