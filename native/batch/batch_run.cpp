@@ -338,7 +338,7 @@ BatchCount run_batch(const std::vector<BatchFile>& files, const BatchOptions& op
 {
     std::error_code error;
     std::filesystem::create_directories(options.output, error);
-    if (error) throw FileError("cannot write " + utf8(options.output) + " (" + error.message() + ")");
+    if (error) io::fail("cannot write " + utf8(options.output), error);
     return Run(files, options).run();
 }
 

@@ -6,7 +6,6 @@
 #include <sodium/crypto_hash_sha256.h>
 
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <vector>
 
@@ -52,8 +51,7 @@ std::string sha256_of_file(const std::filesystem::path& path)
         file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
         hash.add(buffer.data(), static_cast<std::size_t>(file.gcount()));
     }
-    if (!file.eof())
-        throw FileError("cannot read " + utf8(path) + " (" + std::strerror(errno != 0 ? errno : EIO) + ")");
+    if (!file.eof()) io::fail("cannot read " + utf8(path), errno != 0 ? errno : EIO);
     return hash.digits();
 }
 

@@ -68,9 +68,9 @@ private:
     {
         std::error_code error;
         fs::recursive_directory_iterator entry(folder, error);
-        if (error) throw FileError("cannot read " + utf8(folder) + " (" + error.message() + ")");
+        if (error) io::fail("cannot read " + utf8(folder), error);
         for (const fs::recursive_directory_iterator end; entry != end; entry.increment(error)) {
-            if (error) throw FileError("cannot read " + utf8(folder) + " (" + error.message() + ")");
+            if (error) io::fail("cannot read " + utf8(folder), error);
             const fs::path& path = entry->path();
             if (entry->is_directory(error)) {
                 if (is_hidden(path) || path == output_) entry.disable_recursion_pending();
@@ -81,7 +81,7 @@ private:
                     ++list_.blends_passed_over;
             }
         }
-        if (error) throw FileError("cannot read " + utf8(folder) + " (" + error.message() + ")");
+        if (error) io::fail("cannot read " + utf8(folder), error);
     }
 
     void add_file(const fs::path& source, const fs::path& folder)

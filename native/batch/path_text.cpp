@@ -17,6 +17,11 @@ std::string generic_utf8(const std::filesystem::path& path) { return bytes(path.
 
 std::filesystem::path path_of(const std::string& text) { return std::u8string(text.begin(), text.end()); }
 
-void fail(const std::string& what, int libuv_status) { throw FileError(what + " (" + uv_strerror(libuv_status) + ")"); }
+void fail(const std::string& what, int libuv_status)
+{
+    const std::string message = what + " (" + uv_strerror(libuv_status) + ")";
+    if (libuv_status == UV_ENOMEM) throw OutOfMemory(message);
+    throw FileError(message);
+}
 
 }  // namespace koebe::batch

@@ -21,7 +21,7 @@ void move_whole(const std::filesystem::path& source, const std::filesystem::path
 {
     std::error_code error;
     std::filesystem::rename(source, target, error);
-    if (error) throw FileError("cannot write " + utf8(target) + " (" + error.message() + ")");
+    if (error) io::fail("cannot write " + utf8(target), error);
 }
 
 }  // namespace koebe::batch

@@ -7,7 +7,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstring>
 #include <mutex>
 #include <string>
 #include <system_error>
@@ -22,14 +21,10 @@ using io::folder_of;
 std::mutex list_mutex;
 AtomicFile* first_in_list = nullptr;
 
-[[noreturn]] void fail_writing(const fs::path& path, const std::string& reason)
+template <typename Reason>
+[[noreturn]] void fail_writing(const fs::path& path, const Reason& reason)
 {
-    throw FileError("cannot write " + path.string() + " (" + reason + ")");
-}
-
-[[noreturn]] void fail_writing(const fs::path& path, int error_number)
-{
-    fail_writing(path, std::strerror(error_number));
+    io::fail("cannot write " + path.string(), reason);
 }
 
 }  // namespace
@@ -103,7 +98,7 @@ void AtomicFile::commit()
     if (temporary_.empty()) return;
     std::error_code error;
     fs::rename(temporary_, target_, error);
-    if (error) fail_writing(target_, error.message());
+    if (error) fail_writing(target_, error);
     temporary_.clear();
 }
 

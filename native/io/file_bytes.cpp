@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 
 namespace koebe::io {
@@ -15,9 +14,9 @@ namespace fs = std::filesystem;
 
 std::string read_bytes(const fs::path& path)
 {
-    const auto fail = [&path] { throw FileError("cannot read " + path.string() + " (" + std::strerror(errno) + ")"); };
+    const auto fail_reading = [&path] { fail("cannot read " + path.string(), errno); };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(io::open_to_read(path), std::fclose);
-    if (!file) fail();
+    if (!file) fail_reading();
     if (fs::is_character_file(path) || fs::is_block_file(path))  // these may have no end
         throw FileError("cannot read " + path.string() + " (it is a device)");
     std::string bytes;
@@ -30,7 +29,7 @@ std::string read_bytes(const fs::path& path)
         const std::size_t got = std::fread(bytes.data() + filled, 1, wanted - filled, file.get());
         filled += got;
         if (filled < wanted) {
-            if (std::ferror(file.get())) fail();
+            if (std::ferror(file.get())) fail_reading();
             bytes.resize(filled);
             return bytes;
         }

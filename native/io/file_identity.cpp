@@ -53,7 +53,7 @@ fs::path followed(const fs::path& path)
     std::error_code error;
     fs::path target = path;
     for (int links = 0; fs::is_symlink(target, error); ++links) {
-        if (links == most_links) throw FileError("cannot write " + path.string() + " (" + std::strerror(ELOOP) + ")");
+        if (links == most_links) fail("cannot write " + path.string(), ELOOP);
         target = target.parent_path() / fs::read_symlink(target, error);
     }
     return target;

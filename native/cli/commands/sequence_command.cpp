@@ -60,8 +60,7 @@ void make_folder(const std::string& folder)
 {
     std::error_code failed;
     fs::create_directories(folder, failed);
-    if (failed || !fs::is_directory(folder))
-        throw FileError("cannot make the folder " + folder + " (" + failed.message() + ")");
+    if (failed || !fs::is_directory(folder)) io::fail("cannot make the folder " + folder, failed);
 }
 
 /// Maps the files one after another, on the surface of the first one that can be mapped.

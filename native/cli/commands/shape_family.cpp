@@ -75,7 +75,7 @@ std::vector<std::string> mesh_files(const std::vector<std::string>& paths)
         std::vector<std::string> found;
         for (fs::directory_iterator entry(path, failed), end; !failed && entry != end; entry.increment(failed))
             if (io::is_mesh_file(entry->path()) && !entry->is_directory()) found.push_back(entry->path().string());
-        if (failed) throw FileError("cannot read " + path + " (" + failed.message() + ")");
+        if (failed) io::fail("cannot read " + path, failed);
         if (found.empty()) throw InputError("the folder " + path + " holds no OBJ, OFF, PLY, STL or GLB file");
         std::ranges::sort(found);
         files.insert(files.end(), found.begin(), found.end());

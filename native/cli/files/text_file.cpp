@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,7 +14,7 @@ std::string read_text(const std::string& path)
 {
     std::ifstream file(std::filesystem::path(path), std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!file.good() && !file.eof()) throw FileError("cannot read " + path + " (" + std::strerror(errno) + ")");
+    if (!file.good() && !file.eof()) io::fail("cannot read " + path, errno);
     return text;
 }
 
