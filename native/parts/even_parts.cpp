@@ -4,12 +4,15 @@
 #include "even/even_map.h"
 #include "execution/side_by_side.h"
 #include "parts/dart_rounds.h"
+#include "parts/tension.h"
 #include "parts/through_rounds.h"
+#include "surface/loop_edges.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace koebe {
@@ -199,6 +202,19 @@ EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& optio
     if (options.even) parts.relax_with_darts(*options.even, {});
     const double even = options.even ? *options.even : parts.relax_freely();
     return {even, even > 0.0 ? parts.left() : std::vector<std::size_t>{}};
+}
+
+double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, ExecutionContext& context)
+{
+    make_parts_even(parts, options, context);
+    const double even = options.even.value_or(even_with_darts);
+    double energy = 0.0, boundary = 0.0;
+    for (const FlatPart& part : parts) {
+        energy += lies_one_to_one(part, part.points) ? forces_in(part, even).energy.sum()
+                                                     : std::numeric_limits<double>::infinity();
+        for (const VertexLoop& loop : part.surface.loops) boundary += loop_edges(part.vertices, loop).sum();
+    }
+    return energy + dart_price(options.darts) * (0.5 * boundary + options.piece * static_cast<double>(parts.size()));
 }
 
 }  // namespace koebe

@@ -30,4 +30,9 @@ struct EvenParts {
 /// it cuts for room (roomy_cuts.h). New parts come last. A part that is not one to one is not changed.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
 
+/// The cost of parts once they are even: their energy at this E, or at the E of parts with darts if none is given. To
+/// it come their boundary, half of which is a cut's or the surface's own, and one more part each, at the price of
+/// darts.
+double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, ExecutionContext& context);
+
 }  // namespace koebe

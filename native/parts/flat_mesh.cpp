@@ -7,6 +7,7 @@
 #include "mesh/connectivity.h"
 #include "parts/even_parts.h"
 #include "parts/flat_parts.h"
+#include "parts/unfolding.h"
 #include "splitting/closed_surface.h"
 #include "splitting/coarse_surface.h"
 #include "splitting/fine_labels.h"
@@ -34,6 +35,7 @@ constexpr int rounds = 2;               // of splitting and merging
 constexpr double vain = 0.9;            // of the overflow: cuts that leave more are in vain
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
+constexpr double few_cuts = 4.0;  // roots of a piece's area: a piece unfolded with fewer is not tried otherwise
 
 /// First into the unit cube, as areas of huge or tiny meshes are beyond the range of a double.
 struct Sized {
@@ -191,6 +193,37 @@ SplitOptions prices_for(double area, double price, int threads)
     return {share * price, std::min(1.0, share / std::sqrt(area)) * price, threads};
 }
 
+EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads)
+{
+    const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
+    return {options.even,  round ? LoopForm::round : LoopForm::free,
+            options.darts, options.price / SplitOptions{}.part_price,
+            roomy,         threads};
+}
+
+/// Whether a piece may be unfolded true to size: E is not 0, and neither round loops nor slits are asked for.
+bool may_unfold(const PartsOptions& options)
+{
+    return options.even != 0.0 && options.darts > 0.0 && !options.round_cuts && options.loops != LoopForm::round &&
+           options.slits.empty();
+}
+
+/// Names faces and vertices by the input. @param parts by numbers of the piece
+void name_by_input(const SurfacePiece& piece, const Mirror& mirror, const std::vector<double>& show,
+                   std::vector<FlatPart>& parts)
+{
+    for (FlatPart& part : parts) {
+        for (Index& f : part.faces) f = piece.source_face[f];
+        if (!mirror.vertex.empty())
+            for (const Index v : part.original) part.image.push_back(piece.source_vertex[mirror.vertex[v]]);
+        for (Index& v : part.original) v = piece.source_vertex[v];
+        if (!show.empty())
+            for (const Index v : part.original) part.shown.push_back(show[v]);
+        for (VertexLoop& loop : part.loops)
+            for (Index& v : loop) v = piece.source_vertex[v];
+    }
+}
+
 /// The parts of a piece, flat.
 FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const SeamPlaces& seams,
                      const PartsOptions& options, int threads, ExecutionContext& context)
@@ -213,6 +246,13 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     whole.slit = chosen_slits(piece, options.slits);
     whole.seam = seams.of(piece);
     whole.shown = shown;
+    std::optional<UnfoldedParts> true_to_size;
+    if (may_unfold(options) && !is_large) true_to_size = unfolded(whole, context);
+    const auto take_unfolded = [&] {
+        name_by_input(piece, {}, options.show, true_to_size->parts);
+        return FlatPiece{std::move(true_to_size->parts), 0.0};
+    };
+    if (true_to_size && true_to_size->cut_length <= few_cuts * std::sqrt(whole.areas.sum())) return take_unfolded();
     SplitEffort effort;
     const SplitOptions prices = prices_for(whole.areas.sum(), options.price, threads);
     std::vector<PartPointer> parts = is_large ? parts_by_coarse_surface(whole, prices, context, effort)
@@ -245,18 +285,14 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
             flats.parts.clear();
             flats.parts.push_back(std::move(*one));
         }
+    if (true_to_size) {
+        const EvenOptions evening = evening_of(options, false, threads);
+        if (cost_when_even(true_to_size->parts, evening, context) <= cost_when_even(flats.parts, evening, context))
+            return take_unfolded();
+    }
     FlatPiece flat{std::move(flats.parts), 0.0};
     flat.maps = effort.maps * static_cast<double>(piece.triangles.rows());
-    for (FlatPart& part : flat.parts) {
-        for (Index& f : part.faces) f = piece.source_face[f];
-        if (!mirror.vertex.empty())
-            for (const Index v : part.original) part.image.push_back(piece.source_vertex[mirror.vertex[v]]);
-        for (Index& v : part.original) v = piece.source_vertex[v];
-        if (!options.show.empty())
-            for (const Index v : part.original) part.shown.push_back(options.show[v]);
-        for (VertexLoop& loop : part.loops)
-            for (Index& v : loop) v = piece.source_vertex[v];
-    }
+    name_by_input(piece, mirror, options.show, flat.parts);
     return flat;
 }
 
@@ -342,11 +378,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     }
     ask_for_sizes(layout, options.importance, mesh.parts);
     context.begin_stage("even", 0.8, 0.9);
-    const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
-    const EvenOptions evening{options.even,  round ? LoopForm::round : LoopForm::free,
-                              options.darts, options.price / SplitOptions{}.part_price,
-                              roomy,         options.threads};
-    const EvenParts even = make_parts_even(mesh.parts, evening, context);
+    const EvenParts even = make_parts_even(mesh.parts, evening_of(options, roomy, options.threads), context);
     layout.even = even.even;
     for (const std::size_t k : even.left)
         layout.not_even.insert(layout.not_even.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());

@@ -1,0 +1,24 @@
+// Unfolds a surface of flat and rolled faces true to size: boxes, prisms, cylinders, cones, sheet metal.
+#pragma once
+
+#include "part_maps/part_mesh.h"
+#include "parts/flat_part.h"
+
+#include <optional>
+#include <vector>
+
+namespace koebe {
+
+struct UnfoldedParts {
+    std::vector<FlatPart> parts;
+    double cut_length = 0.0;  ///< in the unit of the vertices
+};
+
+/// Cuts a surface along its creases into charts, and lays the charts flat. A chart that closes round a hole, such as
+/// the side of a cylinder, or that has a tip, such as a cone, is slit. Then charts with a straight border in common are
+/// joined again, the longest border first, if they do not overlap. So a cube becomes a cross of six squares.
+/// @return parts that keep all lengths, up to rounding. No value if a chart is curved in both directions, or overlaps
+/// itself
+std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context);
+
+}  // namespace koebe

@@ -1,0 +1,190 @@
+// Laws of unfolding: lengths stay, nothing overlaps, and the cuts of simple solids are known.
+#include "parts/unfolding.h"
+
+#include "mesh/connectivity.h"
+#include "mesh/topology.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+namespace koebe {
+namespace {
+
+struct Solid {
+    std::vector<Eigen::RowVector3d> points;
+    std::vector<std::vector<Index>> polygons;
+};
+
+/// A surface of area 1 with triangles in place of the polygons.
+CutSurface surface_of(const Solid& solid)
+{
+    Vertices vertices(static_cast<Eigen::Index>(solid.points.size()), 3);
+    for (std::size_t v = 0; v < solid.points.size(); ++v) vertices.row(static_cast<Eigen::Index>(v)) = solid.points[v];
+    std::vector<std::array<Index, 3>> corners;
+    std::vector<Index> polygon;
+    for (std::size_t p = 0; p < solid.polygons.size(); ++p)
+        for (std::size_t k = 1; k + 1 < solid.polygons[p].size(); ++k) {
+            corners.push_back({solid.polygons[p][0], solid.polygons[p][k], solid.polygons[p][k + 1]});
+            polygon.push_back(static_cast<Index>(p));
+        }
+    Triangles triangles(static_cast<Eigen::Index>(corners.size()), 3);
+    for (std::size_t f = 0; f < corners.size(); ++f)
+        triangles.row(static_cast<Eigen::Index>(f)) << corners[f][0], corners[f][1], corners[f][2];
+    const Vertices scaled = vertices / std::sqrt(face_areas(vertices, triangles).sum());
+    return cut_surface(scaled, analyze_surface(triangles, static_cast<Index>(vertices.rows())), polygon);
+}
+
+/// A box of n^2 quadrilaterals a side.
+Solid box(double a, double b, double c, int n)
+{
+    Solid solid;
+    std::map<std::tuple<int, int, int>, Index> number;
+    const auto vertex = [&](std::array<int, 3> at) {
+        const auto [found, is_new] = number.try_emplace({at[0], at[1], at[2]}, static_cast<Index>(solid.points.size()));
+        if (is_new) solid.points.emplace_back(a * at[0] / n, b * at[1] / n, c * at[2] / n);
+        return found->second;
+    };
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int side : {0, n})
+            for (int i = 0; i < n; ++i)
+                for (int j = 0; j < n; ++j) {
+                    std::vector<Index> quad;
+                    for (const auto& [di, dj] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+                        std::array<int, 3> at{};
+                        at[axis] = side;
+                        at[(axis + 1) % 3] = i + di;
+                        at[(axis + 2) % 3] = j + dj;
+                        quad.push_back(vertex(at));
+                    }
+                    if (side == 0) std::swap(quad[1], quad[3]);
+                    solid.polygons.push_back(quad);
+                }
+    return solid;
+}
+
+/// A prism of m sides in so many rings, round the unit circle, with a bottom. The top is flat, or a cone of this
+/// height.
+Solid prism(int m, double height, int rings, double cone)
+{
+    Solid solid;
+    for (int k = 0; k <= rings; ++k)
+        for (int i = 0; i < m; ++i) {
+            const double angle = 2.0 * std::numbers::pi * i / m;
+            solid.points.emplace_back(std::cos(angle), std::sin(angle), height * k / rings);
+        }
+    std::vector<Index> bottom, top;
+    for (Index i = 0; i < m; ++i) {
+        const Index next = (i + 1) % m;
+        for (Index k = 0; k < rings; ++k)
+            solid.polygons.push_back({k * m + i, k * m + next, (k + 1) * m + next, (k + 1) * m + i});
+        bottom.insert(bottom.begin(), i);
+        top.push_back(rings * m + i);
+        if (cone > 0.0) solid.polygons.push_back({rings * m + i, rings * m + next, (rings + 1) * m});
+    }
+    solid.polygons.push_back(bottom);
+    if (cone > 0.0)
+        solid.points.emplace_back(0.0, 0.0, height + cone);
+    else
+        solid.polygons.push_back(top);
+    return solid;
+}
+
+std::optional<UnfoldedParts> unfold(const CutSurface& surface)
+{
+    ExecutionContext context;
+    return unfolded(surface, context);
+}
+
+/// The length of all cuts of a closed surface, after a check that faces keep their lengths, that parts are one to one,
+/// and that each face is in one part.
+double cuts_of(const CutSurface& surface, const UnfoldedParts& unfolded)
+{
+    double boundary = 0.0;
+    std::vector<int> seen(static_cast<std::size_t>(surface.areas.size()), 0);
+    for (const FlatPart& part : unfolded.parts) {
+        EXPECT_TRUE(lies_one_to_one(part, part.points));
+        const Triangles& triangles = part.surface.triangles;
+        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
+            const Index a = origin(triangles, h), b = target(triangles, h);
+            const double length = (part.points.row(a) - part.points.row(b)).norm();
+            EXPECT_NEAR(length, surface.lengths[3 * part.faces[face_of(h)] + h % 3], 1e-12);
+            if (part.surface.twin[h] == no_twin) boundary += length;
+        }
+        for (const Index f : part.faces) ++seen[f];
+    }
+    EXPECT_EQ(seen, std::vector<int>(seen.size(), 1));
+    EXPECT_NEAR(0.5 * boundary, unfolded.cut_length, 1e-12);
+    return unfolded.cut_length;
+}
+
+TEST(Unfolding, ACubeBecomesACrossCutAlongSevenEdges)
+{
+    for (const int n : {1, 2, 7}) {
+        const CutSurface cube = surface_of(box(1.0, 1.0, 1.0, n));
+        const auto parts = unfold(cube);
+        ASSERT_TRUE(parts);
+        EXPECT_EQ(parts->parts.size(), 1u);
+        EXPECT_NEAR(cuts_of(cube, *parts), 7.0 / std::sqrt(6.0), 1e-12);
+    }
+}
+
+TEST(Unfolding, ABoxIsCutAlongItsShortEdges)
+{
+    const CutSurface slab = surface_of(box(1.0, 2.0, 4.0, 3));
+    const auto parts = unfold(slab);
+    ASSERT_TRUE(parts);
+    // Of twelve edges five join the six sides: the longest that make no ring.
+    EXPECT_NEAR(cuts_of(slab, *parts), (4.0 * 7.0 - (3.0 * 4.0 + 2.0 * 2.0)) / std::sqrt(28.0), 1e-12);
+}
+
+TEST(Unfolding, ARoundSideIsSlitAndItsEndsComeOff)
+{
+    const int m = 40;
+    const double rim = 2.0 * m * std::sin(std::numbers::pi / m), end = m * std::sin(2.0 * std::numbers::pi / m) / 2.0;
+    const CutSurface tin = surface_of(prism(m, 3.0, 5, 0.0));
+    const auto parts = unfold(tin);
+    ASSERT_TRUE(parts);
+    EXPECT_EQ(parts->parts.size(), 3u);
+    EXPECT_NEAR(cuts_of(tin, *parts), (2.0 * rim + 3.0) / std::sqrt(3.0 * rim + 2.0 * end), 1e-12);
+    double slit = 0.0;
+    for (const FlatPart& part : parts->parts) slit += part.slit;
+    EXPECT_NEAR(slit, 3.0 / std::sqrt(3.0 * rim + 2.0 * end), 1e-12);
+}
+
+TEST(Unfolding, APrismOfFewSidesKeepsItsEnds)
+{
+    const CutSurface nut = surface_of(prism(6, 1.0, 2, 0.0));
+    const auto parts = unfold(nut);
+    ASSERT_TRUE(parts);
+    EXPECT_EQ(parts->parts.size(), 1u);
+    cuts_of(nut, *parts);
+}
+
+TEST(Unfolding, AConeIsSlitToItsTip)
+{
+    const CutSurface pencil = surface_of(prism(48, 2.0, 1, 1.0));
+    const auto parts = unfold(pencil);
+    ASSERT_TRUE(parts);
+    EXPECT_EQ(parts->parts.size(), 3u);
+    cuts_of(pencil, *parts);
+}
+
+TEST(Unfolding, WhatIsCurvedBothWaysIsLeft)
+{
+    Solid ball = box(1.0, 1.0, 1.0, 8);
+    for (auto& point : ball.points) point = (point.array() - 0.5).matrix().normalized();
+    EXPECT_FALSE(unfold(surface_of(ball)));
+    Solid dented = box(1.0, 1.0, 1.0, 6);
+    for (auto& point : dented.points)
+        if ((point.head<2>().array() == 0.5).all()) point[2] += 0.02;
+    EXPECT_FALSE(unfold(surface_of(dented)));
+}
+
+}  // namespace
+}  // namespace koebe
