@@ -7,11 +7,11 @@
 #include "execution/peak_memory.h"
 #include "execution/side_by_side.h"
 #include "flatten/allowance.h"
+#include "flatten/less_stretch.h"
 #include "flatten/notches.h"
 #include "flatten/seams.h"
 #include "flatten/sheets.h"
 #include "flatten/stretch.h"
-#include "flatten/unfold.h"
 #include "linear/dense_spd.h"
 #include "parts/flat_mesh.h"
 #include "planar/planar_predicates.h"
@@ -29,8 +29,6 @@ namespace {
 
 constexpr double least_piece = 0.1, most_piece = 1e6;  // mm across
 constexpr double most_lost = 0.01;                     // of the area, in smaller pieces
-constexpr double fewest_cuts = 50.0;                   // a price at which nothing is cut but what has to be
-constexpr double true_to_size = 1e-3;                  // stretch in the mean
 
 std::string in_millimetres(double length) { return formatted("%.3g mm", length); }
 
@@ -185,24 +183,10 @@ FlatMesh cut_and_flat(const Vertices& vertices, const Triangles& triangles, cons
     cutting.threads = options.threads;
     cutting.even = 1.0;
     cutting.loops = LoopForm::free;
-    const bool is_mesh = vertices.rows() > 0 && triangles.rows() > 0 && vertices.allFinite() &&
-                         triangles.minCoeff() >= 0 && triangles.maxCoeff() < vertices.rows();
-    if (!options.price && is_mesh && is_bent_at_few_vertices(vertices, triangles)) {
-        PartsOptions uncut = cutting;
-        uncut.price = fewest_cuts;
-        uncut.darts = 0.0;
-        FlatMesh mesh = flat_mesh(vertices, triangles, uncut, false, context);
-        side_by_side(mesh.parts.size(), options.threads, context, [&](std::size_t k, ExecutionContext& own) {
-            if (options.darts > 0.0) cut_to_bends(mesh.parts[k]);
-            unfold(mesh.parts[k], own);
-        });
-        const auto lies_well = [](const FlatPart& part) { return lies_one_to_one(part, part.points); };
-        if (std::ranges::all_of(mesh.parts, lies_well) && mean_stretch(mesh.parts) < true_to_size) return mesh;
-    }
     if (options.price) cutting.price = *options.price;
     FlatMesh mesh = flat_mesh(vertices, triangles, cutting, false, context);
     side_by_side(mesh.parts.size(), options.threads, context,
-                 [&](std::size_t k, ExecutionContext& own) { unfold(mesh.parts[k], own); });
+                 [&](std::size_t k, ExecutionContext& own) { stretch_less(mesh.parts[k], own); });
     return mesh;
 }
 

@@ -45,11 +45,4 @@ double mean_stretch(const FlatPart& part)
     return 0.01 * sum.result().mean;
 }
 
-double mean_stretch(const std::vector<FlatPart>& parts)
-{
-    StretchSum sum;
-    for (const FlatPart& part : parts) add_stretch(part, sum);
-    return 0.01 * sum.result().mean;
-}
-
 }  // namespace koebe

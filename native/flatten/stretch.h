@@ -34,6 +34,5 @@ double stretch_of(const FlatTriangle& flat, const Eigen::Matrix<double, 3, 2>& c
 
 /// Of all faces over their area, 0.01 for a per cent.
 double mean_stretch(const FlatPart& part);
-double mean_stretch(const std::vector<FlatPart>& parts);
 
 }  // namespace koebe

@@ -149,23 +149,6 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
     return darts;
 }
 
-std::vector<Dart> shortest_darts(const FlatPart& flat, const std::vector<Index>& tips)
-{
-    std::vector<Index> sources;
-    for (const VertexLoop& loop : flat.surface.loops) sources.insert(sources.end(), loop.begin(), loop.end());
-    const PathTree tree = shortest_paths(EdgeGraph(seamed(flat, flat.shown), 1.0), sources);
-    std::vector<char> taken(static_cast<std::size_t>(flat.surface.vertex_count), 0);
-    std::vector<Dart> darts;
-    for (const Index tip : tips) {
-        if (tree.parent[tip] == tip) continue;
-        Dart dart = shortest_dart(flat, tree, tip);
-        if (dart.halfedges.empty() || std::ranges::any_of(dart.vertices, [&](Index v) { return taken[v]; })) continue;
-        for (const Index v : dart.vertices) taken[v] = 1;
-        darts.push_back(std::move(dart));
-    }
-    return darts;
-}
-
 std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<Dart>& darts)
 {
     SeamedMesh mesh = seamed(flat);

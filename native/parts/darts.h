@@ -29,9 +29,6 @@ struct Dart {
 std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces, double even, double price,
                                   const std::vector<char>& refused);
 
-/// The shortest ways to the boundary from inner vertices, as long as they share no vertex.
-std::vector<Dart> shortest_darts(const FlatPart& flat, const std::vector<Index>& tips);
-
 /// Opens darts. No two darts share a vertex. A dart with its tip on the boundary joins two loops: it is a slit. One
 /// side of a dart keeps its vertices, and the other side gets new vertices. Both sides are drawn a little apart.
 /// @return (V) the old number of each vertex. No value if the darts cannot be opened: then nothing changes

@@ -13,6 +13,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace koebe {
@@ -21,7 +22,7 @@ namespace {
 constexpr double least_fold = std::numbers::pi / 6;  // angle between the faces of a crease
 constexpr double flat_angle = 1e-3;       // radians by which the angles round a flat vertex may miss a full turn
 constexpr double same_place = 1e-5;       // in roots of the whole's area
-constexpr std::size_t most_tips = 64;     // vertices of a chart's inside that are not flat,
+constexpr std::size_t most_tips = 64;     // inner vertices of charts that are not flat,
 constexpr std::size_t most_charts = 300;  // and charts: other surfaces are smooth, or rough
 constexpr double least_border = 0.12;     // of a chart's boundary: a shorter common border is not worth joining
 
@@ -65,10 +66,7 @@ public:
         for (const SeamedMesh& chart : charts) {
             context.checkpoint();
             if (lay(chart)) continue;
-            for (const Index h : slits_of(chart)) {
-                slit_.push_back(in_net(chart, h));
-                net_.cut(slit_.back());
-            }
+            open(chart);
         }
         charts = connected_parts(net_);
         chart_.resize(net_.face.size());
@@ -107,6 +105,8 @@ public:
     {
         for (const Index h : slit_)
             if (net_.twin[h] == no_twin) parts_[island_of(h)].slit += surface_.lengths[h];
+        for (const Index h : dart_)
+            if (net_.twin[h] == no_twin) parts_[island_of(h)].dart_length += surface_.lengths[h];
         std::vector<FlatPart> found;
         for (std::size_t k = 0; k < parts_.size(); ++k)
             if (!islands_[k].empty()) found.push_back(std::move(parts_[k]));
@@ -214,8 +214,8 @@ private:
         return true;
     }
 
-    /// Half-edges of short paths that connect the chart's tips, and the loops round which it does not close.
-    std::vector<Index> slits_of(const SeamedMesh& chart) const
+    /// Cuts short paths that connect the chart's tips, by darts, and the loops round which it does not close, by slits.
+    void open(const SeamedMesh& chart)
     {
         std::vector<std::vector<Index>> ends;  // fans
         for (const std::vector<Index>& loop : boundary_halfedges(chart)) {
@@ -223,26 +223,36 @@ private:
             ends.emplace_back();
             for (const Index h : loop) ends.back().push_back(origin(chart.fans, h));
         }
-        for (const Index h : tips_of(chart)) ends.push_back({origin(chart.fans, h)});
-        if (ends.size() < 2) return {};
-        const EdgeGraph graph(chart, 1.0);
-        std::vector<Index> slits, reached = ends.front();
-        for (ends.erase(ends.begin()); !ends.empty();) {
-            const PathTree tree = shortest_paths(graph, reached);
-            const auto nearest = [&](const std::vector<Index>& end) {
-                return *std::ranges::min_element(end, {}, [&](Index v) { return tree.distance[v]; });
-            };
-            const auto next =
-                std::ranges::min_element(ends, {}, [&](const auto& end) { return tree.distance[nearest(end)]; });
-            for (Index v = nearest(*next); tree.parent[v] != v; v = tree.parent[v]) {
-                if (tree.halfedge[v] == no_twin) return {};
-                slits.push_back(tree.halfedge[v]);
-                reached.push_back(v);
-            }
-            reached.insert(reached.end(), next->begin(), next->end());
-            ends.erase(next);
+        const std::size_t loops = ends.size();
+        for (const Index h : tips_of(chart)) {
+            ends.push_back({origin(chart.fans, h)});
+            tips_.insert(origin(chart.corners, h));
         }
-        return slits;
+        if (ends.size() < 2) return;
+        const EdgeGraph graph(chart, 1.0);
+        std::vector<char> is_reached(ends.size(), 0);
+        is_reached[0] = 1;
+        std::vector<Index> reached = ends[0];
+        for (std::size_t count = 1; count < ends.size(); ++count) {
+            const PathTree tree = shortest_paths(graph, reached);
+            std::size_t next = 0;
+            Index nearest = -1;
+            for (std::size_t k = 0; k < ends.size(); ++k)
+                for (const Index v : ends[k])
+                    if (!is_reached[k] && (nearest < 0 || tree.distance[v] < tree.distance[nearest])) {
+                        nearest = v;
+                        next = k;
+                    }
+            is_reached[next] = 1;
+            reached.insert(reached.end(), ends[next].begin(), ends[next].end());
+            for (Index v = nearest; tree.parent[v] != v; v = tree.parent[v]) {
+                if (tree.halfedge[v] == no_twin) return;  // no path
+                reached.push_back(v);
+                std::vector<Index>& kind = next < loops ? slit_ : dart_;
+                kind.push_back(in_net(chart, tree.halfedge[v]));
+                net_.cut(kind.back());
+            }
+        }
     }
 
     /// The motion that brings the face across a crease to the crease's place.
@@ -363,6 +373,9 @@ private:
             part.loops.emplace_back();
             for (const Index v : loop) part.loops.back().push_back(part.original[v]);
         }
+        for (Index v = 0; v < mesh.fan_count; ++v)
+            if (tips_.contains(part.original[v]) && std::ranges::count(part.original, part.original[v]) == 1)
+                part.tips.push_back(v);
         if (!surface_.polygon.empty())
             for (const Index f : faces) part.polygon.push_back(surface_.polygon[f]);
         return part;
@@ -371,7 +384,8 @@ private:
     const CutSurface& surface_;
     SeamedMesh net_;                           // twins only where faces are joined
     std::vector<Complex> at_;                  // (3F) places of the corners
-    std::vector<Index> slit_;                  // half-edges
+    std::vector<Index> slit_, dart_;           // half-edges
+    std::set<Index> tips_;                     // where darts end
     std::vector<Index> chart_;                 // (F)
     std::vector<Index> island_;                // (charts)
     std::vector<std::vector<Index>> islands_;  // their faces, ascending

@@ -173,6 +173,16 @@ TEST(Unfolding, AConeIsSlitToItsTip)
     ASSERT_TRUE(parts);
     EXPECT_EQ(parts->parts.size(), 3u);
     cuts_of(pencil, *parts);
+    std::size_t tips = 0;
+    double darts = 0.0;
+    for (const FlatPart& part : parts->parts) {
+        tips += part.tips.size();
+        darts += part.dart_length;
+    }
+    EXPECT_EQ(tips, 1u);
+    const double end = 24.0 * std::sin(std::numbers::pi / 24.0), half_side = std::sin(std::numbers::pi / 48.0);
+    const double area = 96.0 * half_side * 2.0 + end + 48.0 * half_side * std::sqrt(2.0 - half_side * half_side);
+    EXPECT_NEAR(darts, std::sqrt(2.0 / area), 1e-12);  // the cone's side is as long as the root of 2
 }
 
 TEST(Unfolding, WhatIsCurvedBothWaysIsLeft)
