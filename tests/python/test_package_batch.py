@@ -53,6 +53,52 @@ def test_a_folder_that_cannot_be_written_is_an_error(library, tmp_path):
         koebe.batch(library, tmp_path / "file")
 
 
+class Here:
+    """Stands in for a client of Dask, and runs each task at once."""
+
+    def __init__(self, threads):
+        self.threads, self.calls = threads, []
+
+    def ncores(self):
+        return {str(worker): 1 for worker in range(self.threads)}
+
+    def submit(self, function, words, *, pure, key):
+        assert not pure and key.startswith("koebe-")
+        self.calls.append(words)
+        return function(words)
+
+    def gather(self, tasks):
+        assert len(tasks) == len(self.calls)
+
+
+def test_a_scheduler_gets_each_file_once_some_files_a_task(library, tmp_path):
+    here = koebe.batch(library, tmp_path / "here")
+    scheduler = Here(threads=1)
+    rows = koebe.batch([library / "masks", library], tmp_path / "there", base=library, scheduler=scheduler)
+    assert [{**row, "seconds": 0} for row in rows] == [{**row, "seconds": 0} for row in here]
+    assert all("--threads=1" in words for words in scheduler.calls)
+
+
+@pytest.mark.parametrize("files, threads, tasks", [(3, 1, 3), (40, 1, 8), (40, 100, 40), (40, 0, 40), (200, 2, 20)])
+def test_tasks_are_few_but_enough_for_all_threads(monkeypatch, tmp_path, files, threads, tasks):
+    listed = [f"/{folder}\t{file}.obj" for file in range(files // 2) for folder in "ab"] + ["/a\tz.obj"] * (files % 2)
+    ran = []
+    monkeypatch.setattr(koebe._batch, "_run_some", ran.append)
+    koebe._batch._run_on_workers(Here(threads), listed, ["--output", "/out"])
+    assert len(ran) == tasks
+    said = [(words[words.index("--base") + 1], words[: words.index("--base")]) for words in ran]
+    assert sorted(f"{home}\t{file[len(home) + 1 :]}" for home, some in said for file in some) == sorted(listed)
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [({}, ["--threads=1"]), ({"threads": 3}, []), ({"threads": 0}, []), ({"domain": "torus"}, []),
+     ({"domain": "sphere"}, ["--threads=1"])],
+)  # fmt: skip
+def test_a_file_beside_others_is_mapped_on_one_thread(options, words):
+    assert koebe._batch._one_thread(options) == words
+
+
 @pytest.mark.parametrize("number", [pytest.param(signal.SIGINT, marks=pytest.mark.slow), signal.SIGKILL])
 def test_the_command_ends_with_python(tmp_path, number):
     (tmp_path / "large.obj").write_text(obj_text(*perforated(500)))

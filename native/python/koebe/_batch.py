@@ -1,5 +1,6 @@
 """Maps many mesh files, each by a process of its own: the command `koebe batch`, here or on the workers of Dask."""
 
+import itertools
 import json
 import os
 import subprocess
@@ -9,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _command
+from ._option_table import rows
 from .errors import Cancelled, KoebeError, OptionError
 
 PathLike = str | os.PathLike[str]
@@ -16,6 +18,8 @@ Row = dict[str, Any]
 
 _WRONG_USAGE, _INTERRUPTED = 2, 130
 _PATIENCE = 20.0  # seconds for a command that was asked to end
+_FILES_OF_A_TASK = 10  # at most: a task of Dask and its command take as long as a third of a file of 5,000 faces
+_TASKS_OF_A_THREAD = 8  # at least, so that the threads end at about the same time
 
 
 def batch(
@@ -38,8 +42,8 @@ def batch(
     time_limit  seconds for a file
     base        names are relative to this folder instead of each input folder
     retry       try failed meshes again
-    scheduler   a `dask.distributed.Client`: one task per file. All workers must see the files and the output folder
-                under the same paths
+    scheduler   a `dask.distributed.Client`: one to ten files a task, each file on one thread (or `threads`). All
+                workers must see the files and the output folder under the same paths
     options     the command's, with _ for -: method="ck", max_sweeps=20, polish=True, format="ply",
                 blender="blender"
 
@@ -68,22 +72,36 @@ def batch(
     if scheduler is None:
         _run([*named, *_words({"workers": workers})])
     else:
-        pairs = [line.split("\t") for line in listed]
-        calls = [[os.path.join(home, name), "--base", home, "--output", folder, *common] for home, name in pairs]
-        names = [f"koebe-{name}" for _, name in pairs]
-        tasks = [
-            scheduler.submit(_run_one, call, pure=False, key=f"{name}-{os.urandom(8).hex()}")
-            for name, call in zip(names, calls, strict=True)
-        ]
-        scheduler.gather(tasks)
+        _run_on_workers(scheduler, listed, ["--output", folder, *common, *_one_thread(options)])
         _run([*named, "--summary-only"])
-    rows = {row["name"]: row for row in json.loads((Path(folder) / "summary.json").read_text("utf-8"))["files"]}
-    return [rows[name] for name in (line.split("\t")[1] for line in listed)]
+    found = {row["name"]: row for row in json.loads((Path(folder) / "summary.json").read_text("utf-8"))["files"]}
+    return [found[name] for name in (line.split("\t")[1] for line in listed)]
 
 
-def _run_one(words: list[str]) -> None:
-    """Maps one file on a worker. The table is written once, at the end."""
+def _run_on_workers(scheduler: Any, listed: list[str], words: list[str]) -> None:
+    """Maps the listed files on the workers of Dask: each task some files of one folder, one after the other."""
+    threads = sum(scheduler.ncores().values()) or len(listed)  # a cluster without workers will get some
+    size = min(max(len(listed) // (_TASKS_OF_A_THREAD * threads), 1), _FILES_OF_A_TASK)
+    tasks = []
+    for home, lines in itertools.groupby(sorted(listed), key=lambda line: line.split("\t")[0]):
+        names = [line.split("\t")[1] for line in lines]
+        for first in range(0, len(names), size):
+            files = [os.path.join(home, name) for name in names[first : first + size]]
+            key = f"koebe-{names[first]}-{os.urandom(8).hex()}"
+            tasks.append(scheduler.submit(_run_some, [*files, "--base", home, *words], pure=False, key=key))
+    scheduler.gather(tasks)
+
+
+def _run_some(words: list[str]) -> None:
+    """Maps files on a worker. The table is written once, at the end."""
     _run([*words, "--workers=1", "--no-summary"])
+
+
+def _one_thread(options: dict[str, Any]) -> list[str]:
+    """The words that keep a file to one thread, as other files are mapped beside it; none if the caller has said so."""
+    domain = options.get("domain", "disk")
+    known = rows("uniformize" if domain == "disk" else domain)
+    return ["--threads=1"] if "threads" in known and options.get("threads") is None else []
 
 
 def _words(options: dict[str, Any]) -> list[str]:
