@@ -29,5 +29,9 @@ class Run:
         """Tells the progress. Raises Cancelled if the caller asked to stop."""
         if self.progress is not None:
             self.progress(fraction, stage)
+        self.check()
+
+    def check(self) -> None:
+        """Raises Cancelled if the caller asked to stop."""
         if self.cancel.cancelled:
             raise Cancelled("cancelled by the caller")
