@@ -170,7 +170,7 @@ class DomainOutcome(Outcome):
         return {
             "sweeps": result.sweeps, "domain": self.choice.domain.name, "angle_error": one.angle_error,
             "seconds": result.seconds["total"], "flipped": len(one.flipped),
-            "flipped_faces": one.flipped_faces.tolist(), "uneven": too_uneven(one),
+            "flipped_faces": one.flipped_faces.tolist(), "uneven": too_uneven(one), "even": result.even,
             "cut_edges": np.flatnonzero(one.cuts).tolist(),
             "loops": [
                 {

@@ -82,7 +82,7 @@ def _check_sphere(handles: int, loops: int) -> None:
 
 SPHERE = Domain(
     "sphere", "sphere", "Unwrap to Sphere", "MESH_UVSPHERE",
-    "SPHERE", ("layout", "add_sphere", "layer", "checker", "checker_size"), _check_sphere, SphereOutcome,
+    "SPHERE", ("even", "layout", "add_sphere", "layer", "checker", "checker_size"), _check_sphere, SphereOutcome,
     "Unwrap a surface without handles, closed or with holes, to a sphere, and lay the sphere out as UVs. Angles are "
-    "kept on the sphere, and holes are round. The cut is in the UVs only",
+    "kept on the sphere, unless Even is above 0, and holes are round. The cut is in the UVs only",
 )  # fmt: skip

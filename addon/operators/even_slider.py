@@ -36,6 +36,9 @@ class UV_OT_koebe_even(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        if settings_of(context).shape == "SPHERE":  # its UVs are no map that the slider could move
+            cls.poll_message_set("Set Even and press Unwrap: the UVs of a sphere cannot be dragged")
+            return False
         return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
 
     def execute(self, context: bpy.types.Context) -> set[str]:

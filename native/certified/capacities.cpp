@@ -210,7 +210,9 @@ CapacityReport capacities_here(const Vertices& vertices, const Triangles& triang
     const double wanted = options.width.value_or(std::numeric_limits<double>::infinity());
     double of_capacities = 0.0;  // the widest enclosure of a capacity
     while (true) {
-        context.begin_stage("enclose", 0.0, 1.0);
+        // The time goes with the faces, and their number with 1 / width.
+        const double reached = report.levels > 0 ? std::clamp(wanted / report.width, 0.0, 1.0) : 0.0;
+        context.begin_stage("enclose", reached, reached);
         const VectorXd gap = enclose_all(surface, chosen, enclosures, context);
         enclosures.end_level(surface.face_count());
         const double before = std::exchange(of_capacities, report.width);
@@ -249,8 +251,11 @@ CapacityReport certified_capacities(const Vertices& vertices, const Triangles& t
                                     const std::vector<Condenser>& condensers, const CapacityOptions& options,
                                     ExecutionContext& context)
 {
-    return run_detachable<CapacityReport>(
-        context, [=](ExecutionContext& own) { return capacities_here(vertices, triangles, condensers, options, own); });
+    return run_detachable<CapacityReport>(context, [=](ExecutionContext& own) {
+        CapacityReport report = capacities_here(vertices, triangles, condensers, options, own);
+        own.report(1.0, "enclose");
+        return report;
+    });
 }
 
 }  // namespace koebe

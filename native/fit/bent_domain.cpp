@@ -206,7 +206,9 @@ void BentDomain::lower_the_largest(const Extremal& extremal, PlanarPoints& uv, c
                                    int steps)
 {
     const VectorXd weight = problem_.weight;
-    for (const double power : extremal.powers) {
+    for (std::size_t i = 0; i < extremal.powers.size(); ++i) {
+        const double power = extremal.powers[i];
+        context_.advance(std::lerp(extremal.way(), 1.0, static_cast<double>(i) / extremal.powers.size()));
         FoldoverOptions options = gentle(steps);
         options.least = 0.0;
         options.power = power;

@@ -36,7 +36,7 @@ public:
     {
         BendingResult result;
         for (const int unfoldings : {0, unfoldings_of_a_path})
-            if (go(unfoldings, result)) {
+            if (go(unfoldings, extremal.way(), result)) {
                 finish(extremal, result);
                 return result;
             }
@@ -122,12 +122,12 @@ private:
         return {};
     }
 
-    bool go(int unfoldings, BendingResult& result)
+    bool go(int unfoldings, double share_of_all, BendingResult& result)
     {
         PlanarPoints now = domain_.start();
         double reached = 0.0, step = first_share;
         for (int trial = 0; trial < trials_of_a_path && reached < 1.0; ++trial) {
-            context_.advance(reached);
+            context_.advance(share_of_all * reached);
             const double share = std::min(step, 1.0 - reached);
             const bool may_unfold = share <= unfolded_share && unfoldings > 0;
             if (may_unfold) --unfoldings;

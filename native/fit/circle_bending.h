@@ -37,6 +37,9 @@ struct Extremal {
     std::vector<double> powers = {};  ///< of the sum's terms, one after another; empty: the sum itself is least
     /// Rims may stretch as the faces do: their triangles count only where they bend more than the faces.
     bool free_rims = false;
+
+    /// The circles' way, as a share of the progress.
+    double way() const { return powers.empty() ? 0.8 : 0.2; }
 };
 
 /// Takes the circles along the path in steps. In a step the ring around each hole moves, and is scaled and turned by a

@@ -119,6 +119,7 @@ TeichmuellerMap extremal_map(const MappedSurface& a, const std::vector<Circle>& 
                              ExecutionContext& context)
 {
     require_own_circles(a.loops);
+    context.begin_stage("align", 0.0, 0.05);
     const CompactDomain domain = compact(a);
     const std::vector<int> inverse = inverse_match(domain.circles, b, match, context);
     const TemplateStart start = lay_over_template(domain.circles, b, inverse, domain.triangles, domain.uv, context);
@@ -141,12 +142,14 @@ TeichmuellerMap extremal_map(const MappedSurface& a, const std::vector<Circle>& 
                                  domain.areas,
                                  std::vector<TemplateRim>(b.size())};
         const Extremal extremal{.powers = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0}, .free_rims = true};
+        context.begin_stage("fit", 0.05, 0.95);
         BendingResult bent = bend_between(input, start.circles, goal, extremal, context);
         if (!bent.arrived) refuse_teichmueller(bent.reached, std::move(bent.blocked));
         uv = std::move(bent.uv);
         result.straight = bent.straight;
         result.newton_steps = bent.newton_steps;
     }
+    context.begin_stage("finish", 0.95, 1.0);
     result.flipped = newly_folded(domain.triangles, start.uv, uv);
     if (result.flipped > 0) refuse_teichmueller(1.0, {});
     const VectorXcd mu = plane_beltrami(start.uv, domain.triangles, uv);
@@ -164,6 +167,7 @@ TeichmuellerMap extremal_map(const MappedSurface& a, const std::vector<Circle>& 
     }
     result.uv = PlanarPoints::Zero(a.uv.rows(), 2);
     result.uv(domain.original, Eigen::all) = uv;
+    context.advance(1.0);
     return result;
 }
 

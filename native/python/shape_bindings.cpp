@@ -62,8 +62,9 @@ void bind_shapes(py::module_& m)
           });
     m.def("module_names", &module_names);
     m.def("module_error", &module_error);
-    m.def("refined_circles", [](const MappedSurface& surface, const UniformizeOptions& options) {
-        return arrays_of(without_gil(py::none(), {}, [&](ExecutionContext& context) {
+    m.def("refined_circles", [](const MappedSurface& surface, const UniformizeOptions& options,
+                                const py::object& progress, const CancelToken& cancel) {
+        return arrays_of(without_gil(progress, cancel, [&](ExecutionContext& context) {
             return refined_circles(surface.vertices, surface.triangles, surface.loops, options, context);
         }));
     });
@@ -125,11 +126,12 @@ void bind_shapes(py::module_& m)
     });
     m.def("correspond",
           [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes,
-             const std::vector<SurfacePoint>& on_source, const std::vector<SurfacePoint>& on_target) {
+             const std::vector<SurfacePoint>& on_source, const std::vector<SurfacePoint>& on_target,
+             const py::object& progress, const CancelToken& cancel) {
               std::vector<Landmark> landmarks;
               for (std::size_t i = 0; i < on_source.size(); ++i) landmarks.push_back({on_target[i], on_source[i]});
               const CorrespondenceOptions options{.match = match, .fit_holes = fit_holes, .landmarks = landmarks};
-              Correspondence found = without_gil(py::none(), {}, [&](ExecutionContext& context) {
+              Correspondence found = without_gil(progress, cancel, [&](ExecutionContext& context) {
                   return run_detachable<Correspondence>(context, [source, target, options](ExecutionContext& own) {
                       fix_product_blocks();
                       return correspond(source, target, options, own);
@@ -160,29 +162,30 @@ void bind_shapes(py::module_& m)
             }
             return std::make_pair(std::move(faces), std::move(weights));
         });
-    m.def("register_spheres", [](const Vertices& vertices_a, const Triangles& triangles_a, const Vertices& points_a,
-                                 const MatrixXd& fields_a, const Vertices& vertices_b, const Triangles& triangles_b,
-                                 const Vertices& points_b, const MatrixXd& fields_b,
-                                 const std::vector<Index>& landmarks, const Vertices& places, double stiffness) {
-        const SphereSurface a{vertices_a, triangles_a, points_a, fields_a};
-        const SphereSurface b{vertices_b, triangles_b, points_b, fields_b};
-        std::vector<SphereLandmark> pairs;
-        for (std::size_t i = 0; i < landmarks.size(); ++i)
-            pairs.push_back({landmarks[i], places.row(static_cast<Eigen::Index>(i)).transpose()});
-        const SphereRegistration found = without_gil(py::none(), {}, [&](ExecutionContext& context) {
-            return run_detachable<SphereRegistration>(context, [a, b, pairs, stiffness](ExecutionContext& own) {
-                fix_product_blocks();
-                return register_spheres(a, b, pairs, stiffness, own);
-            });
-        });
-        py::dict parts;
-        parts["sphere"] = found.points;
-        parts["beltrami"] = py::dict(py::arg("mean") = found.beltrami.mean, py::arg("max") = found.beltrami.max);
-        parts["log_area_sd"] = found.log_area_sd;
-        parts["steps"] = found.steps;
-        parts["settled"] = found.settled;
-        return parts;
-    });
+    m.def("register_spheres",
+          [](const Vertices& vertices_a, const Triangles& triangles_a, const Vertices& points_a,
+             const MatrixXd& fields_a, const Vertices& vertices_b, const Triangles& triangles_b,
+             const Vertices& points_b, const MatrixXd& fields_b, const std::vector<Index>& landmarks,
+             const Vertices& places, double stiffness, const py::object& progress, const CancelToken& cancel) {
+              const SphereSurface a{vertices_a, triangles_a, points_a, fields_a};
+              const SphereSurface b{vertices_b, triangles_b, points_b, fields_b};
+              std::vector<SphereLandmark> pairs;
+              for (std::size_t i = 0; i < landmarks.size(); ++i)
+                  pairs.push_back({landmarks[i], places.row(static_cast<Eigen::Index>(i)).transpose()});
+              const SphereRegistration found = without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return run_detachable<SphereRegistration>(context, [a, b, pairs, stiffness](ExecutionContext& own) {
+                      fix_product_blocks();
+                      return register_spheres(a, b, pairs, stiffness, own);
+                  });
+              });
+              py::dict parts;
+              parts["sphere"] = found.points;
+              parts["beltrami"] = py::dict(py::arg("mean") = found.beltrami.mean, py::arg("max") = found.beltrami.max);
+              parts["log_area_sd"] = found.log_area_sd;
+              parts["steps"] = found.steps;
+              parts["settled"] = found.settled;
+              return parts;
+          });
     m.def("places_in_domain", [](const PlanarPoints& uv, const Triangles& triangles, const PlanarPoints& points) {
         PlacesInTriangles found =
             detached([uv, triangles, points] { return nearest_triangles(uv, triangles, points); });

@@ -121,7 +121,10 @@ koebe.errors.Cancelled: ...
             return run_detachable<OpenedSurface>(context,
                                                  [points = Vertices(vertices), faces = Triangles(triangles),
                                                   options = OpenOptions{.polygon = polygon}](ExecutionContext& own) {
-                                                     return open_surface(points, faces, options, own);
+                                                     own.begin_stage("cut", 0.0, 1.0);
+                                                     OpenedSurface opened = open_surface(points, faces, options, own);
+                                                     own.advance(1.0);
+                                                     return opened;
                                                  });
         }));
     });

@@ -63,7 +63,7 @@ Rims rims_to_move(const std::vector<Circle>& source, const MappedSurface& target
 
 std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source, const MappedSurface& target,
                                               const DomainAlignment& alignment, const PlanarPoints& uv,
-                                              const ExecutionContext& context)
+                                              ExecutionContext& context)
 {
     constexpr double shortest_step = 1.0 / 256.0;
     const Index vertex_count = static_cast<Index>(uv.rows());
@@ -71,7 +71,7 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
     const std::size_t flipped = flipped_faces(target.triangles, uv).size();
     VectorXcd now = complex(uv);
     for (double reached = 0.0, step = 1.0; reached < 1.0;) {
-        context.checkpoint();
+        context.advance(reached);
         const double share = std::min(step, 1.0 - reached);
         PlanarPoints bent = planar(now + harmonic_map(target.triangles, edge_lengths(planar(now), target.triangles),
                                                       vertex_count, rims.vertices, share * rims.way));
@@ -173,8 +173,7 @@ AlignedDomain aligned_domain(const MappedSurface& target, const std::vector<Circ
 }
 
 LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& target, const Correspondence& found,
-                              const PlanarPoints& aligned, const LandmarkPlaces& places,
-                              const ExecutionContext& context)
+                              const PlanarPoints& aligned, const LandmarkPlaces& places, ExecutionContext& context)
 {
     std::vector<Circle> circles(target.loops.size());
     for (std::size_t k = 0; k < circles.size(); ++k) {
@@ -235,8 +234,10 @@ void look_up(Correspondence& result, const MappedSurface& source, const MappedSu
 }  // namespace
 
 Correspondence correspond(const MappedSurface& source, const MappedSurface& target,
-                          const CorrespondenceOptions& options, const ExecutionContext& context)
+                          const CorrespondenceOptions& options, ExecutionContext& context)
 {
+    const bool has_landmarks = !options.landmarks.empty();
+    context.begin_stage("align", 0.0, 0.1);
     require_own_circles(source.loops);
     require_own_circles(target.loops);
     const std::vector<Circle> circles = circles_of(source.loops);
@@ -247,6 +248,7 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     const AlignedDomain aligned = aligned_domain(target, circles, places, result.alignment.map);
     result.uv = aligned.uv;
     if (options.fit_holes && circles.size() > 1) {
+        context.begin_stage("fit", 0.1, has_landmarks ? 0.3 : 0.9);
         try {
             std::optional<PlanarPoints> bent = with_fitted_holes(circles, target, result.alignment, result.uv, context);
             result.fitted = bent.has_value();
@@ -259,15 +261,17 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     }
     CutMesh mesh{target.triangles, {}, {}, {}};
     PlanarPoints uv = result.uv;
-    if (!options.landmarks.empty()) {
+    if (has_landmarks) {
+        context.begin_stage("landmarks", 0.3, 0.9);
         LandmarkMap map = bent_to_landmarks(source, target, result, aligned.undistorted, places, context);
         mesh = std::move(map.mesh);
         uv = std::move(map.uv);
         result.uv = uv.topRows(target.uv.rows());
     }
-    context.checkpoint();
+    context.begin_stage("finish", 0.9, 1.0);
     judge(result, target, mesh, aligned.undistorted, uv);
     look_up(result, source, target, mesh, uv);
+    context.advance(1.0);
     return result;
 }
 

@@ -39,7 +39,7 @@ struct Correspondence {
 /// @throws SolverError, Cancelled
 std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source, const MappedSurface& target,
                                               const DomainAlignment& alignment, const PlanarPoints& uv,
-                                              const ExecutionContext& context = {});
+                                              ExecutionContext& context);
 
 /// Lays the target's circle domain over the source's (align_domains); up to five holes landmarks help to choose the
 /// match. Without a hole or with one, the freedom left is used to bring landmarks near each other (nearest_symmetry).
@@ -49,6 +49,6 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
 /// @throws InputError as align_domains and map_with_landmarks; circles that are not the surfaces' own
 /// (require_own_circles); SolverError, Cancelled
 KOEBE_API Correspondence correspond(const MappedSurface& source, const MappedSurface& target,
-                                    const CorrespondenceOptions& options, const ExecutionContext& context = {});
+                                    const CorrespondenceOptions& options, ExecutionContext& context);
 
 }  // namespace koebe

@@ -62,7 +62,7 @@ public:
         folded_ = folded_faces(map_.mesh.triangles, start_).size();
     }
 
-    LandmarkMap run(const ExecutionContext& context)
+    LandmarkMap run(ExecutionContext& context)
     {
         const DirichletSolver extension(bending_matrix(), fixed_);
         for (const double bow : bows)
@@ -231,13 +231,13 @@ private:
     }
 
     /// @param unfoldings how often faces that fold in a short step may be turned back
-    bool go(const DirichletSolver& extension, double bow, int unfoldings, const ExecutionContext& context)
+    bool go(const DirichletSolver& extension, double bow, int unfoldings, ExecutionContext& context)
     {
         PlanarPoints now = start_;
         if (unfoldings > 0) relax(now, steps_between, context);
         double reached = 0.0, step = 1.0;
         for (int trial = 0; trial < most_trials && reached < 1.0; ++trial) {
-            context.checkpoint();
+            context.advance(reached);
             const double share = std::min(step, 1.0 - reached);
             PlanarPoints next = step_to(extension, now, reached + share, bow);
             if (is_one_to_one(next) || (share <= unfolded_step && unfoldings-- > 0 && unfold(next, context))) {
@@ -302,7 +302,7 @@ std::vector<Index> folded_faces(const Triangles& triangles, const PlanarPoints& 
 LandmarkMap map_with_landmarks(const MappedSurface& target, const std::vector<Circle>& circles,
                                const PlanarPoints& aligned, const PlanarPoints& bent,
                                const std::vector<SurfacePoint>& landmarks, const VectorXcd& places,
-                               const ExecutionContext& context)
+                               ExecutionContext& context)
 {
     return LandmarkBending(target, circles, aligned, bent, landmarks, places).run(context);
 }

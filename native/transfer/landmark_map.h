@@ -46,7 +46,7 @@ struct LandmarkMap {
 LandmarkMap map_with_landmarks(const MappedSurface& target, const std::vector<Circle>& circles,
                                const PlanarPoints& aligned, const PlanarPoints& bent,
                                const std::vector<SurfacePoint>& landmarks, const VectorXcd& places,
-                               const ExecutionContext& context = {});
+                               ExecutionContext& context);
 
 /// Faces whose area is not positive in 64 bits.
 std::vector<Index> folded_faces(const Triangles& triangles, const PlanarPoints& uv);

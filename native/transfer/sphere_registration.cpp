@@ -99,7 +99,7 @@ private:
 class SphereBending {
 public:
     SphereBending(const SphereSurface& target, const SphereSurface& source,
-                  const std::vector<SphereLandmark>& landmarks, double stiffness, const ExecutionContext& context)
+                  const std::vector<SphereLandmark>& landmarks, double stiffness, ExecutionContext& context)
         : target_(target),
           source_(source),
           landmarks_(landmarks),
@@ -127,7 +127,9 @@ public:
 
     SphereRegistration run()
     {
+        context_.begin_stage("landmarks", 0.0, landmarks_.empty() ? 0.0 : 0.3);
         if (!landmarks_.empty()) bring_landmarks();
+        context_.begin_stage("bend", landmarks_.empty() ? 0.0 : 0.3, 1.0);
         if (target_.fields.cols() > 0)
             match_fields();
         else
@@ -135,6 +137,7 @@ public:
         if (find_sphere_faults(source_.triangles, {}, result_.points, {}).any())
             throw SolverError("the bent map does not cover the sphere once");
         measure();
+        context_.advance(1.0);
         return std::move(result_);
     }
 
@@ -189,7 +192,7 @@ private:
         const DirichletSolver extension(bending(), fixed);
         double reached = 0.0, share = 1.0;
         for (int trial = 0; trial < landmark_trials && reached < 1.0; ++trial) {
-            context_.checkpoint();
+            context_.advance(reached);
             const double step = std::min(share, 1.0 - reached);
             Vertices moves = Vertices::Zero(result_.points.rows(), 3);
             for (const SphereLandmark& landmark : landmarks_)
@@ -242,7 +245,9 @@ private:
         const SpherePlaces places(target_.points, target_.triangles);
         std::vector<Index> face(elastic_.held.size(), -1);  // that held the vertex last
         const VectorXd per_stiffness = elastic_.weight / stiffness_;
-        for (const FieldLevel& level : field_levels) {
+        for (std::size_t i = 0; i < field_levels.size(); ++i) {
+            const FieldLevel& level = field_levels[i];
+            context_.advance(static_cast<double>(i) / field_levels.size());
             elastic_.weight = per_stiffness * std::max(stiffness_, level.stiffness);
             MatrixXd wanted(source_.fields.rows(), source_.fields.cols()), given(target_.fields.rows(), wanted.cols());
             for (Eigen::Index k = 0; k < wanted.cols(); ++k) {
@@ -299,7 +304,7 @@ private:
     const SphereSurface& source_;
     const std::vector<SphereLandmark>& landmarks_;
     double stiffness_;
-    const ExecutionContext& context_;
+    ExecutionContext& context_;
     ElasticSphere elastic_;
     VectorXd areas_;          // (F) on the source's surface
     std::vector<char> used_;  // (V) 1: has a face
@@ -310,7 +315,7 @@ private:
 
 SphereRegistration register_spheres(const SphereSurface& target, const SphereSurface& source,
                                     const std::vector<SphereLandmark>& landmarks, double stiffness,
-                                    const ExecutionContext& context)
+                                    ExecutionContext& context)
 {
     return SphereBending(target, source, landmarks, stiffness, context).run();
 }

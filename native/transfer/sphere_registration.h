@@ -46,6 +46,6 @@ struct SphereRegistration {
 /// with the landmarks that block each other; Cancelled
 KOEBE_API SphereRegistration register_spheres(const SphereSurface& target, const SphereSurface& source,
                                               const std::vector<SphereLandmark>& landmarks, double stiffness,
-                                              const ExecutionContext& context = {});
+                                              ExecutionContext& context);
 
 }  // namespace koebe

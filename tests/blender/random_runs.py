@@ -216,7 +216,8 @@ class RandomRun:
                 "uv.koebe_torus": {"fit": one(["inside", "period", "square"])},
                 "uv.koebe_ring": {"fit": one(["inside", "period", "square"]), "rims": one(["auto", "auto", "selected"]),
                                   "holes": one(["circles", "concentric", "radial"])},
-                "uv.koebe_sphere": {"layout": one(["equirectangular", "octahedral"]), "add_sphere": one([True, False])},
+                "uv.koebe_sphere": {"layout": one(["equirectangular", "octahedral"]), "add_sphere": one([True, False]),
+                                    "even": one([0.0, 0.0, 0.5])},
                 "uv.koebe_schottky": {"normalization": one(["area", "circles"])},
             }[name]  # fmt: skip
             return {"layer": layer, "checker": one([True, False]), "checker_even": one([True, False]),

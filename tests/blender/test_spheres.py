@@ -70,6 +70,27 @@ def test_a_face_without_three_corners_apart_is_no_obstacle(layout):
     assert [entry.mapped and entry.converged for entry in entries] == [True, True]
 
 
+@pytest.mark.alike
+@pytest.mark.parametrize("holes", [(), HOLES], ids=["closed", "holes"])
+def test_an_even_sphere_is_what_the_package_makes_of_it(koebe, holes):
+    obj = add_ball(holes=holes)
+    assert sphere(checker=False) == {"FINISHED"}
+    before = last_run().density
+    assert sphere(checker=False, even=0.75) == {"FINISHED"}
+    expected, ball, _ = scenes.of_the_package(obj, koebe.sphere_map, even=0.75)
+    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), expected)
+    assert last_run().even == ball.even == 0.75 and last_run().density < before
+
+
+def test_the_uvs_of_a_sphere_cannot_be_dragged():
+    add_ball()
+    settings = bpy.context.scene.koebe_uv
+    settings.shape = "SPHERE"
+    assert sphere(checker=False) == {"FINISHED"} and not bpy.ops.uv.koebe_even.poll()
+    settings.shape = "DISK"
+    assert bpy.ops.uv.koebe_even.poll()
+
+
 # ---------------------------------------------------------------- the checker
 
 
@@ -198,7 +219,7 @@ def test_the_report_has_the_meshs_numbers(addon):
     obj = add_ball()
     ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
     obj.data.edges.foreach_set("use_seam", (ends % 10 == 4).all(axis=1))
-    job = scenes.domain_job(addon, obj, addon("maps.domains").SPHERE.choice("octahedral"))
+    job = scenes.domain_job(addon, obj, addon("maps.domains").SPHERE.choice(layout="octahedral"))
     job.compute()
     job.write()
     (outcome,) = job.outcomes
@@ -270,7 +291,7 @@ def test_wild_surfaces_become_spheres_or_are_refused(addon, seed):
     for _ in range(10):
         obj = wild_ball(random)
         bpy.context.view_layer.update()
-        choice = addon("maps.domains").SPHERE.choice(str(random.choice(LAYOUTS)))
+        choice = addon("maps.domains").SPHERE.choice(layout=str(random.choice(LAYOUTS)))
         done, failed = map_or_refuse(obj, scenes.domain_job(addon, obj, choice), assert_is_a_layout)
         mapped += len(done)
         refused.update(getattr(one.error, "kind", None) or type(one.error).__name__ for one in failed)

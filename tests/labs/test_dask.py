@@ -74,8 +74,11 @@ def test_a_worker_killed_half_way_costs_nothing(library, blender, client, tmp_pa
 
     killer = threading.Thread(target=kill_half_way)
     killer.start()
-    rows = koebe.batch(library, tmp_path / "dask", blender=blender, scheduler=client)
+    seen = []
+    tell = lambda fraction, _: seen.append(fraction)  # noqa: E731
+    rows = koebe.batch(library, tmp_path / "dask", blender=blender, scheduler=client, progress=tell)
     killer.join()
+    assert len(seen) > 3 and seen == sorted(seen) and seen[0] == 0.0 and seen[-1] == 1.0
     assert victim not in client.run(os.getpid).values()
     assert lasting(rows) == lasting(undisturbed) and len(rows) == FILES + 5
     again = sorted(runs().values())

@@ -86,8 +86,9 @@ TEST(LandmarkMap, landmarks_lie_exactly_and_rims_stay_on_their_circles)
         const Eigen::RowVector2d here = points.back().of(surface.uv, surface.triangles);
         places[i] = Complex(here[0], here[1]) + 0.02 * std::polar(1.0, 1.7 * i);
     }
+    ExecutionContext context;
     const LandmarkMap map =
-        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places);
+        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places, context);
     for (Index i = 0; i < 6; ++i) {
         EXPECT_GE(map.mesh.vertex[i], count);
         EXPECT_EQ(Complex(map.uv(map.mesh.vertex[i], 0), map.uv(map.mesh.vertex[i], 1)), places[i]);
@@ -104,8 +105,9 @@ TEST(LandmarkMap, a_landmark_that_stays_moves_nothing)
     const std::vector<SurfacePoint> points{{700, {0.2, 0.5, 0.3}}};
     const Eigen::RowVector2d here = points[0].of(surface.uv, surface.triangles);
     const VectorXcd places = VectorXcd::Constant(1, Complex(here[0], here[1]));
+    ExecutionContext context;
     const LandmarkMap map =
-        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places);
+        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places, context);
     EXPECT_LT((map.uv.topRows(surface.uv.rows()) - surface.uv).cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -113,9 +115,10 @@ TEST(LandmarkMap, what_excludes_itself_is_named)
 {
     const MappedSurface surface = flat_domain(400);
     const std::vector<SurfacePoint> points{{10, {0.2, 0.5, 0.3}}, {10, {0.2, 0.5, 0.3}}};
+    ExecutionContext context;
     try {
         map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points,
-                           (VectorXcd(2) << Complex(0.1, 0.0), Complex(0.0, 0.1)).finished());
+                           (VectorXcd(2) << Complex(0.1, 0.0), Complex(0.0, 0.1)).finished(), context);
         FAIL();
     } catch (const InputError& error) {
         EXPECT_EQ(error.elements(), (std::vector<Index>{0, 1}));

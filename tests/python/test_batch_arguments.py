@@ -142,7 +142,7 @@ def test_parts_keep_their_angles_unless_even_is_given(addon):
     (["--even", "0.5", "--symmetry", "auto"], "--even: it does not work with Symmetry.*take --even 0"),
     (["--even", "0.5", "--center", "3"], "--even: it does not work with Centre.*take --even 0"),
     (["--domain", "ring", "--even", "0.5", "--holes", "radial"], "--even: .* slits.*take --holes circles"),
-    (["--domain", "sphere", "--even", "0.5"], "--even does not work with --domain sphere"),
+    (["--domain", "schottky", "--even", "0.5"], "--even does not work with --domain schottky"),
     (["--even", "1.5"], "--even: 1.5 is not a number"),
 ], ids=str)  # fmt: skip
 def test_what_even_excludes(addon, words, reason):
@@ -163,7 +163,8 @@ def test_the_options_of_a_tile(addon):
     assert parse([*OUT, "--domain", "torus"]).domain == domains.TORUS.choice()
     assert request.library.each == ["--domain=ring", "--holes=radial", "--fit=period", "--max-sweeps=7", "--layer=Own"]
     sphere = domains.SPHERE.choice
-    assert parse([*OUT, "--domain", "sphere", "--layout", "octahedral"]).domain == sphere("octahedral")
+    assert parse([*OUT, "--domain", "sphere", "--layout", "octahedral"]).domain == sphere(layout="octahedral")
+    assert parse([*OUT, "--domain", "sphere", "--even", "0.5"]).domain == sphere(even=0.5)
     assert parse([*OUT, "--domain", "sphere", "--tolerance", "1e-4"]).domain == sphere(tolerance=1e-4)
     handles = domains.SCHOTTKY.choice
     words = ["--domain", "schottky", "--normalization", "circles"]

@@ -229,7 +229,7 @@ def test_the_addon_hands_every_option_to_the_solver(addon):
               **{name: domain.choice() for name, domain in addon("maps.domains").DOMAINS.items()}}  # fmt: skip
     by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance", "show"}
     engine = {row["name"] for row in TABLE if "with" in row}
-    not_there = {"sphere": {"even", "threads"}}  # for correspondences of closed surfaces; by the run
+    not_there = {"sphere": {"threads"}}  # by the run
     for of, choice in chosen.items():
         expected = {*rows_in("python", of)} - by_island - engine - not_there.get(of, set())
         assert {*choice.solver_arguments()} == expected, of

@@ -5,12 +5,15 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import koebe
+import numpy as np
 import pytest
 from cli_support import COMMAND, obj_text, perforated
 from koebe import _command
+from koebe._progress import Run
 
 
 @pytest.fixture
@@ -37,6 +40,39 @@ def test_the_rows_are_those_of_the_table(library, tmp_path):
     assert koebe.batch([], out) == []
 
 
+def test_progress_names_the_files_that_are_done(library, tmp_path):
+    seen = []
+    koebe.batch(library, tmp_path / "out", progress=lambda *told: seen.append(told))
+    assert [fraction for fraction, _ in seen] == [0.0, *(np.arange(1, 4) / 3).tolist(), 1.0]
+    assert seen[0][1] == "list" and seen[-1][1] == "table"
+    assert {name for _, name in seen[1:-1]} == {"a.obj", "bad.obj", "masks/b.obj"}
+
+
+def test_a_cancel_ends_the_command_and_the_next_call_goes_on(library, tmp_path):
+    (library / "large.obj").write_text(obj_text(*perforated(500)))
+    token, seen = koebe.CancelToken(), []
+
+    def first_done(fraction, name):
+        seen.append(name)
+        if fraction > 0.0:
+            token.cancel()
+
+    with pytest.raises(koebe.Cancelled):
+        koebe.batch(library, tmp_path / "out", workers=1, progress=first_done, cancel=token)
+    assert seen == ["list", "a.obj"] and not (tmp_path / "out" / "large.obj").exists()
+    threading.Timer(0.5, (later := koebe.CancelToken()).cancel).start()
+    with pytest.raises(koebe.Cancelled):
+        koebe.batch(library, tmp_path / "out", workers=1, cancel=later)
+    (library / "large.obj").unlink()
+    assert [row["exit_code"] for row in koebe.batch(library, tmp_path / "out")] == [0, 3, 0]
+
+    def fail(fraction, name):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        koebe.batch(library, tmp_path / "out", progress=fail)
+
+
 def test_a_wrong_call_is_an_option_error(library, tmp_path):
     with pytest.raises(koebe.OptionError, match="--method"):
         koebe.batch(library, tmp_path / "out", method="none")
@@ -51,6 +87,63 @@ def test_a_folder_that_cannot_be_written_is_an_error(library, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(koebe.KoebeError, match="cannot write"):
         koebe.batch(library, tmp_path / "file")
+
+
+class Done:
+    status = "finished"
+
+    def done(self):
+        return True
+
+
+class Here:
+    """Stands in for a client of Dask, and runs each task at once."""
+
+    def __init__(self, threads):
+        self.threads, self.calls = threads, []
+
+    def ncores(self):
+        return {str(worker): 1 for worker in range(self.threads)}
+
+    def submit(self, function, words, *, pure, key):
+        assert not pure and key.startswith("koebe-")
+        self.calls.append(words)
+        function(words)
+        return Done()
+
+    def gather(self, tasks):
+        assert len(tasks) == len(self.calls)
+
+
+def test_a_scheduler_gets_each_file_once_some_files_a_task(library, tmp_path):
+    here = koebe.batch(library, tmp_path / "here")
+    scheduler = Here(threads=1)
+    rows = koebe.batch([library / "masks", library], tmp_path / "there", base=library, scheduler=scheduler)
+    assert [{**row, "seconds": 0} for row in rows] == [{**row, "seconds": 0} for row in here]
+    assert all("--threads=1" in words for words in scheduler.calls)
+
+
+@pytest.mark.parametrize("files, threads, tasks", [(3, 1, 3), (40, 1, 8), (40, 100, 40), (40, 0, 40), (200, 2, 20)])
+def test_tasks_are_few_but_enough_for_all_threads(monkeypatch, tmp_path, files, threads, tasks):
+    listed = [f"/{folder}\t{file}.obj" for file in range(files // 2) for folder in "ab"] + ["/a\tz.obj"] * (files % 2)
+    ran = []
+    monkeypatch.setattr(koebe._batch, "_run_some", ran.append)
+    seen = []
+    run = Run(lambda fraction, stage: seen.append((fraction, stage)), None)
+    koebe._batch._run_on_workers(Here(threads), listed, ["--output", "/out"], run)
+    assert seen == [(1.0, f"{files} of {files} files")]
+    assert len(ran) == tasks
+    said = [(words[words.index("--base") + 1], words[: words.index("--base")]) for words in ran]
+    assert sorted(f"{home}\t{file[len(home) + 1 :]}" for home, some in said for file in some) == sorted(listed)
+
+
+@pytest.mark.parametrize(
+    "options, words",
+    [({}, ["--threads=1"]), ({"threads": 3}, []), ({"threads": 0}, []), ({"domain": "torus"}, []),
+     ({"domain": "sphere"}, ["--threads=1"])],
+)  # fmt: skip
+def test_a_file_beside_others_is_mapped_on_one_thread(options, words):
+    assert koebe._batch._one_thread(options) == words
 
 
 @pytest.mark.parametrize("number", [pytest.param(signal.SIGINT, marks=pytest.mark.slow), signal.SIGKILL])

@@ -7,6 +7,7 @@
 #include "cli/options/option_table.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
+#include "cli/process/progress_line.h"
 #include "cli/process/standard_streams.h"
 
 #include "core/errors.h"
@@ -75,8 +76,10 @@ nlohmann::ordered_json teichmueller_json(const TeichmuellerMap& map)
 
 /// The map of one surface to the other, loops matched as in `match`.
 TeichmuellerMap extremal_map_of(const ShapeInput& a, const ShapeInput& b, const LoopMatch& match,
-                                ExecutionContext& context)
+                                const CancelToken& token)
 {
+    ProgressLine progress(false);
+    ExecutionContext context(progress.callback(), token);
     std::vector<int> partners(match.order_a.size());
     for (std::size_t k = 0; k < partners.size(); ++k)
         partners[static_cast<std::size_t>(match.order_a[k])] = match.order_b[k];
@@ -98,7 +101,7 @@ int run_compare(const CompareRequest& request)
     double distance = match.distance;
     nlohmann::ordered_json extremal;
     if (request.teichmueller) {
-        const TeichmuellerMap map = extremal_map_of(a, b, match, context);
+        const TeichmuellerMap map = extremal_map_of(a, b, match, token);
         distance = map.distance();
         extremal = teichmueller_json(map);
     }

@@ -102,6 +102,16 @@ std::string result_line(const TransferRequest& request, const MappedInput& a, co
            warning_count(warnings) + "\n";
 }
 
+Correspondence found_correspondence(const std::shared_ptr<const MappedInput>& a,
+                                    const std::shared_ptr<const MappedInput>& b, const CorrespondenceOptions& options,
+                                    bool quiet, const CancelToken& token)
+{
+    ProgressLine progress(quiet);
+    ExecutionContext context(progress.callback(), token);
+    return run_detachable<Correspondence>(
+        context, [options, a, b](ExecutionContext& own) { return correspond(a->surface, b->surface, options, own); });
+}
+
 int run_transfer(const TransferRequest& request)
 {
     const CancelToken token = cancel_on_signal();
@@ -109,15 +119,14 @@ int run_transfer(const TransferRequest& request)
     const NamedLandmarks named = request.landmarks.empty() ? NamedLandmarks{} : read_landmarks(request.landmarks);
     const auto a = std::make_shared<const MappedInput>(read_and_map(request.first, request, token));
     const auto b = std::make_shared<const MappedInput>(read_and_map(request.second, request, token));
-    ExecutionContext context({}, token);
+    const ExecutionContext context({}, token);
     CorrespondenceOptions options{.match = {}, .fit_holes = !request.aligned_only, .landmarks = {}};
     if (!request.landmarks.empty()) {
         const auto on_a = surface_points(a->surface.vertices, a->surface.triangles, named.on_a);
         const auto on_b = surface_points(b->surface.vertices, b->surface.triangles, named.on_b);
         for (std::size_t i = 0; i < on_a.size(); ++i) options.landmarks.push_back({on_b[i], on_a[i]});
     }
-    const Correspondence found = run_detachable<Correspondence>(
-        context, [options, a, b](ExecutionContext& own) { return correspond(a->surface, b->surface, options, own); });
+    const Correspondence found = found_correspondence(a, b, options, request.quiet, token);
     std::vector<AtomicFile> files;
     PolygonMesh moved = a->mesh.polygons;
     moved.vertices = found.points;

@@ -11,8 +11,11 @@ import numpy as np
 
 from ._arrays import as_indices
 from ._files import whole_file
+from ._native import _koebe
 from ._options import flag, whole
+from ._progress import Run
 from ._shapes import conformal_module, match_loops, module_error, module_names
+from ._signatures import Progress
 from ._sphere import SphereMap
 from ._sphere_family import SphereFamily, sphere_family
 from ._sphere_transfer import STIFFNESS
@@ -77,6 +80,8 @@ def family(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> SphereFamily: ...
 @overload
 def family(
@@ -87,6 +92,8 @@ def family(
     orders: Sequence[Sequence[int]] | None = None,
     labels: Sequence[str] | None = None,
     error: bool = False,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> Family: ...
 def family(
     results: Sequence[Any],
@@ -101,6 +108,8 @@ def family(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> Family | SphereFamily:
     """Take one order of the loops for all shapes, and compute their modules in it; or lay closed surfaces over one.
 
@@ -112,10 +121,12 @@ def family(
     error       also compute error bars of the modules (module_error), which maps a finer mesh for each
     landmarks, fields    of results of sphere_map: of every shape its landmarks, in one order, or its fields
     moebius, bend, stiffness    of results of sphere_map, as in transfer
+    progress, cancel    as for `uniformize`
     Results of sphere_map, of closed surfaces, give a SphereFamily: each shape corresponds to the reference by
     `transfer`, and the points that correspond have a mean and distances.
     module_distance takes the best order for its two shapes, so three such distances need not obey the triangle
-    inequality; the distances of a family do. Raises InputError, also for circles that are not the surface's own.
+    inequality; the distances of a family do. Raises InputError, also for circles that are not the surface's own,
+    or Cancelled.
 
     >>> import koebe
     >>> faces = [koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised")]
@@ -126,6 +137,7 @@ def family(
     array([[0.  , 0.06],
            [0.06, 0.  ]])
     """
+    run = Run(progress, cancel)
     shapes = list(results)
     if not shapes:
         raise InputError("there are no shapes")
@@ -133,7 +145,7 @@ def family(
         if order is not None or orders is not None or error:
             raise InputError("order, orders and error are for surfaces with holes")
         how: dict[str, Any] = {"moebius": moebius, "bend": bend, "stiffness": stiffness}
-        return sphere_family(shapes, reference, labels, landmarks, fields, **how)
+        return sphere_family(shapes, reference, labels, landmarks, fields, run, **how)
     if landmarks is not None or fields is not None or moebius or bend:
         raise InputError("landmarks, fields, moebius and bend are for results of sphere_map")
     count = len(shapes[0].radii)
@@ -145,7 +157,11 @@ def family(
     if orders is None:
         first = whole(reference, "reference", least=0, most=len(shapes) - 1)
         wanted = np.arange(count, dtype=np.int32) if order is None else as_indices(order, "order", count, "loops")
-        chosen = [_like(shapes[first], shape, wanted) for shape in shapes]
+        part = run.part(0.0, 0.3 if error else 1.0)
+        chosen: list[np.ndarray] = []
+        for shape in shapes:
+            part.at(len(chosen) / len(shapes), "match")
+            chosen.append(_like(shapes[first], shape, wanted))
     elif order is not None:
         raise InputError("give one order, or the orders of all shapes")
     elif len(orders) != len(shapes):
@@ -154,10 +170,12 @@ def family(
         chosen = [as_indices(each, "orders", count, "loops") for each in orders]
     modules = [conformal_module(shape, order=each.tolist()) for shape, each in zip(shapes, chosen, strict=True)]
     names = [str(label) for label in (labels if labels is not None else range(len(shapes)))]
-    bars = None
-    if flag(error, "error"):
-        bars = np.array([module_error(shape, order=each.tolist()) for shape, each in zip(shapes, chosen, strict=True)])
-    return Family(np.array(modules), module_names(count), np.array(chosen), names, bars)
+    bars: list[np.ndarray] = []
+    for shape, each in zip(shapes, chosen, strict=True) if flag(error, "error") else ():
+        part = run.part(*(0.3 + 0.7 * (len(bars) + k) / len(shapes) for k in (0, 1)))
+        bars.append(module_error(shape, order=each.tolist(), progress=part.progress, cancel=part.cancel))
+    run.at(1.0, "finish")
+    return Family(np.array(modules), module_names(count), np.array(chosen), names, np.array(bars) if error else None)
 
 
 def _like(reference: Any, shape: Any, wanted: np.ndarray) -> np.ndarray:

@@ -12,7 +12,9 @@ import numpy as np
 from ._arrays import as_circles, as_indices, as_numbers, as_points
 from ._native import _koebe
 from ._options import choice, flag, whole
+from ._progress import Run
 from ._result import UniformizeResult
+from ._signatures import Progress
 from .errors import InputError, OptionError
 
 
@@ -55,14 +57,21 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -
     return _koebe.conformal_module(*as_circles(result), chosen_order(result, order))
 
 
-def module_error(result: UniformizeResult, *, order: Sequence[int] | str | None = None) -> np.ndarray:
+def module_error(
+    result: UniformizeResult,
+    *,
+    order: Sequence[int] | str | None = None,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
+) -> np.ndarray:
     """Error bars of conformal_module(result, order=order), lengths in the unit disk: the effect of the mesh.
 
     Maps the same surface on a mesh with four times as many faces, whose new vertices lie on the smooth surface and the
     smooth rims that the mesh approximates. Each bar is twice the change of its number plus the root mean square of all
     changes. On exact domains 97 % of the errors lie within the bars, and half of the bars are less than 5 times the
     error (docs/shapes.md). Takes about 5 times as long as the map, once for each result.
-    Raises InputError if circles are not the surface's own, SolverError.
+    progress, cancel    as for `uniformize`
+    Raises InputError if circles are not the surface's own, SolverError, Cancelled.
 
     >>> import koebe
     >>> bars = koebe.module_error(koebe.uniformize("blend_samples/face.obj"))
@@ -72,11 +81,13 @@ def module_error(result: UniformizeResult, *, order: Sequence[int] | str | None 
     if not isinstance(result, UniformizeResult):
         raise TypeError(f"module_error takes a result of uniformize, not {type(result).__name__}")
     chosen = chosen_order(result, order)
-    refined = _koebe.conformal_module(*_refined(result), chosen)
+    run = Run(progress, cancel)
+    refined = _koebe.conformal_module(*_refined(result, run), chosen)
+    run.at(1.0, "finish")
     return _koebe.module_error(conformal_module(result, order=chosen.tolist()), refined)
 
 
-def _refined(result: UniformizeResult) -> tuple[np.ndarray, np.ndarray]:
+def _refined(result: UniformizeResult, run: Run) -> tuple[np.ndarray, np.ndarray]:
     """The circles of the result's loops on a finer mesh, kept with the result."""
     kept = vars(result)
     if "_refined" not in kept:
@@ -84,7 +95,7 @@ def _refined(result: UniformizeResult) -> tuple[np.ndarray, np.ndarray]:
         options.method = choice(result.method, "method", _koebe.Method)
         options.engine = choice(result.engine, "engine", _koebe.Engine)
         _require_own_circles(result)
-        kept["_refined"] = _koebe.refined_circles(mapped_surface(result), options)
+        kept["_refined"] = _koebe.refined_circles(mapped_surface(result), options, run.progress, run.cancel)
     return kept["_refined"]
 
 

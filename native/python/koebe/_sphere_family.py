@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ._options import whole
+from ._progress import Run
 from ._sphere import SphereMap
 from ._sphere_alignment import nearest_rotation
 from ._sphere_transfer import SphereCorrespondence, vertex_areas
@@ -55,6 +56,7 @@ def sphere_family(
     labels: Sequence[str] | None,
     landmarks: Sequence[Sequence[Any]] | None,
     fields: Sequence[Any] | None,
+    run: Run,
     **how: Any,
 ) -> SphereFamily:
     """The family, with correspondences by `transfer` from each shape to the reference.
@@ -79,6 +81,8 @@ def sphere_family(
                 raise InputError(f"shape {number} has {len(landmarks[number])} landmarks, not {len(landmarks[first])}")
             pairs = list(zip(landmarks[number], landmarks[first], strict=True))
         both = None if fields is None else (fields[number], fields[first])
+        part = run.part(number / len(shapes), (number + 1) / len(shapes))
+        how |= {"progress": part.progress, "cancel": part.cancel}
         laid = transfer(shape, base, landmarks=pairs, fields=both, **how)
         found.append(laid)
         points.append(laid.points)
@@ -88,6 +92,7 @@ def sphere_family(
     laid = np.where(used[None, :, None], np.array(points), np.nan)
     laid[:, used] = _over_their_mean(laid[:, used], weights[used])
     names = [str(label) for label in (labels if labels is not None else range(len(shapes)))]
+    run.at(1.0, "finish")
     return SphereFamily(laid, laid.mean(axis=0), base.triangles, weights, found, names)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from ._files import whole_file
 from ._native import _koebe
 from ._options import flag
+from ._progress import Run
 from ._report_entries import Warning
 from ._result import Beltrami
 from ._sphere import SphereMap
@@ -123,6 +124,7 @@ def sphere_transfer(
     moebius: bool,
     bend: bool,
     stiffness: float,
+    run: Run,
 ) -> SphereCorrespondence:
     """The correspondence by the Moebius map, or the rotation, that fits landmarks or fields best, then bent or not."""
     for name, one in (("a", a), ("b", b)):
@@ -137,11 +139,13 @@ def sphere_transfer(
         raise InputError("bend needs fields, or landmarks")
     if not (np.ndim(stiffness) == 0 and np.isfinite(stiffness) and stiffness > 0.0):
         raise OptionError(f"stiffness must be a finite number above 0, not {stiffness!r}")
+    run.at(0.0, "align")
     located = _Located(a.points, a.triangles)
     on_a, on_b = (_vertices(one, [pair[side] for pair in pairs]) for side, one in enumerate((a, b)))
     both = None if fields is None else _checked(fields, a, b)
     if both is not None and len(pairs) < 3:
-        matrix = by_fields(located.values, b.points, vertex_areas(b), both, free)
+        part = run.part(0.0, 0.3 if bent else 0.9)
+        matrix = by_fields(located.values, b.points, vertex_areas(b), both, free, lambda share: part.at(share, "align"))
     elif free and 0 < len(pairs) < 3:
         raise InputError("a Moebius map needs three landmarks at least")
     else:
@@ -152,9 +156,11 @@ def sphere_transfer(
     if bent:
         before = None if both is None else _similarity(located, sphere, b, both)
         none = np.zeros((0, 0))
-        sphere, bending = _bent(a, b, sphere, both or (none, none), on_a, on_b, float(stiffness))
+        part = run.part(0.0 if both is None or len(pairs) >= 3 else 0.3, 0.9)
+        sphere, bending = _bent(a, b, sphere, both or (none, none), on_a, on_b, float(stiffness), part)
         bending |= {"similarity_before": before, "flipped": 0}  # else register_spheres has raised an error
         sphere[~used] = np.nan
+    run.at(0.9, "finish")
     faces, weights = np.full(b.vertex_count, -1, np.int32), np.full((b.vertex_count, 3), np.nan)
     faces[used], weights[used] = located.at(sphere[used])
     points = np.einsum("vk,vkc->vc", weights, a.vertices[a.triangles[faces]])
@@ -165,6 +171,7 @@ def sphere_transfer(
         text = "the bending ended before it settled: a greater stiffness settles sooner"
         told.append(Warning(kind="not_converged", elements=[], text=text))
         python_warnings.warn(told[0], stacklevel=3)
+    run.at(1.0, "finish")
     return SphereCorrespondence(
         faces, weights, points, sphere, matrix, misses, similarity, bending, a.triangles, a.vertex_count, b.points,
         b.triangles, told,
@@ -179,12 +186,13 @@ def _bent(
     on_a: np.ndarray,
     on_b: np.ndarray,
     stiffness: float,
+    run: Run,
 ) -> tuple[np.ndarray, Bending]:
     """b's vertices on a's sphere after the bending, and its figures."""
     found = _koebe.register_spheres(
         a.vertices, _upright(a.points, a.triangles), _anywhere(a.points), fields[0],
         b.vertices, _upright(b.points, b.triangles), _anywhere(sphere), fields[1],
-        on_b.tolist(), a.points[on_a], stiffness,
+        on_b.tolist(), a.points[on_a], stiffness, run.progress, run.cancel,
     )  # fmt: skip
     return found.pop("sphere"), found
 

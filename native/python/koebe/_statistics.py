@@ -13,8 +13,10 @@ from ._family import Family
 from ._input import surface_of
 from ._native import _koebe
 from ._options import whole
+from ._progress import Run
 from ._result import Source, UniformizeResult
 from ._shapes import chosen_order, conformal_module
+from ._signatures import Progress
 from ._sphere_family import SphereFamily
 from ._surface import Surface
 from .errors import InputError, KoebeError, OptionError, SolverError
@@ -80,16 +82,20 @@ def noise_error(
     order: Sequence[int] | str | None = None,
     samples: int = 24,
     seed: int = 0,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> np.ndarray:
     """Error bars of conformal_module(result, order=order), lengths in the unit disk: the effect of noise in a scan.
 
     noise     standard deviation of each coordinate of a vertex, in the surface's unit; None: vertex_noise of it
     samples   surfaces with further noise that are mapped: each takes about half the time of a map
     seed      of the random numbers: the same seed gives the same bars
+    progress, cancel    as for `uniformize`
     A parametric bootstrap: the surface gets as much noise again, and a bar is the mean change of its number plus twice
     its standard deviation, as sizes. It holds for independent noise of up to a tenth of an edge. It says nothing about
     the coarseness of the mesh: that is module_error; add the squares of both. docs/shapes.md has figures, and says
-    where the bars fail. Raises InputError, and SolverError if fewer than half of the noisy surfaces can be mapped.
+    where the bars fail. Raises InputError, Cancelled, and SolverError if fewer than half of the noisy surfaces can be
+    mapped.
 
     >>> import koebe
     >>> result = koebe.uniformize("blend_samples/face.obj")
@@ -107,17 +113,20 @@ def noise_error(
     random = np.random.default_rng(whole(seed, "seed", least=0))
     surface = Surface(*result.surface, outer=int(result.loops[0][0]))
     firsts, changes = [int(loop[0]) for loop in result.loops], []
-    for _ in range(count):
+    run = Run(progress, cancel)
+    for number in range(count):
+        run.at(number / count, "map")
         try:
             with np.errstate(over="ignore"):
                 moved = result.vertices + sigma * random.normal(size=result.vertices.shape)
-            noisy = surface.uniformize(moved)
+            noisy = surface.uniformize(moved, cancel=run.cancel)
             place = [next(k for k, loop in enumerate(noisy.loops) if first in loop) for first in firsts]
             there = _koebe.conformal_module(noisy.centers, noisy.radii, np.array(place, np.int32)[chosen])
         except KoebeError:  # too much noise for this surface
             surface = Surface(*result.surface, outer=firsts[0])
             continue
         changes.append(there - module)
+    run.at(1.0, "finish")
     if 2 * len(changes) < count or len(changes) < 2:
         raise SolverError(f"with this noise {count - len(changes)} of {count} surfaces cannot be mapped")
     moves = np.array(changes)

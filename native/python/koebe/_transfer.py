@@ -12,10 +12,12 @@ import numpy as np
 from ._arrays import as_indices, as_numbers
 from ._fit import FitResult
 from ._native import _koebe
-from ._options import flag, vertex
+from ._options import callback, flag, token, vertex
+from ._progress import Run
 from ._report_entries import Warning
 from ._result import Beltrami, UniformizeResult
 from ._shapes import DomainAlignment, mapped_surface
+from ._signatures import Progress
 from ._sphere import SphereMap
 from ._sphere_transfer import STIFFNESS, SphereCorrespondence, sphere_transfer
 from ._transfer_carry import carried, landmark_pairs
@@ -79,6 +81,8 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> Correspondence: ...
 @overload
 def transfer(
@@ -91,6 +95,8 @@ def transfer(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> SphereCorrespondence: ...
 @overload
 def transfer(
@@ -101,6 +107,8 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> np.ndarray: ...
 @overload
 def transfer(
@@ -113,6 +121,8 @@ def transfer(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> np.ndarray: ...
 def transfer(
     a: UniformizeResult | SphereMap,
@@ -126,6 +136,8 @@ def transfer(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
+    progress: Progress | None = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> Correspondence | SphereCorrespondence | np.ndarray:
     """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
 
@@ -147,6 +159,7 @@ def transfer(
                and landmarks meet exactly. With bend=True both may be given
     stiffness  of this bending, above 0: its elastic energy over half the mean square difference of the fields, which
                have mean 0 and standard deviation 1
+    progress, cancel    as for `uniformize`
     Holes that could not be bent onto each other give a koebe.Warning, too. Without a hole, or with one, landmarks also
     choose the automorphism of the disk: the one that brings them nearest.
     Two results of sphere_map, of closed surfaces, correspond through the sphere: as the spheres are, or with landmarks
@@ -154,7 +167,7 @@ def transfer(
     point (x, y, z) stands for the nearest vertex. Without a field it returns a SphereCorrespondence.
     Two results of fit_circles with the same circles already lie over each other: circle k corresponds to circle k.
     Raises InputError, also if circles are not the surface's own and for landmarks that exclude each other, and
-    SolverError if no such map was found: `elements` are the landmarks, by their places in the list.
+    SolverError if no such map was found: `elements` are the landmarks, by their places in the list. Cancelled.
 
     >>> import koebe, numpy as np
     >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
@@ -168,7 +181,7 @@ def transfer(
     if isinstance(a, SphereMap) and isinstance(b, SphereMap):
         if match is not None or fit is not True:
             raise InputError("match and fit are for surfaces with holes")
-        found_on_sphere = sphere_transfer(a, b, landmarks, fields, moebius, bend, stiffness)
+        found_on_sphere = sphere_transfer(a, b, landmarks, fields, moebius, bend, stiffness, Run(progress, cancel))
         return found_on_sphere if field is None else found_on_sphere.carry(field)
     if fields is not None or moebius or bend:
         raise InputError("fields, moebius and bend are for two results of sphere_map")
@@ -184,7 +197,8 @@ def transfer(
     if same and match is None:
         chosen = list(range(len(a.loops)))
     surfaces = mapped_surface(b, same), mapped_surface(a, same)
-    found = _koebe.correspond(*surfaces, chosen, flag(fit, "fit"), on_b, on_a)
+    run = callback(progress, "progress"), token(cancel, "cancel")
+    found = _koebe.correspond(*surfaces, chosen, flag(fit, "fit"), on_b, on_a, *run)
     _forget(found, ~b._source.used)
     found["alignment"] = DomainAlignment(found["alignment"], b.radii)
     found["warnings"] = [Warning(warning) for warning in found["warnings"]]

@@ -1,0 +1,37 @@
+"""The progress and the cancel of a call that consists of several native calls."""
+
+from typing import Any
+
+from ._native import _koebe
+from ._options import callback, token
+from ._signatures import Progress
+from .errors import Cancelled
+
+
+class Run:
+    """The progress and the cancel of one call, or of a part of it.
+
+    progress, cancel    as for `uniformize`
+    """
+
+    def __init__(self, progress: Any, cancel: Any) -> None:
+        self.progress: Progress | None = callback(progress, "progress")
+        self.cancel: _koebe.CancelToken = token(cancel, "cancel")
+
+    def part(self, begin: float, end: float) -> "Run":
+        """A part of the call, from one fraction of its progress to another."""
+        told = self.progress
+        if told is None:
+            return self
+        return Run(lambda fraction, stage: told((1.0 - fraction) * begin + fraction * end, stage), self.cancel)
+
+    def at(self, fraction: float, stage: str) -> None:
+        """Tells the progress. Raises Cancelled if the caller asked to stop."""
+        if self.progress is not None:
+            self.progress(fraction, stage)
+        self.check()
+
+    def check(self) -> None:
+        """Raises Cancelled if the caller asked to stop."""
+        if self.cancel.cancelled:
+            raise Cancelled("cancelled by the caller")
