@@ -39,8 +39,8 @@ def test_even_is_dragged_restored_and_kept(window, open_sample):
     assert window.press("uv.koebe_even") is None
     window.settle()
     start = time.time()
-    for step in range(1, 21):
-        xdotool("mousemove", int(x + 15 * step), int(y), "sleep", "0.1")
+    way = [("mousemove", int(x + 5 * step), int(y), "sleep", "0.03") for step in range(1, 61)]
+    xdotool(*(word for step in way for word in step))
     seconds = time.time() - start
     window.wait("len(heart.shows) > 1")
     moves = window.ask("len(heart.shows)")
