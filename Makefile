@@ -268,9 +268,10 @@ bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the 
 bench-many: native build/venv-labs/.done ## COUNT=10000 small surfaces at once: surfaces a second a core, what processes and Dask cost
 	PYTHONPATH=build/python build/venv-labs/bin/python bench/many_surfaces.py $(COUNT)
 
-figures: programs $(DONE)/install-blender ## measure the figures of README.md and docs/ and write them there; the guide's drawn pictures
+figures: programs $(DONE)/install-blender build/venv-labs/.done ## measure the figures of README.md and docs/ and write them there; the pages' drawn pictures
 	$(PYTHON) bench/doc_figures.py
 	scripts/guide_pictures.sh drawn
+	scripts/guide_pictures.sh plotted
 
 guide-pictures: test-gui ## the guide's pictures of the window
 	scripts/guide_pictures.sh window

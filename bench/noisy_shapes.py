@@ -13,6 +13,7 @@ import numpy as np
 
 HOLES = ((0.30, 0.30, 0.11), (0.70, 0.34, 0.13), (0.48, 0.72, 0.12))
 PER_GROUP = 10
+EFFECTS = (0.0, 0.025, 0.05, 0.1, 0.2, 0.4)
 
 
 def plate(cells):
@@ -77,30 +78,36 @@ def bars(surfaces=10, cells=26):
         print(f"| {level} | {middle} | {refused} of {surfaces} |", flush=True)
 
 
+def two_groups(points, triangles, random, effect):
+    """The groups (N,) of a sample, and its distances (N, N), of modules and of separations."""
+    groups = np.arange(2 * PER_GROUP) >= PER_GROUP
+    maps = [koebe.uniformize(bent(points, random, 0.01, effect * other), triangles) for other in groups]
+    orders = [by_vertex(one, maps[0]) for one in maps]
+    tables = np.array([koebe.separations(one)[np.ix_(k, k)] for one, k in zip(maps, orders)])
+    apart = np.sqrt(((tables[:, None] - tables[None]) ** 2).mean(axis=(2, 3)))
+    return groups, {"modules": koebe.family(maps, orders=orders).distances, "separations": 0.5 * (apart + apart.T)}
+
+
 def power(experiments=100, cells=20):
-    """A row for each effect: how often p is at most 0.05, by the distance of modules and by separations."""
+    """By effect: how often p is at most 0.05, by the kind of distance, and of how many experiments."""
     points, triangles = plate(cells)
     print(f"| third hole larger by | modules, p <= 0.05 | separations, p <= 0.05 | experiments of 2 x {PER_GROUP} |")
     print("| --- | --- | --- | --- |")
-    for effect in (0.0, 0.05, 0.1, 0.2):
-        random, hits = np.random.default_rng(int(1000 * effect) + 3), np.zeros(2)
-        runs = 2 * experiments if effect == 0.0 else experiments // 2
+    found = {}
+    for effect in EFFECTS:
+        random, runs = np.random.default_rng(int(1000 * effect) + 3), experiments if effect else 2 * experiments
+        hits = {"modules": 0, "separations": 0}
         for _ in range(runs):
-            maps = []
-            for member in range(2 * PER_GROUP):
-                positions = bent(points, random, 0.01, effect * (member >= PER_GROUP))
-                maps.append(koebe.uniformize(positions, triangles))
-            modules = koebe.family(maps, orders=[_by_vertex(one, maps[0]) for one in maps]).distances
-            tables = [koebe.separations(one)[np.ix_(k, k)] for one in maps for k in [_by_vertex(one, maps[0])]]
-            apart = np.sqrt(((np.array(tables)[:, None] - np.array(tables)[None]) ** 2).mean(axis=(2, 3)))
-            groups = np.arange(2 * PER_GROUP) >= PER_GROUP
-            for kind, distances in enumerate((modules, 0.5 * (apart + apart.T))):
-                hits[kind] += koebe.permutation_test(distances, groups, permutations=999).p <= 0.05
-        rates = " | ".join(f"{100 * hit / runs:.1f} %" for hit in hits)
-        print(f"| {100 * effect:.0f} % | {rates} | {runs} |", flush=True)
+            groups, distances = two_groups(points, triangles, random, effect)
+            for kind in hits:
+                hits[kind] += koebe.permutation_test(distances[kind], groups, permutations=999).p <= 0.05
+        found[effect] = {kind: hit / runs for kind, hit in hits.items()}, runs
+        rates = " | ".join(f"{100 * rate:.1f} %" for rate in found[effect][0].values())
+        print(f"| {100 * effect:g} % | {rates} | {runs} |", flush=True)
+    return found
 
 
-def _by_vertex(one, first):
+def by_vertex(one, first):
     """The loops of a map in the order of the first map's, by a vertex of each."""
     return [next(k for k, loop in enumerate(one.loops) if wanted[0] in loop) for wanted in first.loops]
 

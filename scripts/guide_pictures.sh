@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# The guide's pictures.
+# The pages' pictures.
 # Usage: scripts/guide_pictures.sh window     cut out of those that `make test-gui` leaves in out/gui
 #        scripts/guide_pictures.sh film       the film at the top, filmed in a window on a screen of its own
+#        scripts/guide_pictures.sh plotted    drawn by matplotlib, beside the packages of `make test-labs`
 #        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand, mug and character in parts, a torus tile, a sphere
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -46,8 +47,13 @@ drawn)
     draw mug tile_picture.py "$images/guide_tile.jpg"  # which takes nothing of the file
     draw closed_head sphere_picture.py "$images/guide_sphere.jpg"
     ;;
+plotted)
+    for name in fit formats landmark noise teichmueller template_image; do
+        PYTHONPATH=build/python build/venv-labs/bin/python "scripts/${name}_picture.py"
+    done
+    ;;
 *)
-    echo "window, film or drawn" >&2
+    echo "window, film, drawn or plotted" >&2
     exit 2
     ;;
 esac

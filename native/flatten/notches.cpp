@@ -135,7 +135,7 @@ void number_pieces(const std::vector<FlatPart>& parts, PlacedPieces& placed)
         }
         const int number = static_cast<int>(k) + 1;
         const double height = std::max(std::min(piece_text, share_of_room * room), least_text);
-        sheet_of(placed, k).labels.push_back({"P" + std::to_string(number), number, best, height, 0.0});
+        sheet_of(placed, k).labels.push_back({'P' + std::to_string(number), number, best, height, 0.0});
     }
 }
 

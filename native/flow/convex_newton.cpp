@@ -46,16 +46,14 @@ VectorXd ConvexNewton::solve(SparseMatrix hessian, const VectorXd& right)
     for (double shift = first_shift;; shift *= 1e2) {
         const SparseMatrix matrix = grounded(hessian, shift * scale);
         try {
-            if (std::vector<Index> pattern = pattern_of(matrix); cholesky_ && pattern == pattern_) {
-                cholesky_->refactorize(matrix);
-            } else {
-                cholesky_ = std::make_unique<SparseCholesky>(matrix);
+            if (std::vector<Index> pattern = pattern_of(matrix); pattern != pattern_) {
+                factor_.reset();
                 pattern_ = std::move(pattern);
             }
-            return cholesky_->solve(right).col(0);
+            return factored(factor_, matrix).solve(right).col(0);
         } catch (const SolverError&) {
             // Collapsed faces leave the Hessian singular up to round-off.
-            cholesky_.reset();
+            factor_.reset();
             if (shift >= last_shift) throw;
         }
     }

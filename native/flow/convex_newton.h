@@ -3,9 +3,8 @@
 
 #include "core/types.h"
 #include "execution/execution.h"
-#include "linear/sparse_cholesky.h"
+#include "linear/kept_factor.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,7 +45,7 @@ private:
     VectorXd solve(SparseMatrix hessian, const VectorXd& right);
 
     std::vector<Index> pattern_;
-    std::unique_ptr<SparseCholesky> cholesky_;
+    KeptFactor factor_;
 };
 
 }  // namespace koebe

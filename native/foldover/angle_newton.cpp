@@ -1,13 +1,12 @@
 #include "foldover/angle_newton.h"
 
 #include "core/errors.h"
-#include "linear/sparse_cholesky.h"
+#include "linear/kept_factor.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace koebe {
 namespace {
@@ -40,11 +39,7 @@ public:
         for (const double e : map_.error) weight_.push_back(1.0 / std::sqrt(e * e + least * least));
         assemble();
         try {
-            if (solver_)
-                solver_->refactorize(hessian_);
-            else
-                solver_.emplace(hessian_);
-            step_ = -solver_->solve(gradient_);
+            step_ = -factored(solver_, hessian_).solve(gradient_);
         } catch (const SolverError&) {
             return false;
         }
@@ -154,7 +149,7 @@ private:
     std::vector<Block> blocks_;
     SparseMatrix hessian_;  // the lower triangle
     VectorXd gradient_, step_;
-    std::optional<SparseCholesky> solver_;
+    KeptFactor solver_;
 };
 
 AngleNewton::AngleNewton(const AngleMap& map) : impl_(std::make_unique<Impl>(map)) {}

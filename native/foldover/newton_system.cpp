@@ -1,7 +1,5 @@
 #include "foldover/newton_system.h"
 
-#include "core/errors.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -297,32 +295,7 @@ void NewtonSystem::add_bends()
 
 std::pair<VectorXd, double> NewtonSystem::descent()
 {
-    for (Index i = 0; i < unknowns_; ++i) {
-        double& diagonal = pattern_.hessian.valuePtr()[pattern_.hessian.outerIndexPtr()[i]];
-        diagonal = diagonal > 0.0 ? (1.0 + shift) * diagonal : 1.0;  // a track without riders
-    }
-    VectorXd step = newton_direction();
-    double slope = gradient_.dot(step);
-    if (!(slope < 0.0) || !step.allFinite()) {
-        step = -gradient_.cwiseQuotient(pattern_.hessian.diagonal().cwiseMax(1e-300));
-        slope = gradient_.dot(step);
-    }
-    return {std::move(step), slope};
-}
-
-/// -H^-1 gradient; 0 if H is singular.
-VectorXd NewtonSystem::newton_direction()
-{
-    try {
-        if (pattern_.solver)
-            pattern_.solver->refactorize(pattern_.hessian);
-        else
-            pattern_.solver.emplace(pattern_.hessian);
-        return -pattern_.solver->solve(gradient_);
-    } catch (const SolverError&) {
-        pattern_.solver.reset();
-        return VectorXd::Zero(unknowns_);
-    }
+    return newton_descent(pattern_.hessian, gradient_, shift, pattern_.solver);  // tracks without riders have only 0
 }
 
 FoldoverPlaces NewtonSystem::moved(const VectorXd& step, double share) const

@@ -3,12 +3,11 @@
 
 #include "foldover/face_energy.h"
 #include "foldover/foldover_problem.h"
-#include "linear/sparse_cholesky.h"
+#include "linear/kept_factor.h"
 
 #include <Eigen/Core>
 
 #include <array>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,7 +19,7 @@ struct NewtonPattern {
     std::vector<int> track_of;         ///< (V) and the tracks
     SparseMatrix hessian;
     std::vector<std::array<Index, 3>> places;  ///< per face and corner: set by NewtonSystem::set_pattern
-    std::optional<SparseCholesky> solver;
+    KeptFactor solver;
 };
 
 /// A free vertex has two unknowns. A sliding or riding vertex has one unknown: the way along its circle or track. The
@@ -73,7 +72,6 @@ private:
     void add_shared_pairs(Eigen::Index f, std::vector<std::pair<Index, Index>>& pairs) const;
     void add(Index column_vertex, Index row_vertex, Index place, const Eigen::Matrix2d& block);
     void add_by_columns(Eigen::Index f, const FaceDerivatives& face, const WantedShape& shape);
-    VectorXd newton_direction();
 
     const FoldoverProblem& problem_;
     std::vector<Index> first_unknown_;  // per vertex, -1 if it is held

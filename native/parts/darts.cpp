@@ -1,5 +1,6 @@
 #include "parts/darts.h"
 
+#include "core/complex_places.h"
 #include "core/errors.h"
 #include "cut/edge_graph.h"
 #include "even/even_map.h"
@@ -27,8 +28,6 @@ constexpr double share_if_round = 0.25;  // of the foretold gain, if the dart be
 constexpr double clear_of_round =
     0.04;                           // least distance of other darts from round loops, in roots of the surface's area
 constexpr double first_gap = 0.05;  // between the sides of a dart, over the least height of a face beside it
-
-Complex place(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
 /// The path from a vertex to the boundary. Its cost is a length, longer where the surface is shown. @return nothing if
 /// the vertex is on it, or if there is no path
@@ -67,11 +66,12 @@ VectorXd distances(const FlatPart& flat, const std::vector<Index>& sources)
 /// A vertex between its neighbours on the boundary, the surface on the left, moved into the surface.
 Complex drawn_in(const PlanarPoints& points, Index before, Index v, Index after, double by)
 {
-    const Complex out = place(points, after) - place(points, v), in = place(points, before) - place(points, v);
-    if (out == 0.0 || in == 0.0) return place(points, v);
+    const Complex out = complex_at(points, after) - complex_at(points, v),
+                  in = complex_at(points, before) - complex_at(points, v);
+    if (out == 0.0 || in == 0.0) return complex_at(points, v);
     double angle = std::arg(in / out);
     if (angle <= 0.0) angle += 2.0 * std::numbers::pi;
-    return place(points, v) + std::polar(by, std::arg(out) + 0.5 * angle);
+    return complex_at(points, v) + std::polar(by, std::arg(out) + 0.5 * angle);
 }
 
 /// (V) the least height of the faces round each vertex.

@@ -1,5 +1,6 @@
 #include "parts/free_rims.h"
 
+#include "core/complex_places.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/distortion.h"
@@ -45,8 +46,6 @@ FaceWeights face_weights(double l01, double l12, double l20)
     return weights;
 }
 
-Complex point(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
-
 class RimProblem {
 public:
     RimProblem(const Vertices& vertices, const Surface& surface, const RimFreedom& freedom, const PlanarPoints& start)
@@ -87,8 +86,8 @@ public:
     {
         Index count = 0;
         for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
-            const Complex a = point(points, faces_(f, 0));
-            const Complex b = point(points, faces_(f, 1)) - a, c = point(points, faces_(f, 2)) - a;
+            const Complex a = complex_at(points, faces_(f, 0));
+            const Complex b = complex_at(points, faces_(f, 1)) - a, c = complex_at(points, faces_(f, 2)) - a;
             count += !(std::imag(std::conj(b) * c) > 0.0);
         }
         return count;
@@ -138,8 +137,8 @@ private:
         for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
             Complex zbar = 0.0, z = 0.0;
             for (int k = 0; k < 3; ++k) {
-                zbar += weights_[f].zbar[k] * point(points, faces_(f, k));
-                z += weights_[f].z[k] * point(points, faces_(f, k));
+                zbar += weights_[f].zbar[k] * complex_at(points, faces_(f, k));
+                z += weights_[f].z[k] * complex_at(points, faces_(f, k));
             }
             scale[f] = 1.0 / std::max({std::abs(z), std::abs(zbar), 1e-300});
             mu[f] = scale[f] * zbar;
@@ -167,7 +166,8 @@ private:
             for (int k = 0; k < 3; ++k)
                 for (const int l : {1, 2})
                     if (const Index row = unknown(faces_(f, k)); row >= 0) {
-                        edges[row] += std::norm(point(points, faces_(f, (k + l) % 3)) - point(points, faces_(f, k)));
+                        edges[row] +=
+                            std::norm(complex_at(points, faces_(f, (k + l) % 3)) - complex_at(points, faces_(f, k)));
                         count[row] += 1.0;
                     }
         for (std::size_t v = 0; v < same_.size(); ++v) {
@@ -175,7 +175,7 @@ private:
             if (row < 0) continue;
             const double pull = tether * count[row] / std::max(edges[row], 1e-300);
             entries.emplace_back(row, row, pull);
-            right[row] += pull * (point(start_, vertex) - point(points, vertex));
+            right[row] += pull * (complex_at(start_, vertex) - complex_at(points, vertex));
         }
     }
 

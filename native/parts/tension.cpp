@@ -1,13 +1,12 @@
 #include "parts/tension.h"
 
+#include "core/complex_places.h"
 #include "planar/planar_predicates.h"
 
 #include <numeric>
 
 namespace koebe {
 namespace {
-
-Complex place(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
 
 /// The last half-edge from the same vertex, counter-clockwise, before the boundary.
 Index last_counter_clockwise(const Surface& surface, Index h)
@@ -57,7 +56,7 @@ Tension::Tension(const FlatPart& flat, const EvenForces& forces)
 
 Complex Tension::at(Index v, Index from, Index to) const
 {
-    const Complex way = place(flat_.points, from) - place(flat_.points, to >= 0 ? to : v);
+    const Complex way = complex_at(flat_.points, from) - complex_at(flat_.points, to >= 0 ? to : v);
     const double length = std::abs(way);
     if (!(length > 0.0)) return 0.0;
     const Complex half = pull_of_left(v, from, to) - 0.5 * whole_[v];

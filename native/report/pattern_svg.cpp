@@ -17,7 +17,7 @@ std::string number(double value)
 
 std::string attribute(const char* name, const std::string& value)
 {
-    return " " + std::string(name) + "=\"" + value + "\"";
+    return ' ' + std::string(name) + "=\"" + value + "\"";
 }
 
 /// A page of a sheet.
@@ -101,7 +101,7 @@ private:
                           attribute("width", number(frame_width())) + attribute("height", number(frame_height())) +
                           "/>\n";
         const double bar = frame_width() > 3.0 * bar_length ? bar_length : 10.0, under = low + 0.5 * m;
-        svg += strokes("M" + number(m) + " " + number(under - 1.0) + "v2M" + number(m) + " " + number(under) + "h" +
+        svg += strokes('M' + number(m) + " " + number(under - 1.0) + "v2M" + number(m) + " " + number(under) + "h" +
                        number(bar) + "m0 -1v2");
         std::string words =
             number(bar) + " mm · page " + std::to_string(page_number(column_, row_)) + " of " + std::to_string(all_);
@@ -112,7 +112,7 @@ private:
         if (sheet_.pages() == 1) return svg;
         for (const double px : {m, right})
             for (const double py : {m, low})
-                svg += strokes("M" + number(px - cross_arm) + " " + number(py) + "h" + number(2.0 * cross_arm) + "M" +
+                svg += strokes('M' + number(px - cross_arm) + " " + number(py) + "h" + number(2.0 * cross_arm) + "M" +
                                number(px) + " " + number(py - cross_arm) + "v" + number(2.0 * cross_arm));
         const double middle_x = 0.5 * (m + right), middle_y = 0.5 * (m + low);
         if (column_ > 0) svg += joint_at(m, middle_y, 1.0, 0.0, column_ - 1, row_);
@@ -127,7 +127,7 @@ private:
     {
         const int own = page_number(column_, row_), other = page_number(column, row);
         const std::string r = number(joint), back = number(-joint);
-        return strokes("M" + number(px - joint) + " " + number(py) + "l" + r + " " + back + "l" + r + " " + r + "l" +
+        return strokes('M' + number(px - joint) + " " + number(py) + "l" + r + " " + back + "l" + r + " " + r + "l" +
                        back + " " + r + "z") +
                note(px + 3.0 * joint * inwards_x, py + 2.0 * joint * inwards_y + 0.35 * page_text,
                     std::to_string(std::min(own, other)) + "–" + std::to_string(std::max(own, other)), "middle");

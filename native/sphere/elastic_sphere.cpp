@@ -1,7 +1,6 @@
 #include "sphere/elastic_sphere.h"
 
 #include "foldover/face_energy.h"
-#include "linear/sparse_cholesky.h"
 #include "sphere/sphere_check.h"
 
 #include <Eigen/Geometry>
@@ -10,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -43,9 +41,10 @@ FlatFace flat_face(const Vertices& points, const Triangles& triangles, Eigen::In
 
 class SphereRelaxation {
 public:
-    SphereRelaxation(const ElasticSphere& sphere, Vertices& points)
+    SphereRelaxation(const ElasticSphere& sphere, Vertices& points, KeptFactor& factor)
         : sphere_(sphere),
           points_(points),
+          factor_(factor),
           energy_{sphere.area_weight, sphere.slack > 0.0 ? 2.0 : 1.0, sphere.slack, unregularized}
     {
         if (sphere.slack > 0.0) energy_.scale = std::sqrt(2.0 * (sphere.area_weight + sphere.slack));
@@ -151,24 +150,7 @@ private:
         }
         hessian_.resize(unknowns_, unknowns_);
         hessian_.setFromTriplets(entries_.begin(), entries_.end());
-        for (Index i = 0; i < unknowns_; ++i) {
-            double& diagonal = hessian_.coeffRef(i, i);
-            diagonal = diagonal > 0.0 ? (1.0 + diagonal_shift) * diagonal : 1.0;
-        }
-        VectorXd step;
-        try {
-            if (solver_)
-                solver_->refactorize(hessian_);
-            else
-                solver_.emplace(hessian_);
-            step = -solver_->solve(gradient);
-        } catch (const SolverError&) {
-            solver_.reset();
-        }
-        if (step.size() == 0 || !step.allFinite() || !(gradient.dot(step) < 0.0))
-            step = -gradient.cwiseQuotient(hessian_.diagonal());
-        const double slope = gradient.dot(step);
-        return {std::move(step), slope};
+        return newton_descent(hessian_, gradient, diagonal_shift, factor_);
     }
 
     Vertices moved(const VectorXd& step, double share) const
@@ -203,6 +185,7 @@ private:
 
     const ElasticSphere& sphere_;
     Vertices& points_;
+    KeptFactor& factor_;
     FaceEnergy energy_;
     double least_ = 0.0;  // of a face's term
     std::vector<WantedShape> shapes_;
@@ -210,7 +193,6 @@ private:
     Index unknowns_ = 0;
     std::vector<Eigen::Triplet<double, Index>> entries_;
     SparseMatrix hessian_;
-    std::optional<SparseCholesky> solver_;
 };
 
 }  // namespace
@@ -231,9 +213,9 @@ bool all_upright(const Triangles& triangles, const Vertices& points)
 }
 
 ElasticRelaxation relax_on_sphere(const ElasticSphere& sphere, Vertices& points, int most_steps, double settled,
-                                  const ExecutionContext& context)
+                                  KeptFactor& factor, const ExecutionContext& context)
 {
-    return SphereRelaxation(sphere, points).run(most_steps, settled, context);
+    return SphereRelaxation(sphere, points, factor).run(most_steps, settled, context);
 }
 
 }  // namespace koebe

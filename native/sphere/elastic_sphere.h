@@ -3,6 +3,7 @@
 
 #include "core/types.h"
 #include "execution/execution.h"
+#include "linear/kept_factor.h"
 
 #include <Eigen/Core>
 
@@ -42,9 +43,10 @@ Eigen::Matrix2d flat_edges(const Vertices& points, const Triangles& triangles, E
 /// all faces are upright in exact arithmetic and the energy falls.
 /// @param points (V, 3) in: unit vectors, all faces upright; out: likewise
 /// @param settled relative decrease of the energy at which the minimization ends
+/// @param factor empty, or as an earlier call with the same triangles and held vertices left it
 /// @throws Cancelled
 ElasticRelaxation relax_on_sphere(const ElasticSphere& sphere, Vertices& points, int most_steps, double settled,
-                                  const ExecutionContext& context);
+                                  KeptFactor& factor, const ExecutionContext& context);
 
 /// Whether all faces are upright, in exact arithmetic.
 bool all_upright(const Triangles& triangles, const Vertices& points);

@@ -37,6 +37,7 @@ bool make_sphere_even(const PeriodicSurface& domain, double even, Vertices& poin
     sphere.held.assign(static_cast<std::size_t>(points.rows()), 0);
     for (const VertexLoop& loop : domain.loops)
         for (const Index v : loop) sphere.held[v] = 1;
+    KeptFactor factor;
     int steps = 0;
     for (int approach = 0; approach < most_approaches; ++approach) {
         double far = 0.0;
@@ -47,10 +48,10 @@ bool make_sphere_even(const PeriodicSurface& domain, double even, Vertices& poin
             sphere.reference[f] = shapes.references[f] * std::sqrt(wanted / ratio);
         }
         if (!(far > few_far_off * shapes.areas.sum())) break;
-        steps += relax_on_sphere(sphere, points, steps_an_approach, settled_fall, context).steps;
+        steps += relax_on_sphere(sphere, points, steps_an_approach, settled_fall, factor, context).steps;
     }
     sphere.reference = shapes.references;
-    steps += relax_on_sphere(sphere, points, last_steps, settled_fall, context).steps;
+    steps += relax_on_sphere(sphere, points, last_steps, settled_fall, factor, context).steps;
     return steps > 0;
 }
 

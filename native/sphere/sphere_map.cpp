@@ -3,23 +3,18 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/enum_words.h"
-#include "core/sort_unique.h"
 #include "even/even_map.h"
 #include "execution/each_in_pieces.h"
-#include "flaps/flaps.h"
 #include "linear/dense_spd.h"
-#include "mesh/loop_with.h"
-#include "pipeline/loop_numbers.h"
-#include "pipeline/uniformize.h"
 #include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
 #include "quality/take_verdict.h"
-#include "sphere/closed_sphere.h"
 #include "sphere/even_sphere.h"
+#include "sphere/lifted_sphere.h"
 #include "sphere/opened_sphere.h"
+#include "sphere/plane_map.h"
 #include "sphere/sphere_check.h"
 #include "sphere/sphere_layout.h"
-#include "sphere/sphere_repair.h"
 #include "sphere/spherical_balance.h"
 #include "surface/laplacian.h"
 
@@ -27,167 +22,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
 
 namespace koebe {
 namespace {
-
-constexpr double least_angle = 1e-7;      // between neighbours on a circle, seen from its middle
-constexpr Index most_drawn_faces = 5000;  // of a surface that may be drawn together
-
-/// A map to the plane and the point at infinity, and its data.
-struct PlaneMap {
-    VectorXcd z;                       // (V) of the domain's vertices
-    std::vector<Circle> circles;       // of the domain's loops; the outer circle stands for its outside
-    std::vector<Roundness> roundness;  // of the loops
-    std::vector<Index> off_circle;     // of the domain, ascending
-    std::size_t outer = 0;             // number of the outer loop
-    std::vector<Flap> flaps;           // flaps on the outer loop
-    bool converged = false;
-    int sweeps = 0;
-    std::vector<double> changes;
-    StageSeconds seconds;
-    std::vector<Warning> warnings;  // with the input's vertices and the domain's loops
-};
-
-PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
-                         const SphereOptions& options, ExecutionContext& context)
-{
-    UniformizeOptions map_options;
-    map_options.outer = OuterLoop::longest;
-    map_options.threads = options.threads;
-    static_cast<SweepOptions&>(map_options) = options;
-    map_options.most_lost = 1.0;  // the sphere has its own verdict
-    const UniformizeResult disk = uniformize_here(vertices, triangles, map_options, context);
-    PlaneMap map;
-    map.z.resize(domain.surface.vertex_count);
-    std::vector<Index> number(static_cast<std::size_t>(vertices.rows()), -1);
-    for (Index v = 0; v < domain.surface.vertex_count; ++v) {
-        number[domain.original[v]] = v;
-        map.z[v] = {disk.uv(domain.original[v], 0), disk.uv(domain.original[v], 1)};
-    }
-    std::vector<const LoopReport*> report;
-    for (std::size_t k = 0; k < domain.loops.size(); ++k) {
-        const int found = loop_with(disk.loops, domain.original[domain.loops[k].front()], &LoopReport::vertices);
-        const LoopReport& loop = disk.loops.at(found);
-        if (found == 0) map.outer = k;
-        report.push_back(&loop);
-        map.circles.push_back(loop.circle);
-        map.roundness.push_back(loop.roundness);
-        for (const Index v : loop.off_circle) map.off_circle.push_back(number[v]);
-    }
-    std::ranges::sort(map.off_circle);
-    for (Flap& flap : cut_flaps(domain.vertices, domain.surface, domain.loops).flaps)
-        if (flap.loop == static_cast<int>(map.outer)) map.flaps.push_back(std::move(flap));
-    map.converged = disk.converged;
-    map.sweeps = disk.sweeps;
-    map.seconds = disk.seconds;
-    for (const KoebeStep& step : disk.history) map.changes.push_back(step.change);
-    map.warnings =
-        with_loops_renumbered(disk, report,
-                              {WarningKind::below_resolution, WarningKind::flipped, WarningKind::not_one_to_one,
-                               WarningKind::reoriented_faces, WarningKind::off_circle, WarningKind::unused_vertices,
-                               WarningKind::coarse_mesh});
-    return map;
-}
-
-/// Hangs a flap into its hole, mirrored at its hinge. In the disk the unit circle is convex, and the flap lies behind
-/// its hinge; on the sphere it would lie over its neighbours.
-void hang_into_hole(const PeriodicSurface& domain, const Flap& flap, SphericalMap& sphere)
-{
-    const Triangles& triangles = domain.surface.triangles;
-    std::size_t flipped = 0;
-    for (const Index f : flap.faces) flipped += upright_on_sphere(triangles, sphere.points, f) ? 0 : 1;
-    const SpherePoint normal =
-        SpherePoint(sphere.points.row(flap.first)).cross(SpherePoint(sphere.points.row(flap.last)));
-    if (2 * flipped <= flap.faces.size() || !(normal.norm() > 0.0)) return;
-    const Eigen::RowVector3d across = normal.normalized().transpose();
-    for (const auto* vertices : {&flap.rim, &flap.interior})
-        for (const Index v : *vertices) {
-            const Eigen::RowVector3d at = sphere.points.row(v);
-            sphere.points.row(v) = (at - 2.0 * at.dot(across) * across).normalized();
-        }
-    sphere.off_circle.insert(sphere.off_circle.end(), flap.rim.begin(), flap.rim.end());
-}
-
-/// Puts the vertices of a loop on its cap's circle in their order round it. Moves two apart that rounding has exchanged
-/// or put at one point.
-void put_onto_circle(const std::vector<Index>& vertices, const Cap& cap, Vertices& points)
-{
-    if (vertices.empty()) return;
-    const SpherePoint x = cap.center.unitOrthogonal(), y = cap.center.cross(x);
-    const std::size_t count = vertices.size();
-    std::vector<double> angle;  // the loop runs clockwise
-    for (const Index v : vertices) angle.push_back(-std::atan2(points.row(v).dot(y), points.row(v).dot(x)));
-    const auto step = [&](std::size_t b) {  // from b to the next, in [-pi, pi]
-        return std::remainder(angle[(b + 1) % count] - angle[b], 2.0 * std::numbers::pi);
-    };
-    std::size_t widest = 0;
-    for (std::size_t b = 1; b < count; ++b)
-        if (step(b) > step(widest)) widest = b;
-    double at = angle[(widest + 1) % count], raised = at;
-    for (std::size_t i = 0; i < count; ++i) {  // starts after the widest step
-        const std::size_t b = (widest + 1 + i) % count;
-        const double following = at + step(b);
-        raised = i == 0 ? at : std::max(at, raised + least_angle);
-        const SpherePoint across = std::cos(raised) * x - std::sin(raised) * y;
-        const SpherePoint place =
-            raised == at ? onto_circle(cap, points.row(vertices[b]).transpose()) : onto_circle(cap, across);
-        points.row(vertices[b]) = place.transpose();
-        at = following;
-    }
-}
-
-/// Lifts a map to the sphere, with loops on their circles.
-SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& move)
-{
-    SphericalMap sphere;
-    sphere.points = on_sphere(move(map.z));
-    sphere.off_circle = map.off_circle;
-    for (std::size_t k = 0; k < domain.loops.size(); ++k) {
-        const Circle& circle = map.circles[k];
-        sphere.caps.push_back(cap_of({move(circle.center), circle.radius / move.scale}, k == map.outer));
-        std::vector<Index> on;
-        for (const Index v : domain.loops[k])
-            if (!std::ranges::binary_search(map.off_circle, v)) on.push_back(v);
-        put_onto_circle(on, sphere.caps[k], sphere.points);
-    }
-    for (const Flap& flap : map.flaps) hang_into_hole(domain, flap, sphere);
-    sort_unique(sphere.off_circle);
-    return sphere;
-}
-
-/// Balances a map without flipping faces. A balanced surface of few faces may need faces of half the sphere. It is
-/// drawn together round the middle of the outer circle's other side instead, where no such face is needed.
-SphericalMap drawn_together(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& balance,
-                            bool& drawn, const ExecutionContext& context)
-{
-    const auto drawn_by = [&](double farther, bool repair) {
-        SphericalMap sphere = lifted_to_sphere(domain, map, {balance.shift, balance.scale * std::exp(farther)});
-        if (repair) turn_back_on_sphere(domain, sphere, context);
-        return sphere;
-    };
-    const auto whole = [&](const SphericalMap& sphere) {
-        return !find_sphere_faults(domain.surface.triangles, domain.loops, sphere.points, sphere.caps).any();
-    };
-    SphericalMap balanced = drawn_by(0.0, true);
-    drawn = false;
-    if (domain.loops.empty() || domain.surface.triangles.rows() > most_drawn_faces || whole(balanced)) return balanced;
-    for (const bool repair : {false, true})
-        for (const double farther : {0.01, 0.04, 0.16, 0.64, 2.56}) {
-            if (repair && farther < 0.1) continue;
-            SphericalMap sphere = drawn_by(farther, repair);
-            if (!whole(sphere)) continue;
-            drawn = true;
-            return sphere;
-        }
-    return balanced;
-}
 
 /// (V) directions from the surface's middle.
 Vertices directions_of(const PeriodicSurface& domain, const VectorXd& weights)
@@ -302,27 +143,13 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     if (!(weights.sum() > 0.0)) weights.setOnes();  // a surface without area is spread by its vertices
     clock.end(&StageSeconds::topology);
     context.begin_stage("iterate", 0.1, 0.8);
-    PlaneMap map;
-    if (domain.loops.empty()) {
-        IterationOptions iteration;
-        static_cast<SweepOptions&>(iteration) = options;
-        ClosedSphereMap closed = closed_sphere_map(domain, weights, iteration, context);
-        map.z = std::move(closed.z);
-        map.converged = closed.converged;
-        map.changes = std::move(closed.changes);
-        map.seconds = closed.seconds;
-        map.sweeps = static_cast<int>(map.changes.size());
-    } else {
-        ExecutionContext own([&](double done, const std::string& name) { context.report(0.1 + 0.7 * done, name); }, {},
-                             [&] { context.checkpoint(); });
-        map = holed_plane_map(vertices, triangles, domain, options, own);
-    }
+    const PlaneMap map = plane_map(vertices, triangles, domain, weights, options, context);
     clock.take(map.seconds);
 
     context.begin_stage("finish", 0.8, 1.0);
     const SphericalBalance balance = balance_on_sphere(map.z, weights);
     bool drawn = false;
-    SphericalMap sphere = drawn_together(domain, map, balance.move, drawn, context);
+    SphericalMap sphere = lifted_sphere(domain, map, balance.move, drawn, context);
     bool opened = false;
     if (domain.loops.empty() && domain.surface.triangles.rows() <= most_drawn_faces &&
         find_sphere_faults(domain.surface.triangles, {}, sphere.points, {}).any())

@@ -7,7 +7,7 @@
 #include "iteration/iteration_options.h"
 #include "iteration/koebe_outcome.h"
 #include "linear/dense_spd.h"
-#include "linear/sparse_cholesky.h"
+#include "linear/kept_factor.h"
 #include "quality/map_clock.h"
 #include "quality/take_verdict.h"
 #include "surface/curvature_weights.h"
@@ -20,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -80,11 +79,7 @@ public:
     /// (V, 2) the functions that make both shifts harmonic.
     MatrixXd solve()
     {
-        if (factor_)
-            factor_->refactorize(filled_);
-        else
-            factor_.emplace(filled_);
-        MatrixXd u = factor_->solve(loads_);
+        MatrixXd u = factored(factor_, filled_).solve(loads_);
         if (!u.allFinite()) throw SolverError("no finite harmonic form: the metric is degenerate");
         return u;
     }
@@ -118,7 +113,7 @@ private:
     SparseMatrix empty_, filled_;
     MatrixXd loads_;
     std::vector<MatrixXd> disks_;
-    std::optional<SparseCholesky> factor_;
+    KeptFactor factor_;
 };
 
 Complex modulus(const Eigen::Matrix2d& energies)

@@ -155,7 +155,8 @@ private:
 
     void relax(int most_steps, double settled)
     {
-        const ElasticRelaxation done = relax_on_sphere(elastic_, result_.points, most_steps, settled, context_);
+        const ElasticRelaxation done =
+            relax_on_sphere(elastic_, result_.points, most_steps, settled, factor_, context_);
         result_.steps += done.steps;
         result_.settled = done.settled;
     }
@@ -306,6 +307,7 @@ private:
     double stiffness_;
     ExecutionContext& context_;
     ElasticSphere elastic_;
+    KeptFactor factor_;       // of its Hessian
     VectorXd areas_;          // (F) on the source's surface
     std::vector<char> used_;  // (V) 1: has a face
     SphereRegistration result_;

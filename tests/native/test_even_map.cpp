@@ -270,7 +270,9 @@ TEST(TurnUpright, moves_only_what_is_near_and_not_fixed)
     ASSERT_TRUE(turn());
     EXPECT_GT(least_area(strip.surface.triangles, points), 0.0);
     for (Index v = 0; v < static_cast<Index>(points.rows()); ++v)
-        if (std::max(std::abs(v / 31 - 15), std::abs(v % 31 - 15)) > 18) EXPECT_EQ(points.row(v), before.row(v));
+        if (std::max(std::abs(v / 31 - 15), std::abs(v % 31 - 15)) > 18) {
+            EXPECT_EQ(points.row(v), before.row(v));
+        }
     fixed.assign(fixed.size(), 1);
     points = before;
     EXPECT_FALSE(turn());

@@ -117,6 +117,8 @@ TEST(FoldoverFree, a_face_has_the_gradient_and_the_positive_part_of_the_hessian_
             const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> kept(positive), added(positive - bend);
             EXPECT_GT(kept.eigenvalues().minCoeff(), -1e-9 * size);
             EXPECT_GT(added.eigenvalues().minCoeff(), -1e-6 * size);
-            if (eigen.eigenvalues().minCoeff() > -1e-7 * size) EXPECT_LT((positive - bend).norm(), 1e-6 * size);
+            if (eigen.eigenvalues().minCoeff() > -1e-7 * size) {
+                EXPECT_LT((positive - bend).norm(), 1e-6 * size);
+            }
         }
 }

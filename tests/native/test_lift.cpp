@@ -325,9 +325,10 @@ TEST(Lift, GoesOnOverTheCutOfARing)
     EXPECT_EQ(result.loops_after, 2 + result.outlines);
     EXPECT_EQ(result.euler_after, -result.outlines);
     for (std::size_t v = 0; v < result.original.size(); ++v)
-        if (const Index own = result.original[v]; own >= 0)
+        if (const Index own = result.original[v]; own >= 0) {
             EXPECT_TRUE(
                 (result.vertices.row(static_cast<Eigen::Index>(v)).array() == mesh.first.row(own).array()).all());
+        }
 }
 
 TEST(Lift, ARaisedPatternLeavesTheTopology)
@@ -343,8 +344,12 @@ TEST(Lift, ARaisedPatternLeavesTheTopology)
     for (Eigen::Index f = 0; f < result.triangles.rows(); ++f)
         for (const Index v : result.triangles.row(f)) {
             const double facet = std::cos(pi / 60) - 1e-12;  // of the cylinder's chords
-            if (result.patch[f] == 0) EXPECT_TRUE(radius[v] >= facet && radius[v] <= 1.0 + 1e-12);
-            if (result.patch[f] == 1) EXPECT_GE(radius[v], 0.1 + facet);
+            if (result.patch[f] == 0) {
+                EXPECT_TRUE(radius[v] >= facet && radius[v] <= 1.0 + 1e-12);
+            }
+            if (result.patch[f] == 1) {
+                EXPECT_GE(radius[v], 0.1 + facet);
+            }
         }
 }
 

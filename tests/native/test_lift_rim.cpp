@@ -181,8 +181,9 @@ TEST(Clip, ARingHasItsPatternUpToTheRims)
         const LiftResult left = lifted_tube({.size = 0.3, .perforate = true}, pattern);
         const LiftResult clipped = lifted_tube({.size = 0.3, .rim = LiftRim::clip, .perforate = true}, pattern);
         EXPECT_GE(clipped.outlines, left.outlines) << pattern;
-        if (pattern != "circles")  // they have room beside the rims
+        if (pattern != "circles") {  // they have room beside the rims
             EXPECT_LT(clipped.loops_after - 2, clipped.outlines) << pattern << ": bays are no holes";
+        }
         EXPECT_EQ(clipped.euler_after, 2 - clipped.loops_after) << pattern;
     }
 }

@@ -39,8 +39,9 @@ TEST(SeparationDistance, does_not_see_numbers_moebius_maps_and_mirrors)
         const std::vector<Circle> other = image(some_maps[1], reordered(circles, order));
         const SeparationMatch found = match_separations(circles, other);
         EXPECT_LT(found.distance, 1e-9) << holes;
-        if (holes > 2)
+        if (holes > 2) {
             for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[found.match[i]], static_cast<int>(i));
+        }
         EXPECT_LT(match_separations(circles, mirrored(other)).distance, 1e-9) << holes;
     }
 }

@@ -61,8 +61,6 @@ struct ExactCase {
 
 class ExactDomain : public testing::TestWithParam<ExactCase> {};
 
-}  // namespace
-
 TEST_P(ExactDomain, circles_converge_with_second_order)
 {
     const auto [kind, engine, limit] = GetParam();
@@ -90,6 +88,8 @@ INSTANTIATE_TEST_SUITE_P(Mesh, ExactDomain,
                                          ExactCase{Lift::sphere, Engine::mesh, 1e-3},
                                          ExactCase{Lift::enneper, Engine::mesh, 1e-3}),
                          [](const auto& info) { return to_string(info.param.lift); });
+
+}  // namespace
 
 TEST(Uniformize, a_circle_domain_keeps_its_circles)
 {

@@ -43,7 +43,7 @@ def test_bars_hold_the_change_that_noise_makes():
     for _ in range(4):
         noisy = true + 0.05 * noisy_shapes.mean_edge(true, TRIANGLES) * random.normal(size=true.shape)
         result = koebe.uniformize(noisy, TRIANGLES, outer=outer)
-        order = noisy_shapes._by_vertex(result, exact)
+        order = noisy_shapes.by_vertex(result, exact)
         bars = koebe.noise_error(result, order=order, samples=12)
         error = np.abs(koebe.conformal_module(result, order=order) - koebe.conformal_module(exact))
         inside += (error <= bars).tolist()
@@ -115,7 +115,7 @@ def test_a_family_is_tested_and_a_planted_effect_is_found():
     shapes = [
         koebe.uniformize(noisy_shapes.bent(POINTS, random, 0.01, 0.6 * (k >= 5)), TRIANGLES) for k in range(10)
     ]
-    orders = [noisy_shapes._by_vertex(shape, shapes[0]) for shape in shapes]
+    orders = [noisy_shapes.by_vertex(shape, shapes[0]) for shape in shapes]
     found = koebe.permutation_test(koebe.family(shapes, orders=orders), [0] * 5 + [1] * 5)
     assert found.p < 0.05 and found.exact and found.explained > 0.1
 

@@ -1,0 +1,112 @@
+#include "sphere/lifted_sphere.h"
+
+#include "core/sort_unique.h"
+#include "sphere/sphere_check.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace koebe {
+namespace {
+
+constexpr double least_angle = 1e-7;  // between neighbours on a circle, seen from its middle
+
+/// Hangs a flap into its hole, mirrored at its hinge. In the disk the unit circle is convex, and the flap lies behind
+/// its hinge; on the sphere it would lie over its neighbours.
+void hang_into_hole(const PeriodicSurface& domain, const Flap& flap, SphericalMap& sphere)
+{
+    const Triangles& triangles = domain.surface.triangles;
+    std::size_t flipped = 0;
+    for (const Index f : flap.faces) flipped += upright_on_sphere(triangles, sphere.points, f) ? 0 : 1;
+    const SpherePoint normal =
+        SpherePoint(sphere.points.row(flap.first)).cross(SpherePoint(sphere.points.row(flap.last)));
+    if (2 * flipped <= flap.faces.size() || !(normal.norm() > 0.0)) return;
+    const Eigen::RowVector3d across = normal.normalized().transpose();
+    for (const auto* vertices : {&flap.rim, &flap.interior})
+        for (const Index v : *vertices) {
+            const Eigen::RowVector3d at = sphere.points.row(v);
+            sphere.points.row(v) = (at - 2.0 * at.dot(across) * across).normalized();
+        }
+    sphere.off_circle.insert(sphere.off_circle.end(), flap.rim.begin(), flap.rim.end());
+}
+
+/// Puts the vertices of a loop on its cap's circle in their order round it. Moves two apart that rounding has exchanged
+/// or put at one point.
+void put_onto_circle(const std::vector<Index>& vertices, const Cap& cap, Vertices& points)
+{
+    if (vertices.empty()) return;
+    const SpherePoint x = cap.center.unitOrthogonal(), y = cap.center.cross(x);
+    const std::size_t count = vertices.size();
+    std::vector<double> angle;  // the loop runs clockwise
+    for (const Index v : vertices) angle.push_back(-std::atan2(points.row(v).dot(y), points.row(v).dot(x)));
+    const auto step = [&](std::size_t b) {  // from b to the next, in [-pi, pi]
+        return std::remainder(angle[(b + 1) % count] - angle[b], 2.0 * std::numbers::pi);
+    };
+    std::size_t widest = 0;
+    for (std::size_t b = 1; b < count; ++b)
+        if (step(b) > step(widest)) widest = b;
+    double at = angle[(widest + 1) % count], raised = at;
+    for (std::size_t i = 0; i < count; ++i) {  // starts after the widest step
+        const std::size_t b = (widest + 1 + i) % count;
+        const double following = at + step(b);
+        raised = i == 0 ? at : std::max(at, raised + least_angle);
+        const SpherePoint across = std::cos(raised) * x - std::sin(raised) * y;
+        const SpherePoint place =
+            raised == at ? onto_circle(cap, points.row(vertices[b]).transpose()) : onto_circle(cap, across);
+        points.row(vertices[b]) = place.transpose();
+        at = following;
+    }
+}
+
+/// Lifts a map to the sphere, with loops on their circles.
+SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& move)
+{
+    SphericalMap sphere;
+    sphere.points = on_sphere(move(map.z));
+    sphere.off_circle = map.off_circle;
+    for (std::size_t k = 0; k < domain.loops.size(); ++k) {
+        const Circle& circle = map.circles[k];
+        sphere.caps.push_back(cap_of({move(circle.center), circle.radius / move.scale}, k == map.outer));
+        std::vector<Index> on;
+        for (const Index v : domain.loops[k])
+            if (!std::ranges::binary_search(map.off_circle, v)) on.push_back(v);
+        put_onto_circle(on, sphere.caps[k], sphere.points);
+    }
+    for (const Flap& flap : map.flaps) hang_into_hole(domain, flap, sphere);
+    sort_unique(sphere.off_circle);
+    return sphere;
+}
+
+}  // namespace
+
+SphericalMap lifted_sphere(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& balance,
+                           bool& drawn, const ExecutionContext& context)
+{
+    const auto drawn_by = [&](double farther, bool repair) {
+        SphericalMap sphere = lifted_to_sphere(domain, map, {balance.shift, balance.scale * std::exp(farther)});
+        if (repair) turn_back_on_sphere(domain, sphere, context);
+        return sphere;
+    };
+    const auto whole = [&](const SphericalMap& sphere) {
+        return !find_sphere_faults(domain.surface.triangles, domain.loops, sphere.points, sphere.caps).any();
+    };
+    SphericalMap balanced = drawn_by(0.0, true);
+    drawn = false;
+    if (domain.loops.empty() || domain.surface.triangles.rows() > most_drawn_faces || whole(balanced)) return balanced;
+    for (const bool repair : {false, true})
+        for (const double farther : {0.01, 0.04, 0.16, 0.64, 2.56}) {
+            if (repair && farther < 0.1) continue;
+            SphericalMap sphere = drawn_by(farther, repair);
+            if (!whole(sphere)) continue;
+            drawn = true;
+            return sphere;
+        }
+    return balanced;
+}
+
+}  // namespace koebe
