@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -91,36 +92,36 @@ private:
                go(extension, bows[0], most_unfoldings, context) || go_at_once(extension, context);
     }
 
-    /// A held rim vertex of one face, an ear, is linked to the face behind the ear: the edge between both is flipped.
-    /// The ear is so thin beside the circle that its own shear would rule the sums of high powers.
+    /// Links a vertex of the outer rim with one face only, an ear, to the face behind the ear: flips the edge between
+    /// both. An ear is so thin beside the circle that its shear would rule the sums of high powers.
     void flip_ears()
     {
-        for (const Pin& pin : pins_) {
-            Eigen::Index ear = -1, behind = -1, faces = 0;
-            int corner = 0;
-            for (Eigen::Index f = 0; f < triangles_.rows() && pin.loop == 0; ++f)
+        std::vector<int> faces(static_cast<std::size_t>(aligned_.rows()), 0);
+        for (Eigen::Index i = 0; i < triangles_.size(); ++i) ++faces[static_cast<std::size_t>(triangles_.data()[i])];
+        for (const Index tip : target_.loops[0].vertices)
+            if (faces[static_cast<std::size_t>(tip)] == 1) flip_ear(tip);
+    }
+
+    void flip_ear(Index tip)
+    {
+        // The face with an edge from one vertex, to another or to any, and the corner where this edge begins.
+        const auto face_with = [&](Index from, Index to) {
+            for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
                 for (int k = 0; k < 3; ++k)
-                    if (triangles_(f, k) == pin.vertex) {
-                        ear = f;
-                        corner = k;
-                        ++faces;
-                    }
-            if (faces != 1) continue;
-            const Index c = pin.vertex, a = triangles_(ear, (corner + 1) % 3), b = triangles_(ear, (corner + 2) % 3);
-            for (Eigen::Index f = 0; f < triangles_.rows(); ++f)
-                for (int k = 0; k < 3; ++k)
-                    if (triangles_(f, k) == b && triangles_(f, (k + 1) % 3) == a) {
-                        behind = f;
-                        corner = (k + 2) % 3;
-                    }
-            if (behind < 0) continue;
-            const Index d = triangles_(behind, corner);
-            Triangles flipped(2, 3);
-            flipped << c, a, d, c, d, b;
-            if (!folded_faces(flipped, aligned_).empty() || !folded_faces(flipped, start_).empty()) continue;
-            triangles_.row(ear) = flipped.row(0);
-            triangles_.row(behind) = flipped.row(1);
-        }
+                    if (triangles_(f, k) == from && (to < 0 || triangles_(f, (k + 1) % 3) == to))
+                        return std::pair(f, k);
+            return std::pair(Index(-1), 0);
+        };
+        const auto [ear, at] = face_with(tip, -1);
+        const Index next = triangles_(ear, (at + 1) % 3), last = triangles_(ear, (at + 2) % 3);
+        const auto [behind, from] = face_with(last, next);
+        if (behind < 0) return;
+        const Index opposite = triangles_(behind, (from + 2) % 3);
+        Triangles flipped(2, 3);
+        flipped << tip, next, opposite, tip, opposite, last;
+        if (!folded_faces(flipped, aligned_).empty() || !folded_faces(flipped, start_).empty()) return;
+        triangles_.row(ear) = flipped.row(0);
+        triangles_.row(behind) = flipped.row(1);
     }
 
     void set_problem()

@@ -26,8 +26,8 @@ struct Landmark {
 struct LandmarkMap {
     CutMesh mesh;     ///< the target's, cut so that its landmarks are vertices
     PlanarPoints uv;  ///< (V + added, 2)
-    /// (F') in which the map is linear: the mesh's. For the extremal map an ear at a landmark of the outer rim, a face
-    /// with two edges of it, and the face behind the ear have their common edge flipped.
+    /// (F') in which the map is linear: the mesh's. For the extremal map each ear of the outer rim, a face with two
+    /// edges of it, and the face behind the ear have their common edge flipped.
     Triangles triangles;
 };
 
