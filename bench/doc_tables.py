@@ -27,6 +27,7 @@ import promises
 import round_trips
 import shape_distances
 import stretched_cylinders
+import stretched_rectangles
 import table_one
 import table_surfaces
 import table_two
@@ -374,6 +375,9 @@ TABLES = {
     "round_trips": Table(round_trips.HEAD, round_trips.ROWS, round_trips.cells, lambda row: []),
     "teichmueller": Table(
         stretched_cylinders.HEAD, list(stretched_cylinders.ROWS), stretched_cylinders.cells, lambda row: []
+    ),
+    "quadrilaterals": Table(
+        stretched_rectangles.HEAD, list(stretched_rectangles.ROWS), stretched_rectangles.cells, lambda row: []
     ),
     "distances": Table(
         ["meshes", "distance"],

@@ -77,7 +77,7 @@ def cells(row):
     seconds = time.perf_counter() - begin
     back = koebe.teichmueller(b, a, match=np.argsort(match))
     return [
-        f"{a.faces:,}", f"{there.K:.4f}", f"{100 * abs(there.K / stretch - 1):.2f} %", f"{there.lower:.3f}",
+        f"{a.face_count:,}", f"{there.K:.4f}", f"{100 * abs(there.K / stretch - 1):.2f} %", f"{there.lower:.3f}",
         f"{there.largest:.3f}", f"{back.K:.4f}", f"{there.mu.mean():.4f}, {(stretch - 1) / (stretch + 1):.4f}",
         f"{there.mu.std():.4f}", f"{seconds:.1f}",
     ]  # fmt: skip

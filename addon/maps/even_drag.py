@@ -77,7 +77,7 @@ def _box(points: np.ndarray) -> tuple[np.ndarray, float]:
 class EvenPreview:
     """The islands of a UV layer, made more or less even where they lie. Touches no Blender data.
 
-    uv  (C, 2) of the surface's corners now, 32 bits
+    uv  (C, 2) of the surface's corners after the last move, 32 bits: a move puts a new array in its place
     """
 
     def __init__(self, koebe: ModuleType, surface: Surface, uv: np.ndarray, round: bool, cancel: Any) -> None:
@@ -97,8 +97,9 @@ class EvenPreview:
 
     def move(self, even: float) -> float:
         """Some steps towards E: the largest way of a UV. Raises `koebe.Cancelled`."""
-        before = self.uv.copy()
+        before, uv = self.uv, self.uv.copy()
         for one in self._dials:
             points = one.put_back(one.native.move(even, steps=STEPS, cancel=self._cancel))
-            self.uv[one.island.corners] = points[one.island.corner_vertex]
-        return float(np.abs(self.uv - before).max(initial=0.0))
+            uv[one.island.corners] = points[one.island.corner_vertex]
+        self.uv = uv
+        return float(np.abs(uv - before).max(initial=0.0))

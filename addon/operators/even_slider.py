@@ -85,19 +85,21 @@ class UV_OT_koebe_even(bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def _go_on(self, context: bpy.types.Context) -> None:
-        """Show the step that has ended, and begin the next."""
+        """Begin the next step, and meanwhile show the step that has ended."""
+        ended = self._worker is not None
         if self._worker is not None:
             if self._worker.running:
                 return
             self._worker.result()
             self._worker = None
             self._drag.done(self._way)
-            self._job.show()
-            self.moves += 1
-            redraw(context)
         even = self._drag.next()
         if even is not None:
             self._worker = Worker(lambda progress: self._step(even))
+        if ended:
+            self._job.show()
+            self.moves += 1
+            redraw(context, ("VIEW_3D", "IMAGE_EDITOR"))
 
     def _step(self, even: float) -> None:
         self._way = self._job.preview.move(even)

@@ -2,7 +2,7 @@
 """Runs an operator's computation without a frozen window: on a thread, with progress, Esc and polling."""
 
 import time
-from collections.abc import Generator
+from collections.abc import Collection, Generator
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -40,10 +40,11 @@ else:
     OperatorBase = object
 
 
-def redraw(context: bpy.types.Context) -> None:
-    """Make all editors of the window show the changes."""
+def redraw(context: bpy.types.Context, editors: Collection[str] = ()) -> None:
+    """Make the window's editors of these types show the changes; without types, all of them."""
     for area in context.screen.areas if context.screen else ():
-        area.tag_redraw()
+        if not editors or area.type in editors:
+            area.tag_redraw()
 
 
 class ModalRun(OperatorBase):

@@ -2,7 +2,6 @@
 
 #include "circles/circle_projection.h"
 #include "core/complex_places.h"
-#include "fit/plane_beltrami.h"
 
 #include <Eigen/LU>
 
@@ -194,14 +193,6 @@ void BentDomain::set_floors(const PlanarPoints& uv)
     }
 }
 
-/// The largest 2 |mu|^2 / (1 - |mu|^2) of a face.
-double BentDomain::most_bent(const PlanarPoints& uv) const
-{
-    const Triangles faces = problem_.triangles.topRows(face_count_);
-    const double mu = plane_beltrami(input_.undistorted, faces, uv).cwiseAbs().maxCoeff();
-    return std::max(2.0 * mu * mu / (1.0 - mu * mu), least_bent);
-}
-
 void BentDomain::lower_the_largest(const Extremal& extremal, PlanarPoints& uv, const std::vector<Circle>& circles,
                                    int steps)
 {
@@ -214,7 +205,8 @@ void BentDomain::lower_the_largest(const Extremal& extremal, PlanarPoints& uv, c
         options.power = power;
         options.slack = extremal_slack;
         if (extremal.free_rims) {
-            options.scale = most_bent(uv);
+            problem_.points = uv;
+            options.scale = std::max(most_bent(problem_, face_count_), least_bent);
             options.slack *= options.scale;
             options.settled = extremal_settled;
             problem_.weight.tail(weight.size() - face_count_) =

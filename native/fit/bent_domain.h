@@ -47,7 +47,6 @@ private:
     bool rims_in_order(const PlanarPoints& uv, const std::vector<Circle>& circles) const;
     FoldoverOptions gentle(int steps) const;
     FoldoverResult minimize(PlanarPoints& uv, const std::vector<Circle>& circles, const FoldoverOptions& options);
-    double most_bent(const PlanarPoints& uv) const;
 
     const BendingInput& input_;
     ExecutionContext& context_;

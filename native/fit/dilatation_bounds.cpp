@@ -1,5 +1,6 @@
 #include "fit/dilatation_bounds.h"
 
+#include "fit/marked_forms.h"
 #include "fit/plane_beltrami.h"
 #include "surface/harmonic_solver.h"
 
@@ -31,19 +32,6 @@ VectorXd upright_areas(const Triangles& triangles, const PlanarPoints& uv, const
     return area;
 }
 
-/// (F, C) 2 du/dz of functions u (V, C) in faces with area.
-Eigen::MatrixXcd forms_of(const Triangles& triangles, const PlanarPoints& uv, const VectorXd& area, const MatrixXd& u)
-{
-    Eigen::MatrixXcd forms = Eigen::MatrixXcd::Zero(triangles.rows(), u.cols());
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        if (!(area[f] > 0.0)) continue;
-        const Complex p = face_edge(uv, triangles, f, 1), q = face_edge(uv, triangles, f, 2);
-        const auto rise = [&](int corner) { return u.row(triangles(f, corner)) - u.row(triangles(f, 0)); };
-        forms.row(f) = Complex(0.0, 0.5) / area[f] * (std::conj(q) * rise(1) - std::conj(p) * rise(2));
-    }
-    return forms;
-}
-
 /// Vertices as far as possible from rims and from each other.
 std::vector<Index> pole_vertices(const PlanarPoints& uv, const std::vector<Index>& rim)
 {
@@ -60,15 +48,16 @@ std::vector<Index> pole_vertices(const PlanarPoints& uv, const std::vector<Index
     return poles;
 }
 
-/// Forms of the holes' harmonic measures, and of Green's functions.
+/// Forms of the holes' harmonic measures, of marks, and of Green's functions.
 struct DomainForms {
     Eigen::MatrixXcd measures;  // (F, holes)
+    MarkedForms marked;
     std::vector<Index> poles;   // vertices
     Eigen::MatrixXcd of_poles;  // (F, poles)
 };
 
-DomainForms domain_forms(const Triangles& triangles, const PlanarPoints& uv, const std::vector<VertexLoop>& loops,
-                         const VectorXd& area)
+DomainForms domain_forms(const Triangles& triangles, const PlanarPoints& uv, const std::vector<Circle>& circles,
+                         const std::vector<VertexLoop>& loops, const std::vector<Index>& marks, const VectorXd& area)
 {
     std::vector<Index> rim;
     for (const VertexLoop& loop : loops) rim.insert(rim.end(), loop.begin(), loop.end());
@@ -79,7 +68,11 @@ DomainForms domain_forms(const Triangles& triangles, const PlanarPoints& uv, con
     };
     MatrixXd values = MatrixXd::Zero(uv.rows(), static_cast<Eigen::Index>(loops.size()) - 1);
     for (std::size_t k = 1; k < loops.size(); ++k) values(loops[k], static_cast<Eigen::Index>(k) - 1).setOnes();
-    DomainForms forms{forms_with(rim, values), {}, {}};
+    DomainForms forms{forms_with(rim, values), {}, {}, {}};
+    if (!marks.empty()) {
+        const std::vector<Index> middle = pole_vertices(uv, rim);
+        forms.marked = marked_forms(triangles, uv, circles, loops, marks, middle.empty() ? 0 : middle.front(), area);
+    }
     if (loops.size() > 3) forms.poles = pole_vertices(uv, rim);
     forms.of_poles.resize(triangles.rows(), static_cast<Eigen::Index>(forms.poles.size()));
     rim.push_back(-1);
@@ -105,16 +98,24 @@ MatrixXd vanishing_at(Index vertex, const Triangles& triangles, const VectorXd& 
 /// Products of forms, each with the norm 1. Of many measures only those with the measures that overlap most.
 Eigen::MatrixXcd quadratic_differentials(const DomainForms& all, const Triangles& triangles, const VectorXd& area)
 {
-    const Eigen::MatrixXcd& forms = all.measures;
-    const Eigen::Index holes = forms.cols();
+    const Eigen::Index holes = all.measures.cols(), count = holes + all.marked.forms.cols();
+    Eigen::MatrixXcd forms(all.measures.rows(), count);
+    forms << all.measures, all.marked.forms;
+    const auto share_a_pole = [&](Eigen::Index i, Eigen::Index j) {
+        if (i < holes || j < holes) return false;
+        const auto& here = all.marked.poles[static_cast<std::size_t>(i - holes)];
+        return std::ranges::any_of(all.marked.poles[static_cast<std::size_t>(j - holes)],
+                                   [&](Index v) { return std::ranges::find(here, v) != here.end(); });
+    };
     std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
-    for (Eigen::Index i = 0; i < holes; ++i) {
+    for (Eigen::Index i = 0; i < count; ++i) {
         std::vector<std::pair<double, Eigen::Index>> others;
-        for (Eigen::Index j = 0; j < holes; ++j)
-            if (j != i) others.emplace_back(-area.dot(forms.col(i).cwiseProduct(forms.col(j)).cwiseAbs()), j);
+        for (Eigen::Index j = 0; j < count; ++j)
+            if (j != i && !share_a_pole(i, j))
+                others.emplace_back(-area.dot(forms.col(i).cwiseProduct(forms.col(j)).cwiseAbs()), j);
         std::ranges::sort(others);
-        if (holes > 10) others.resize(std::min(others.size(), partners));
-        pairs.emplace_back(i, i);
+        if (count > 10) others.resize(std::min(others.size(), partners));
+        if (i < holes) pairs.emplace_back(i, i);
         for (const auto& [overlap, j] : others) pairs.emplace_back(std::min(i, j), std::max(i, j));
     }
     std::ranges::sort(pairs);
@@ -129,7 +130,7 @@ Eigen::MatrixXcd quadratic_differentials(const DomainForms& all, const Triangles
     for (std::size_t i = 0; i < all.poles.size(); ++i)
         products.middleCols(squares + of_a_pole * static_cast<Eigen::Index>(i), of_a_pole) =
             all.of_poles.col(static_cast<Eigen::Index>(i)).asDiagonal() *
-            (forms * vanishing_at(all.poles[i], triangles, area, forms));
+            (all.measures * vanishing_at(all.poles[i], triangles, area, all.measures));
     for (Eigen::Index k = 0; k < products.cols(); ++k) products.col(k) /= area.dot(products.col(k).cwiseAbs());
     return products;
 }
@@ -150,14 +151,15 @@ double reich_strebel(const VectorXd& area, const VectorXcd& mu, const VectorXcd&
 }  // namespace
 
 DilatationBounds dilatation_bounds(const Triangles& triangles, const PlanarPoints& uv,
-                                   const std::vector<VertexLoop>& loops, const VectorXcd& mu)
+                                   const std::vector<Circle>& circles, const std::vector<VertexLoop>& loops,
+                                   const std::vector<Index>& marks, const VectorXcd& mu)
 {
     const VectorXd area = upright_areas(triangles, uv, mu);
     DilatationBounds bounds;
-    if (loops.size() < 2 || !((area.array() > 0.0).select(mu.cwiseAbs(), 0.0).maxCoeff() > nothing_bent)) return bounds;
-    const DomainForms forms = domain_forms(triangles, uv, loops, area);
+    if (!((area.array() > 0.0).select(mu.cwiseAbs(), 0.0).maxCoeff() > nothing_bent)) return bounds;
+    const DomainForms forms = domain_forms(triangles, uv, circles, loops, marks, area);
     const Eigen::MatrixXcd products = quadratic_differentials(forms, triangles, area);
-    if (!products.allFinite()) return bounds;
+    if (products.cols() == 0 || !products.allFinite()) return bounds;
     VectorXd pairing(products.cols());
     for (Eigen::Index k = 0; k < products.cols(); ++k) {
         double sum = 0.0;
@@ -165,7 +167,8 @@ DilatationBounds dilatation_bounds(const Triangles& triangles, const PlanarPoint
             if (area[f] > 0.0) sum += area[f] * (mu[f] * products(f, k)).real() / (1.0 - std::norm(mu[f]));
         pairing[k] = sum;
     }
-    VectorXd size = forms.measures.cwiseAbs2().rowwise().sum();
+    VectorXd size = marks.empty() ? VectorXd(forms.measures.cwiseAbs2().rowwise().sum())
+                                  : VectorXd(products.cwiseAbs().rowwise().sum());
     for (int i = 0; i < reweightings; ++i) {
         const double mean = area.dot(size) / area.sum();
         const VectorXd root = (area.array() / (size.array().square() + std::pow(flat_q * mean, 2)).sqrt()).sqrt();

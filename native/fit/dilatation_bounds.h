@@ -1,6 +1,7 @@
 // Bounds of the least dilatation of all maps that a given map can be moved to, from quadratic differentials.
 #pragma once
 
+#include "circles/circle.h"
 #include "core/types.h"
 
 #include <vector>
@@ -22,9 +23,15 @@ struct DilatationBounds {
 /// domain's double is hyperelliptic, as it is if all centres lie on a line. Then products of a Green's function's form
 /// and a form that vanishes at its pole span the others. The sum is that of least norm whose pairing with mu is 1. The
 /// bounds are those of smooth maps up to the error of the mesh.
-/// @param uv (V, 2) the domain @param loops rims, all vertices; two at least @param mu (F) from the domain
+///
+/// Of maps that also keep marked points, q may have a simple pole at each. Then the products have more factors: forms
+/// with poles at two marks of rims (landmark_forms), and Green's functions' forms with their poles at marks inside. No
+/// product has a double pole.
+/// @param uv (V, 2) the domain @param circles of the rims, the unit circle first @param loops rims, all vertices
+/// @param marks vertices, each once @param mu (F) from the domain
 /// @throws SolverError
 DilatationBounds dilatation_bounds(const Triangles& triangles, const PlanarPoints& uv,
-                                   const std::vector<VertexLoop>& loops, const VectorXcd& mu);
+                                   const std::vector<Circle>& circles, const std::vector<VertexLoop>& loops,
+                                   const std::vector<Index>& marks, const VectorXcd& mu);
 
 }  // namespace koebe

@@ -1,9 +1,13 @@
 #include "fit/teichmueller.h"
 
+#include "conformal/rectangle_modulus.h"
+#include "core/complex_places.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "execution/detachable_run.h"
 #include "fit/bend_between.h"
+#include "fit/bounded_matches.h"
 #include "fit/circle_template.h"
 #include "fit/dilatation_bounds.h"
 #include "fit/plane_beltrami.h"
@@ -12,24 +16,28 @@
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"
 #include "surface/laplacian.h"
+#include "transfer/landmark_alignment.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
+#include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-/// A surface without the vertices that no face uses.
+/// A surface without the vertices that no face uses. Faces keep their numbers.
 struct CompactDomain {
     std::vector<Index> original;  // vertex of the surface for each vertex
-    Triangles triangles;
+    MappedSurface surface;
     std::vector<VertexLoop> loops;
     std::vector<Index> off_circle;
     std::vector<Circle> circles;
-    PlanarPoints uv;
     VectorXd areas;  // on the surface
 };
 
@@ -43,15 +51,19 @@ CompactDomain compact(const MappedSurface& surface)
             place[v] = static_cast<Index>(domain.original.size());
             domain.original.push_back(static_cast<Index>(v));
         }
-    domain.triangles = surface.triangles.unaryExpr([&](Index v) { return place[v]; });
-    for (const LoopReport& loop : surface.loops) {
+    domain.surface.triangles = surface.triangles.unaryExpr([&](Index v) { return place[v]; });
+    domain.surface.vertices = surface.vertices(domain.original, Eigen::all);
+    domain.surface.uv = surface.uv(domain.original, Eigen::all);
+    domain.surface.loops = surface.loops;
+    for (LoopReport& loop : domain.surface.loops) {
+        for (Index& v : loop.vertices) v = place[v];
+        for (Index& v : loop.off_circle) v = place[v];
+        std::ranges::sort(loop.off_circle);
         domain.circles.push_back(loop.circle);
-        domain.loops.emplace_back();
-        for (const Index v : loop.vertices) domain.loops.back().push_back(place[v]);
-        for (const Index v : loop.off_circle) domain.off_circle.push_back(place[v]);
+        domain.loops.push_back(loop.vertices);
+        domain.off_circle.insert(domain.off_circle.end(), loop.off_circle.begin(), loop.off_circle.end());
     }
     std::ranges::sort(domain.off_circle);
-    domain.uv = surface.uv(domain.original, Eigen::all);
     const EdgeLengths lengths = edge_lengths(surface.vertices, surface.triangles);
     domain.areas.resize(lengths.rows());
     for (Eigen::Index f = 0; f < lengths.rows(); ++f)
@@ -59,21 +71,54 @@ CompactDomain compact(const MappedSurface& surface)
     return domain;
 }
 
-/// a's loop for each of b's.
-std::vector<int> inverse_match(const std::vector<Circle>& a, const std::vector<Circle>& b,
-                               const std::vector<int>& match, const ExecutionContext& context)
+/// Landmarks in a's domain, and their places in b's.
+struct Held {
+    std::vector<SurfacePoint> points;
+    VectorXcd places;
+
+    VectorXcd of(const PlanarPoints& uv, const Triangles& triangles) const
+    {
+        VectorXcd now(places.size());
+        for (Eigen::Index i = 0; i < now.size(); ++i) {
+            const Eigen::RowVector2d at = points[static_cast<std::size_t>(i)].of(uv, triangles);
+            now[i] = Complex(at[0], at[1]);
+        }
+        return now;
+    }
+};
+
+Held held_points(const std::vector<HeldPoint>& landmarks)
+{
+    Held held{{}, VectorXcd(static_cast<Eigen::Index>(landmarks.size()))};
+    for (const HeldPoint& landmark : landmarks) {
+        held.places[static_cast<Eigen::Index>(held.points.size())] = landmark.place;
+        held.points.push_back(landmark.point);
+    }
+    if (!held.places.allFinite()) throw InputError("the places of landmarks must be finite");
+    return held;
+}
+
+void require_equally_many(const std::vector<Circle>& a, const std::vector<Circle>& b)
 {
     if (a.size() != b.size())
         throw InputError("the domains have " + std::to_string(a.size()) + " and " + counted(b.size(), "loop") +
                          ": no map takes one to the other");
     require_circle_domain(a);
     require_circle_domain(b);
+}
+
+/// a's loop for each of b's.
+std::vector<int> inverse_match(const CompactDomain& a, const std::vector<Circle>& b, const std::vector<int>& match,
+                               const Held& held, const ExecutionContext& context)
+{
     std::vector<int> inverse(b.size(), 0);
-    if (match.empty()) {
-        const LoopMatch found = match_loops(a, b, false, context);
+    if (match.empty() && held.points.empty()) {
+        const LoopMatch found = match_loops(a.circles, b, false, context);
         for (std::size_t k = 0; k < b.size(); ++k) inverse[found.order_b[k]] = found.order_a[k];
         return inverse;
     }
+    if (match.empty())
+        return align_by_landmarks(b, a.circles, held.of(a.surface.uv, a.surface.triangles), held.places, context).match;
     std::vector<int> all(b.size());
     std::iota(all.begin(), all.end(), 0);
     if (!std::is_permutation(all.begin(), all.end(), match.begin(), match.end()) || match[0] != 0)
@@ -115,14 +160,59 @@ std::size_t newly_folded(const Triangles& triangles, const PlanarPoints& before,
     return static_cast<std::size_t>(((same.array().abs() < 1.0) && !(now.array().abs() < 1.0)).count());
 }
 
-TeichmuellerMap extremal_map(const MappedSurface& a, const std::vector<Circle>& b, const std::vector<int>& match,
-                             ExecutionContext& context)
+/// The domain laid over b's circles, in the order of a's loops, with its landmarks near their places.
+TemplateStart laid_over(const CompactDomain& domain, const std::vector<Circle>& goal, const Held& held,
+                        PlanarPoints& undistorted, const ExecutionContext& context)
 {
-    require_own_circles(a.loops);
-    context.begin_stage("align", 0.0, 0.05);
-    const CompactDomain domain = compact(a);
-    const std::vector<int> inverse = inverse_match(domain.circles, b, match, context);
-    const TemplateStart start = lay_over_template(domain.circles, b, inverse, domain.triangles, domain.uv, context);
+    const Triangles& triangles = domain.surface.triangles;
+    std::vector<int> own(goal.size());
+    std::iota(own.begin(), own.end(), 0);
+    TemplateStart start = lay_over_template(domain.circles, goal, own, triangles, domain.surface.uv, context);
+    Moebius symmetry;
+    AlignedDomain laid =
+        lay_by_landmarks(triangles, start.uv, goal, held.of(start.uv, triangles), held.places, symmetry);
+    for (std::size_t k = 1; k < goal.size(); ++k) start.circles[k] = symmetry(start.circles[k]);
+    start.uv = std::move(laid.uv);
+    undistorted = std::move(laid.undistorted);
+    return start;
+}
+
+/// Corners of a quadrilateral: four vertices of the only rim, in its order; or nothing.
+std::optional<std::array<Index, 4>> four_corners(const CompactDomain& domain, const CutMesh& mesh)
+{
+    if (domain.loops.size() != 1 || mesh.vertex.size() != 4) return {};
+    std::array<Index, 4> corners{};
+    std::size_t found = 0;
+    for (const Index v : domain.loops[0])
+        if (std::ranges::find(mesh.vertex, v) != mesh.vertex.end()) corners[found++] = v;
+    if (found < 4) return {};
+    return corners;
+}
+
+/// K from a modulus that alone describes the domains: of a ring, or of a disk with four corners.
+std::optional<double> dilatation_by_modulus(const CompactDomain& domain, const std::vector<Circle>& b,
+                                            const CutMesh& mesh, const PlanarPoints& from, const PlanarPoints& to)
+{
+    double ratio = 1.0;
+    if (b.size() == 2 && mesh.vertex.empty()) {
+        ratio = conformal_separation(domain.circles[0], domain.circles[1]) / conformal_separation(b[0], b[1]);
+    } else if (const auto corners = four_corners(domain, mesh)) {
+        const auto modulus = [&](const PlanarPoints& uv) {
+            std::array<Complex, 4> places{};
+            for (std::size_t i = 0; i < 4; ++i) places[i] = complex_at(uv, (*corners)[i]);
+            return rectangle_modulus(places);
+        };
+        ratio = modulus(from) / modulus(to);
+    } else {
+        return {};
+    }
+    return std::max(ratio, 1.0 / ratio);
+}
+
+TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circle>& b, const std::vector<int>& inverse,
+                             const Held& held, ExecutionContext& context)
+{
+    const Triangles& triangles = domain.surface.triangles;
     std::vector<Circle> goal(b.size());
     TeichmuellerMap result;
     result.match.assign(b.size(), 0);
@@ -130,103 +220,121 @@ TeichmuellerMap extremal_map(const MappedSurface& a, const std::vector<Circle>& 
         goal[static_cast<std::size_t>(inverse[k])] = b[k];
         result.match[static_cast<std::size_t>(inverse[k])] = static_cast<int>(k);
     }
+    PlanarPoints undistorted;
+    const TemplateStart start = laid_over(domain, goal, held, undistorted, context);
     PlanarPoints uv = start.uv;
     if (!has_arrived(start.circles, goal)) {
         require_wide_circles(domain.circles, "a's");
         require_wide_circles(b, "b's");
-        const BendingInput input{domain.triangles,
+        const BendingInput input{triangles,
                                  domain.loops,
                                  domain.off_circle,
-                                 start.uv,
+                                 undistorted,
                                  start.uv,
                                  domain.areas,
                                  std::vector<TemplateRim>(b.size())};
-        const Extremal extremal{.powers = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0}, .free_rims = true};
-        context.begin_stage("fit", 0.05, 0.95);
+        context.begin_stage("fit", 0.05, held.points.empty() ? 0.95 : 0.4);
+        Extremal extremal{.powers = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0}, .free_rims = true};
+        if (!held.points.empty()) extremal = {};
         BendingResult bent = bend_between(input, start.circles, goal, extremal, context);
         if (!bent.arrived) refuse_teichmueller(bent.reached, std::move(bent.blocked));
         uv = std::move(bent.uv);
         result.straight = bent.straight;
         result.newton_steps = bent.newton_steps;
     }
+    CutMesh mesh{triangles, {}, {}, {}};
+    PlanarPoints from = undistorted;
+    if (!held.points.empty()) {
+        context.begin_stage("landmarks", 0.4, 0.95);
+        LandmarkMap map =
+            map_with_landmarks(domain.surface, goal, undistorted, uv, held.points, held.places, true, context);
+        mesh = std::move(map.mesh);
+        mesh.triangles = std::move(map.triangles);
+        uv = std::move(map.uv);
+        from = mesh.extended(undistorted, triangles);
+    }
     context.begin_stage("finish", 0.95, 1.0);
-    result.flipped = newly_folded(domain.triangles, start.uv, uv);
+    result.flipped = newly_folded(mesh.triangles, from, uv);
     if (result.flipped > 0) refuse_teichmueller(1.0, {});
-    const VectorXcd mu = plane_beltrami(start.uv, domain.triangles, uv);
-    result.mu = mu.cwiseAbs();
-    const double most = (result.mu.array() < 1.0).select(result.mu, 0.0).maxCoeff();
+    const VectorXcd mu = plane_beltrami(from, mesh.triangles, uv);
+    result.mu = VectorXd::Zero(triangles.rows());
+    for (Eigen::Index f = 0; f < mu.size(); ++f) {
+        double& most = result.mu[mesh.face.empty() ? f : mesh.face[static_cast<std::size_t>(f)]];
+        most = std::max(most, std::abs(mu[f]));
+    }
+    const double most = (mu.array().abs() < 1.0).select(mu.cwiseAbs(), 0.0).maxCoeff();
     result.largest = (1.0 + most) / (1.0 - most);
-    const DilatationBounds bounds = dilatation_bounds(domain.triangles, start.uv, domain.loops, mu);
+    std::vector<Index> marks = mesh.vertex;
+    sort_unique(marks);
+    const DilatationBounds bounds = dilatation_bounds(mesh.triangles, from, start.circles, domain.loops, marks, mu);
     result.lower = std::min(bounds.lower, result.largest);
     result.dilatation = std::clamp(std::sqrt(bounds.lower * bounds.upper), result.lower, result.largest);
-    if (b.size() == 2) {
-        const double ratio =
-            conformal_separation(domain.circles[0], domain.circles[1]) / conformal_separation(b[0], b[1]);
-        result.lower = result.dilatation = std::max(ratio, 1.0 / ratio);
+    if (const auto exact = dilatation_by_modulus(domain, b, mesh, from, uv)) {
+        result.lower = result.dilatation = *exact;
         result.largest = std::max(result.largest, result.dilatation);
     }
-    result.uv = PlanarPoints::Zero(a.uv.rows(), 2);
-    result.uv(domain.original, Eigen::all) = uv;
+    result.uv = uv.topRows(domain.surface.uv.rows());
     context.advance(1.0);
     return result;
 }
 
-/// cosh of the hyperbolic distance, minus 1.
-double half_plane_gap(Complex a, Complex b) { return std::norm(a - b) / (2.0 * a.imag() * b.imag()); }
-
-/// In the fundamental domain of the modular group.
-Complex reduced_modulus(Complex tau)
+/// The least K of all matches. Maps are computed by rising lower bounds, until no bound is below the least K.
+TeichmuellerMap least_map(const CompactDomain& domain, const std::vector<Circle>& b, ExecutionContext& context)
 {
-    for (int i = 0; i < 10000; ++i) {
-        tau -= std::round(tau.real());
-        if (std::norm(tau) >= 1.0) return tau;
-        tau = -1.0 / tau;
+    constexpr std::size_t most_maps = 100;
+    std::optional<TeichmuellerMap> best;
+    std::exception_ptr error;
+    std::size_t refused = 0, tried = 0;
+    context.begin_stage("fit", 0.0, 1.0);
+    ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
+    const auto attempt = [&](const std::vector<int>& inverse) {
+        context.advance(static_cast<double>(tried) / most_maps);
+        if (++tried > most_maps) refuse_long_search();
+        try {
+            TeichmuellerMap map = extremal_map(domain, b, inverse, {}, inner);
+            if (!best || map.dilatation < best->dilatation) best = std::move(map);
+        } catch (const OutOfMemory&) {
+            throw;
+        } catch (const SolverError&) {
+            if (!error) error = std::current_exception();
+            ++refused;
+        }
+    };
+    const std::vector<int> first = inverse_match(domain, b, {}, {}, context);
+    attempt(first);
+    const double limit = best ? best->dilatation : std::numeric_limits<double>::infinity();
+    for (const auto& [bound, inverse] : bounded_matches(b, domain.circles, limit, context)) {
+        if (best && bound >= best->dilatation) break;
+        if (inverse != first) attempt(inverse);
     }
-    throw InputError("the modulus of the torus is too near the real axis");
+    if (!best) std::rethrow_exception(error);
+    best->refused = refused;
+    context.advance(1.0);
+    return *best;
 }
 
 }  // namespace
 
-TeichmuellerMap teichmueller_map(const MappedSurface& a, const std::vector<Circle>& b, const std::vector<int>& match,
-                                 ExecutionContext& context)
+TeichmuellerMap teichmueller_map(const MappedSurface& a, const std::vector<Circle>& b,
+                                 const TeichmuellerOptions& options, ExecutionContext& context)
 {
-    return run_detachable<TeichmuellerMap>(context, [a, b, match](ExecutionContext& own) {
+    return run_detachable<TeichmuellerMap>(context, [a, b, options](ExecutionContext& own) {
         fix_product_blocks();
-        return extremal_map(a, b, match, own);
+        require_own_circles(a.loops);
+        if (options.least_match && !(options.match.empty() && options.landmarks.empty()))
+            throw InputError("the search for the least match has neither a match nor landmarks");
+        const CompactDomain domain = compact(a);
+        require_equally_many(domain.circles, b);
+        const Held held = held_points(options.landmarks);
+        TeichmuellerMap map =
+            options.least_match
+                ? least_map(domain, b, own)
+                : extremal_map(domain, b, inverse_match(domain, b, options.match, held, own), held, own);
+        PlanarPoints uv = PlanarPoints::Zero(a.uv.rows(), 2);
+        uv(domain.original, Eigen::all) = map.uv;
+        map.uv = std::move(uv);
+        return map;
     });
-}
-
-double torus_dilatation(Complex a, Complex b)
-{
-    for (const Complex tau : {a, b})
-        if (!std::isfinite(tau.real()) || !std::isfinite(tau.imag()) || !(tau.imag() > 0.0))
-            throw InputError("the modulus of a torus is a number above the real axis");
-    Complex z = reduced_modulus(a), w = reduced_modulus(b);
-    if (z.imag() < w.imag()) std::swap(z, w);
-    double least = half_plane_gap(z, w);
-    if (!(least < 1e100)) throw InputError("the moduli of the tori are too far apart");
-    // An image of w at a distance d has at least the height of z over exp(d): finitely many (c, d).
-    const double reach = w.imag() / z.imag() * (1.0 + least + std::sqrt(least * (least + 2.0)));
-    const auto most_c = static_cast<long>(std::sqrt(reach) / w.imag());
-    for (long c = 0; c <= most_c; ++c) {
-        const double wide = std::sqrt(std::max(reach - std::pow(static_cast<double>(c) * w.imag(), 2), 0.0));
-        const double middle = -static_cast<double>(c) * w.real();
-        for (auto d = static_cast<long>(std::floor(middle - wide)); d <= static_cast<long>(std::ceil(middle + wide));
-             ++d) {
-            if (std::gcd(c, d) != 1) continue;
-            // The first row (p, q) with p d - q c = 1, up to a shift.
-            long p = d, q = 0;
-            if (c != 0) {
-                const long size = c;
-                for (p = 0; p < size && ((p * d - 1) % size + size) % size != 0;) ++p;
-                q = (p * d - 1) / c;
-            }
-            const Complex image = (static_cast<double>(p) * w + static_cast<double>(q)) /
-                                  (static_cast<double>(c) * w + static_cast<double>(d));
-            least = std::min(least, half_plane_gap(z, image + std::round((z - image).real())));
-        }
-    }
-    return 1.0 + least + std::sqrt(least * (least + 2.0));
 }
 
 }  // namespace koebe

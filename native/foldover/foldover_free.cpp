@@ -1,5 +1,6 @@
 #include "foldover/foldover_free.h"
 
+#include "core/complex_places.h"
 #include "foldover/face_energy.h"
 #include "foldover/newton_system.h"
 
@@ -174,6 +175,19 @@ FoldoverResult minimize_foldover_free(FoldoverProblem& problem, const ExecutionC
                                       const FoldoverOptions& options)
 {
     return FoldoverMinimizer(problem, options).run(context);
+}
+
+double most_bent(const FoldoverProblem& problem, Eigen::Index count)
+{
+    double most = 0.0;
+    for (Eigen::Index f = 0; f < count; ++f) {
+        const auto corner = [&](int k) { return complex_at(problem.points, problem.triangles(f, k)); };
+        const FaceMap map = WantedShape(problem.reference[f]).map_to(corner(1) - corner(0), corner(2) - corner(0));
+        const double determinant = map.determinant();
+        if (!(determinant > 0.0)) return std::numeric_limits<double>::infinity();
+        most = std::max(most, 2.0 * std::norm(map.unlike) / determinant);
+    }
+    return most;
 }
 
 }  // namespace koebe

@@ -45,4 +45,8 @@ struct FoldoverResult {
 FoldoverResult minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
                                       const FoldoverOptions& options = {});
 
+/// The largest 2 |mu|^2 / (1 - |mu|^2) of the first faces, from their wanted shapes to their images; for theta = 0 it
+/// is the largest t / 2 - 1. A face that is turned over counts as |mu| = 1, so as infinite. @param count of faces
+double most_bent(const FoldoverProblem& problem, Eigen::Index count);
+
 }  // namespace koebe

@@ -14,6 +14,7 @@
 #include "execution/execution.h"
 #include "fit/fit_circles.h"
 #include "fit/teichmueller.h"
+#include "fit/torus_dilatation.h"
 #include "flatten/flatten.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"

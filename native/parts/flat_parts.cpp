@@ -24,7 +24,7 @@ constexpr double worth_repairing = 1.2;  // one map's angle error over the parts
 constexpr double small_error = 1.0;      // degrees: a smaller error is not seen
 constexpr double large_error = 10.0;     // degrees: the surface is crumpled, and a map without repairs says little
 constexpr double most_worse = 0.5;       // overflow over area that repairs may add
-constexpr double most_bent = 5.0, right_angle = 90.0;  // degrees of angle error that repairs may add
+constexpr double most_bend = 5.0, right_angle = 90.0;  // degrees of angle error that repairs may add
 constexpr double clearly = 0.9;                        // of the parts' angle error: one map with less is better
 constexpr std::size_t few_faces = 24;                  // a part with fewer faces is not cut
 constexpr std::size_t many_faces = 4000;               // a part with more faces is cut first if
@@ -145,7 +145,7 @@ void repair_and_judge(const Part& part, double part_price, FlatParts& as_one, Ex
     const double worse = overflow_of(flat, part.mesh.areas) - part.map.overflow;
     const double bent = angle_error(as_one.parts) - error;
     double cost = worse > most_worse * part.mesh.area ? worse : 0.0;
-    if (bent > most_bent) cost += lost_cost * bent / right_angle * part.mesh.area;
+    if (bent > most_bend) cost += lost_cost * bent / right_angle * part.mesh.area;
     if (cost > part_price) as_one.flaws.spoilt = cost / lost_cost;
 }
 

@@ -6,6 +6,7 @@
 
 #include "fit/fit_circles.h"
 #include "fit/teichmueller.h"
+#include "fit/torus_dilatation.h"
 #include "report/fit_json.h"
 
 #include <pybind11/complex.h>
@@ -62,14 +63,19 @@ void bind_fit(py::module_& m)
         .def_property_readonly("uv", [](const TeichmuellerMap& map) { return map.uv; })
         .def_readonly("match", &TeichmuellerMap::match)
         .def_readonly("straight", &TeichmuellerMap::straight)
+        .def_readonly("refused", &TeichmuellerMap::refused)
         .def_readonly("flipped", &TeichmuellerMap::flipped)
         .def_readonly("newton_steps", &TeichmuellerMap::newton_steps);
-    m.def("teichmueller_map", [](const MappedSurface& a, const PlanarPoints& centers, const VectorXd& radii,
-                                 const std::vector<int>& match, const py::object& progress, const CancelToken& cancel) {
-        return without_gil(progress, cancel, [&](ExecutionContext& context) {
-            return teichmueller_map(a, circles_of(centers, radii), match, context);
-        });
-    });
+    m.def("teichmueller_map",
+          [](const MappedSurface& a, const PlanarPoints& centers, const VectorXd& radii, const std::vector<int>& match,
+             const std::vector<SurfacePoint>& points, const std::vector<Complex>& places, bool least_match,
+             const py::object& progress, const CancelToken& cancel) {
+              TeichmuellerOptions options{.match = match, .least_match = least_match};
+              for (std::size_t i = 0; i < points.size(); ++i) options.landmarks.push_back({points[i], places[i]});
+              return without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return teichmueller_map(a, circles_of(centers, radii), options, context);
+              });
+          });
     m.def("torus_dilatation", &torus_dilatation);
 }
 

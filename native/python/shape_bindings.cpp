@@ -114,7 +114,11 @@ void bind_shapes(py::module_& m)
         .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
             return planar(d.map(complex(points)));
         });
-    [[maybe_unused]] const auto point = py::class_<SurfacePoint>(m, "SurfacePoint");
+    py::class_<SurfacePoint>(m, "SurfacePoint")
+        .def("place", [](const SurfacePoint& point, const PlanarPoints& uv, const Triangles& triangles) {
+            const Eigen::RowVector2d at = point.of(uv, triangles);
+            return Complex(at[0], at[1]);
+        });
     m.def("surface_points", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                                const std::vector<Index>& numbers, const Eigen::Ref<const Vertices>& positions) {
         std::vector<NamedPoint> points;
@@ -126,11 +130,12 @@ void bind_shapes(py::module_& m)
     });
     m.def("correspond",
           [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes,
-             const std::vector<SurfacePoint>& on_source, const std::vector<SurfacePoint>& on_target,
+             const std::vector<SurfacePoint>& on_source, const std::vector<SurfacePoint>& on_target, bool extremal,
              const py::object& progress, const CancelToken& cancel) {
               std::vector<Landmark> landmarks;
               for (std::size_t i = 0; i < on_source.size(); ++i) landmarks.push_back({on_target[i], on_source[i]});
-              const CorrespondenceOptions options{.match = match, .fit_holes = fit_holes, .landmarks = landmarks};
+              const CorrespondenceOptions options{
+                  .match = match, .fit_holes = fit_holes, .landmarks = landmarks, .extremal = extremal};
               Correspondence found = without_gil(progress, cancel, [&](ExecutionContext& context) {
                   return run_detachable<Correspondence>(context, [source, target, options](ExecutionContext& own) {
                       fix_product_blocks();

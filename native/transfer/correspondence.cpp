@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -87,13 +86,13 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
 
 namespace {
 
-/// Places of landmarks in the two domains, both laid over the source.
+/// Places of landmarks in the two domains, the target's as it is.
 struct LandmarkPlaces {
     std::vector<SurfacePoint> on_target;
     VectorXcd now, wanted;
 };
 
-LandmarkPlaces landmark_places(const MappedSurface& source, const MappedSurface& target, const Moebius& map,
+LandmarkPlaces landmark_places(const MappedSurface& source, const MappedSurface& target,
                                const std::vector<Landmark>& landmarks)
 {
     const auto count = static_cast<Eigen::Index>(landmarks.size());
@@ -103,84 +102,22 @@ LandmarkPlaces landmark_places(const MappedSurface& source, const MappedSurface&
         const Eigen::RowVector2d on_target = landmark.target.of(target.uv, target.triangles),
                                  on_source = landmark.source.of(source.uv, source.triangles);
         places.on_target.push_back(landmark.target);
-        places.now[i] = map(Complex(on_target[0], on_target[1]));
+        places.now[i] = Complex(on_target[0], on_target[1]);
         places.wanted[i] = Complex(on_source[0], on_source[1]);
     }
     return places;
 }
 
-/// The best alignment for circles and landmarks together, if all matches of the loops can be tried. The nearest module
-/// alone may confuse holes, and landmarks tell them apart.
-DomainAlignment aligned_by_landmarks(const MappedSurface& source, const MappedSurface& target,
-                                     const std::vector<Landmark>& landmarks, const ExecutionContext& context)
-{
-    constexpr std::size_t most_loops = 6;  // 120 matches
-    const std::vector<Circle> circles = circles_of(source.loops), others = circles_of(target.loops);
-    DomainAlignment best = align_domains(circles, others, {}, context);
-    if (landmarks.empty() || circles.size() < 3 || circles.size() > most_loops) return best;
-    const auto squares = [&](const DomainAlignment& alignment) {
-        const LandmarkPlaces places = landmark_places(source, target, alignment.map, landmarks);
-        return (places.now - places.wanted).squaredNorm() / static_cast<double>(landmarks.size()) +
-               alignment.residual * alignment.residual;
-    };
-    double least = squares(best);
-    std::vector<int> match(circles.size());
-    std::iota(match.begin(), match.end(), 0);
-    do {
-        DomainAlignment next = align_domains(circles, others, match, context);
-        if (const double sum = squares(next); sum < least) {
-            least = sum;
-            best = std::move(next);
-        }
-    } while (std::next_permutation(match.begin() + 1, match.end()));
-    return best;
-}
-
-/// The target's domain laid over the source's, and the domain that counts as undistorted.
-struct AlignedDomain {
-    PlanarPoints uv, undistorted;
-};
-
-/// Applies the best symmetry for the landmarks. Where it would turn large faces over, applies as much of it as turns
-/// none, and the domain before counts as undistorted.
-/// @param map of the circles; changed to the applied map
-AlignedDomain aligned_domain(const MappedSurface& target, const std::vector<Circle>& circles,
-                             const LandmarkPlaces& places, Moebius& map)
-{
-    constexpr int halvings = 10;
-    const Moebius plain = map, symmetry = nearest_symmetry(circles, places.now, places.wanted);
-    const VectorXcd uv = complex(target.uv);
-    const double length = std::abs(symmetry.a);
-    const auto with_share = [&](double share) {
-        const double a = std::tanh(share * std::atanh(length));
-        map = Moebius{length > 0.0 ? a / length * symmetry.a : Complex(0.0), symmetry.turn} * plain;
-        return planar(map(uv));
-    };
-    const auto folded = [&](const PlanarPoints& points) { return folded_faces(target.triangles, points).size(); };
-    const PlanarPoints whole = with_share(1.0);
-    if (length == 0.0) return {whole, whole};
-    const std::size_t most = folded(with_share(0.0));
-    if (folded(whole) <= most) {
-        with_share(1.0);
-        return {whole, whole};
-    }
-    double served = 0.0, failed = 1.0;
-    for (int i = 0; i < halvings; ++i) {
-        const double share = 0.5 * (served + failed);
-        (folded(with_share(share)) <= most ? served : failed) = share;
-    }
-    return {with_share(served), target.uv};
-}
-
 LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& target, const Correspondence& found,
-                              const PlanarPoints& aligned, const LandmarkPlaces& places, ExecutionContext& context)
+                              const PlanarPoints& aligned, const LandmarkPlaces& places, bool extremal,
+                              ExecutionContext& context)
 {
     std::vector<Circle> circles(target.loops.size());
     for (std::size_t k = 0; k < circles.size(); ++k) {
         const std::size_t own = k == 0 ? 0 : found.alignment.match[k];
         circles[own] = found.fitted ? source.loops[k].circle : found.alignment.map(target.loops[own].circle);
     }
-    return map_with_landmarks(target, circles, aligned, found.uv, places.on_target, places.wanted, context);
+    return map_with_landmarks(target, circles, aligned, found.uv, places.on_target, places.wanted, extremal, context);
 }
 
 /// The warning that lists the holes of the source that the holes of the target do not reach.
@@ -197,20 +134,20 @@ Warning not_fitted(const DomainAlignment& alignment, const std::vector<Circle>& 
     return warning;
 }
 
-/// Measures the distortion of the bending from the aligned domain.
-void judge(Correspondence& result, const MappedSurface& target, const CutMesh& mesh, const PlanarPoints& aligned,
+/// Measures the distortion of the bending from the aligned domain, in the triangles in which it is linear.
+void judge(Correspondence& result, const Triangles& linear, const CutMesh& mesh, const PlanarPoints& before,
            const PlanarPoints& uv)
 {
     Vertices flat = Vertices::Zero(uv.rows(), 3);
-    const PlanarPoints before = mesh.extended(aligned, target.triangles);
     flat.leftCols<2>() = before;
-    const std::vector<Index> lost = folded_faces(mesh.triangles, before), now = folded_faces(mesh.triangles, uv);
-    const auto is_lost = [&](Index f) { return std::ranges::binary_search(lost, f); };
     std::vector<Index> whole;
-    for (Index f = 0; f < static_cast<Index>(mesh.triangles.rows()); ++f)
-        if (!is_lost(f)) whole.push_back(f);
-    result.beltrami = measure_distortion(flat, mesh.triangles(whole, Eigen::all), uv).beltrami;
-    result.folded = static_cast<std::size_t>(std::ranges::count_if(now, [&](Index f) { return !is_lost(f); }));
+    const std::vector<Index> lost = folded_faces(linear, before);
+    for (Index f = 0; f < static_cast<Index>(linear.rows()); ++f)
+        if (!std::ranges::binary_search(lost, f)) whole.push_back(f);
+    result.beltrami = measure_distortion(flat, linear(whole, Eigen::all), uv).beltrami;
+    const std::vector<Index> folded = folded_faces(mesh.triangles, before);
+    result.folded = static_cast<std::size_t>(std::ranges::count_if(
+        folded_faces(mesh.triangles, uv), [&](Index f) { return !std::ranges::binary_search(folded, f); }));
 }
 
 /// Looks up the source's vertices in the target.
@@ -242,10 +179,12 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     require_own_circles(target.loops);
     const std::vector<Circle> circles = circles_of(source.loops);
     Correspondence result;
-    result.alignment = options.match.empty() ? aligned_by_landmarks(source, target, options.landmarks, context)
-                                             : align_domains(circles, circles_of(target.loops), options.match, context);
-    LandmarkPlaces places = landmark_places(source, target, result.alignment.map, options.landmarks);
-    const AlignedDomain aligned = aligned_domain(target, circles, places, result.alignment.map);
+    const LandmarkPlaces places = landmark_places(source, target, options.landmarks);
+    const std::vector<Circle> others = circles_of(target.loops);
+    result.alignment = options.match.empty() ? align_by_landmarks(circles, others, places.now, places.wanted, context)
+                                             : align_domains(circles, others, options.match, context);
+    const AlignedDomain aligned =
+        lay_by_landmarks(target.triangles, target.uv, circles, places.now, places.wanted, result.alignment.map);
     result.uv = aligned.uv;
     if (options.fit_holes && circles.size() > 1) {
         context.begin_stage("fit", 0.1, has_landmarks ? 0.3 : 0.9);
@@ -260,16 +199,19 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
         if (!result.fitted) result.warnings.push_back(not_fitted(result.alignment, circles));
     }
     CutMesh mesh{target.triangles, {}, {}, {}};
+    Triangles linear = target.triangles;
     PlanarPoints uv = result.uv;
     if (has_landmarks) {
         context.begin_stage("landmarks", 0.3, 0.9);
-        LandmarkMap map = bent_to_landmarks(source, target, result, aligned.undistorted, places, context);
+        LandmarkMap map =
+            bent_to_landmarks(source, target, result, aligned.undistorted, places, options.extremal, context);
         mesh = std::move(map.mesh);
+        linear = std::move(map.triangles);
         uv = std::move(map.uv);
         result.uv = uv.topRows(target.uv.rows());
     }
     context.begin_stage("finish", 0.9, 1.0);
-    judge(result, target, mesh, aligned.undistorted, uv);
+    judge(result, linear, mesh, mesh.extended(aligned.undistorted, target.triangles), uv);
     look_up(result, source, target, mesh, uv);
     context.advance(1.0);
     return result;

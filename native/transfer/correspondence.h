@@ -18,6 +18,7 @@ struct CorrespondenceOptions {
     std::vector<int> match;                ///< as in align_domains, or empty to search it
     bool fit_holes = true;                 ///< bend the target's domain until its holes are the source's
     std::vector<Landmark> landmarks = {};  ///< then bend it until these points correspond
+    bool extremal = false;                 ///< with landmarks: the largest |mu| becomes nearly as small as it can
 };
 
 struct Correspondence {

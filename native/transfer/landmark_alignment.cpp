@@ -1,6 +1,7 @@
 #include "transfer/landmark_alignment.h"
 
 #include "circles/point_alignment.h"
+#include "transfer/landmark_map.h"
 
 #include <Eigen/LU>
 
@@ -145,6 +146,60 @@ Moebius nearest_symmetry(const std::vector<Circle>& circles, const VectorXcd& po
         return center(z).array() / center(z).array().abs();
     };
     return center.inverse() * nearest_turn(directions(points), directions(targets)) * center;
+}
+
+DomainAlignment align_by_landmarks(const std::vector<Circle>& source, const std::vector<Circle>& target,
+                                   const VectorXcd& now, const VectorXcd& wanted, const ExecutionContext& context)
+{
+    constexpr std::size_t most_loops = 6;  // 120 matches
+    DomainAlignment best = align_domains(source, target, {}, context);
+    if (now.size() == 0 || source.size() < 3 || source.size() > most_loops) return best;
+    const auto squares = [&](const DomainAlignment& alignment) {
+        return (alignment.map(now) - wanted).squaredNorm() / static_cast<double>(now.size()) +
+               alignment.residual * alignment.residual;
+    };
+    double least = squares(best);
+    std::vector<int> match(source.size());
+    std::iota(match.begin(), match.end(), 0);
+    do {
+        DomainAlignment next = align_domains(source, target, match, context);
+        if (const double sum = squares(next); sum < least) {
+            least = sum;
+            best = std::move(next);
+        }
+    } while (std::next_permutation(match.begin() + 1, match.end()));
+    return best;
+}
+
+AlignedDomain lay_by_landmarks(const Triangles& triangles, const PlanarPoints& uv, const std::vector<Circle>& circles,
+                               const VectorXcd& now, const VectorXcd& wanted, Moebius& map)
+{
+    constexpr int halvings = 10;
+    const Moebius plain = map, symmetry = nearest_symmetry(circles, plain(now), wanted);
+    const VectorXcd z = uv.col(0) + Complex(0.0, 1.0) * uv.col(1);
+    const double length = std::abs(symmetry.a);
+    const auto with_share = [&](double share) {
+        const double a = std::tanh(share * std::atanh(length));
+        map = Moebius{length > 0.0 ? a / length * symmetry.a : Complex(0.0), symmetry.turn} * plain;
+        const VectorXcd moved = map(z);
+        PlanarPoints points(z.size(), 2);
+        points << moved.real(), moved.imag();
+        return points;
+    };
+    const auto folded = [&](const PlanarPoints& points) { return folded_faces(triangles, points).size(); };
+    const PlanarPoints whole = with_share(1.0);
+    if (length == 0.0) return {whole, whole};
+    const std::size_t most = folded(with_share(0.0));
+    if (folded(whole) <= most) {
+        with_share(1.0);
+        return {whole, whole};
+    }
+    double served = 0.0, failed = 1.0;
+    for (int i = 0; i < halvings; ++i) {
+        const double share = 0.5 * (served + failed);
+        (folded(with_share(share)) <= most ? served : failed) = share;
+    }
+    return {with_share(served), uv};
 }
 
 }  // namespace koebe

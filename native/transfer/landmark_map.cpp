@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -27,7 +28,12 @@ constexpr double unfolded_step = 1.0 / 16;   // share of the path: faces that fo
 constexpr int most_unfoldings = 6;           // of a map: each takes as long as the last steps
 constexpr int steps_between = 4;             // Newton steps after each step of the path
 constexpr int steps_at_the_end = 60;
-constexpr double settled = 1e-7;             // relative decrease of the energy
+constexpr double settled = 1e-7;                                         // relative decrease of the energy
+constexpr double extremal_powers[] = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0};  // of the terms: half of |mu|'s
+constexpr double highest_slack = 1e-3;                                   // over the term of the face that is bent most
+constexpr double highest_settled = 1e-4;                                 // relative decrease of the energy
+constexpr int extremal_steps = 200;                                      // Newton steps for each power
+constexpr double least_scale = 1e-12;                                    // of a face's term: conformal maps
 constexpr double bows[] = {0.0, 0.5, -0.5};  // heights of the paths' arcs, over the distance
 constexpr double least_height = 1e-9;        // of a face that moves, over its longest edge
 constexpr double most_cotangent = 20.0;      // of an angle, for the displacement
@@ -51,24 +57,27 @@ Complex on_way(const Pin& pin, const std::vector<Circle>& circles, double t, dou
 class LandmarkBending {
 public:
     LandmarkBending(const MappedSurface& target, const std::vector<Circle>& circles, const PlanarPoints& aligned,
-                    const PlanarPoints& bent, const std::vector<SurfacePoint>& landmarks, const VectorXcd& places)
-        : target_(target), circles_(circles)
+                    const PlanarPoints& bent, const std::vector<SurfacePoint>& landmarks, const VectorXcd& places,
+                    bool extremal)
+        : target_(target), circles_(circles), extremal_(extremal)
     {
         map_.mesh = cut_at_points(target.triangles, static_cast<Index>(target.uv.rows()), landmarks);
         aligned_ = map_.mesh.extended(aligned, target.triangles);
         start_ = map_.mesh.extended(bent, target.triangles);
         pins_ = landmark_pins(map_.mesh, target.triangles, target.loops, circles, start_, places);
+        triangles_ = map_.mesh.triangles;
+        if (extremal_) flip_ears();
         set_problem();
         folded_ = folded_faces(map_.mesh.triangles, start_).size();
     }
 
     LandmarkMap run(ExecutionContext& context)
     {
-        const DirichletSolver extension(bending_matrix(), fixed_);
-        for (const double bow : bows)
-            if (go(extension, bow, 0, context)) return std::move(map_);
-        if (go(extension, bows[0], most_unfoldings, context)) return std::move(map_);
-        if (go_at_once(extension, context)) return std::move(map_);
+        if (arrives(context)) {
+            if (extremal_) lower_the_largest(context);
+            map_.triangles = std::move(triangles_);
+            return std::move(map_);
+        }
         throw SolverError("no one-to-one map was found: the landmarks block each other, or the mesh is too coarse for "
                           "them, worst at " +
                               landmark_numbers(stuck_),
@@ -76,12 +85,51 @@ public:
     }
 
 private:
+    bool arrives(ExecutionContext& context)
+    {
+        const DirichletSolver extension(bending_matrix(), fixed_);
+        return std::ranges::any_of(bows, [&](double bow) { return go(extension, bow, 0, context); }) ||
+               go(extension, bows[0], most_unfoldings, context) || go_at_once(extension, context);
+    }
+
+    /// Links a vertex of the outer rim with one face only, an ear, to the face behind the ear: flips the edge between
+    /// both. An ear is so thin beside the circle that its shear would rule the sums of high powers.
+    void flip_ears()
+    {
+        std::vector<int> faces(static_cast<std::size_t>(aligned_.rows()), 0);
+        for (Eigen::Index i = 0; i < triangles_.size(); ++i) ++faces[static_cast<std::size_t>(triangles_.data()[i])];
+        for (const Index tip : target_.loops[0].vertices)
+            if (faces[static_cast<std::size_t>(tip)] == 1) flip_ear(tip);
+    }
+
+    void flip_ear(Index tip)
+    {
+        // The face with an edge from one vertex, to another or to any, and the corner where this edge begins.
+        const auto face_with = [&](Index from, Index to) {
+            for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
+                for (int k = 0; k < 3; ++k)
+                    if (triangles_(f, k) == from && (to < 0 || triangles_(f, (k + 1) % 3) == to))
+                        return std::pair(f, k);
+            return std::pair(Index(-1), 0);
+        };
+        const auto [ear, at] = face_with(tip, -1);
+        const Index next = triangles_(ear, (at + 1) % 3), last = triangles_(ear, (at + 2) % 3);
+        const auto [behind, from] = face_with(last, next);
+        if (behind < 0) return;
+        const Index opposite = triangles_(behind, (from + 2) % 3);
+        Triangles flipped(2, 3);
+        flipped << tip, next, opposite, tip, opposite, last;
+        if (!folded_faces(flipped, aligned_).empty() || !folded_faces(flipped, start_).empty()) return;
+        triangles_.row(ear) = flipped.row(0);
+        triangles_.row(behind) = flipped.row(1);
+    }
+
     void set_problem()
     {
-        const Triangles& triangles = map_.mesh.triangles;
+        const Triangles& triangles = triangles_;
         const Eigen::Index count = aligned_.rows();
         const Vertices vertices = map_.mesh.extended(target_.vertices, target_.triangles);
-        lengths_ = edge_lengths(vertices, triangles);
+        lengths_ = edge_lengths(vertices, map_.mesh.triangles);
         problem_.mobility.assign(count, Mobility::free);
         problem_.circles.resize(count);
         fixed_.assign(count, 1);
@@ -120,6 +168,7 @@ private:
         const double mean = problem_.weight.size() > 0 ? problem_.weight.mean() : 1.0;
         problem_.weight = (problem_.weight / mean).cwiseMax(least_area);
         problem_.floor = VectorXd::Zero(problem_.triangles.rows());
+        problem_.bends = extremal_;
     }
 
     /// u' B u is the integral of the squared Laplacian of u over the surface.
@@ -187,14 +236,38 @@ private:
     /// Takes Newton steps that turn no face over.
     void relax(PlanarPoints& now, int steps, const ExecutionContext& context)
     {
+        minimize(now,
+                 {.max_iterations = steps,
+                  .area_weight = 0.0,
+                  .settled = settled,
+                  .strict = true,
+                  .power = power,
+                  .slack = slack},
+                 context);
+    }
+
+    void lower_the_largest(const ExecutionContext& context)
+    {
+        for (const double high : extremal_powers) {
+            problem_.points = map_.uv;
+            const double scale = std::max(most_bent(problem_, problem_.triangles.rows()), least_scale);
+            if (!std::isfinite(scale)) return;
+            minimize(map_.uv,
+                     {.max_iterations = extremal_steps,
+                      .area_weight = 0.0,
+                      .settled = highest_settled,
+                      .strict = true,
+                      .power = high,
+                      .slack = highest_slack * scale,
+                      .scale = scale},
+                     context);
+        }
+    }
+
+    void minimize(PlanarPoints& now, const FoldoverOptions& options, const ExecutionContext& context)
+    {
         problem_.points = now;
-        minimize_foldover_free(problem_, context,
-                               {.max_iterations = steps,
-                                .area_weight = 0.0,
-                                .settled = settled,
-                                .strict = true,
-                                .power = power,
-                                .slack = slack});
+        minimize_foldover_free(problem_, context, options);
         if (problem_.points.allFinite() && is_one_to_one(problem_.points)) now = problem_.points;
     }
 
@@ -280,11 +353,13 @@ private:
     const MappedSurface& target_;
     const std::vector<Circle>& circles_;
     LandmarkMap map_;
+    Triangles triangles_;  // in which the map is linear
     PlanarPoints aligned_, start_;
     std::vector<Pin> pins_;
     EdgeLengths lengths_;
     FoldoverProblem problem_;
     std::vector<char> fixed_;
+    bool extremal_ = false;
     std::size_t folded_ = 0;
     std::vector<Index> stuck_;
 };
@@ -301,10 +376,10 @@ std::vector<Index> folded_faces(const Triangles& triangles, const PlanarPoints& 
 
 LandmarkMap map_with_landmarks(const MappedSurface& target, const std::vector<Circle>& circles,
                                const PlanarPoints& aligned, const PlanarPoints& bent,
-                               const std::vector<SurfacePoint>& landmarks, const VectorXcd& places,
+                               const std::vector<SurfacePoint>& landmarks, const VectorXcd& places, bool extremal,
                                ExecutionContext& context)
 {
-    return LandmarkBending(target, circles, aligned, bent, landmarks, places).run(context);
+    return LandmarkBending(target, circles, aligned, bent, landmarks, places, extremal).run(context);
 }
 
 }  // namespace koebe

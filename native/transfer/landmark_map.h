@@ -26,6 +26,9 @@ struct Landmark {
 struct LandmarkMap {
     CutMesh mesh;     ///< the target's, cut so that its landmarks are vertices
     PlanarPoints uv;  ///< (V + added, 2)
+    /// (F') in which the map is linear: the mesh's. For the extremal map each ear of the outer rim, a face with two
+    /// edges of it, and the face behind the ear have their common edge flipped.
+    Triangles triangles;
 };
 
 /// Holds the landmarks at their places and keeps rims on their circles, along which their vertices slide. Of these maps
@@ -37,15 +40,16 @@ struct LandmarkMap {
 /// The landmarks move in steps. The inside follows by the displacement of least squared Laplacian on the surface, and
 /// each step ends with Newton steps that turn no face over (minimize_foldover_free). Landmarks move straight, then on
 /// arcs to either side, at last all the way at once. If a short step folds faces they are turned back, a few times.
-/// Landmarks at rim vertices slide to places on the same rim.
+/// Landmarks at rim vertices slide to places on the same rim. For the extremal map the sums of rising powers of |mu|
+/// are minimized at the end, up to the 128th.
 /// @param circles of the target's loops, in their order @param aligned (V, 2) the domain without distortion
 /// @param bent (V, 2) the domain with its rims on the circles: the start
-/// @param places (n) of the landmarks in the plane
+/// @param places (n) of the landmarks in the plane @param extremal the largest |mu| becomes nearly as small as it can
 /// @throws InputError landmarks that exclude each other, or lie on a rim in one domain only (landmarks listed);
 /// SolverError no such map was found (landmarks listed); Cancelled
 LandmarkMap map_with_landmarks(const MappedSurface& target, const std::vector<Circle>& circles,
                                const PlanarPoints& aligned, const PlanarPoints& bent,
-                               const std::vector<SurfacePoint>& landmarks, const VectorXcd& places,
+                               const std::vector<SurfacePoint>& landmarks, const VectorXcd& places, bool extremal,
                                ExecutionContext& context);
 
 /// Faces whose area is not positive in 64 bits.

@@ -1,8 +1,8 @@
 #include "transfer/correspondence.h"
 
-#include "circle_domain.h"
 #include "core/errors.h"
 #include "loop_circles.h"
+#include "mapped_domain.h"
 #include "mesh/connectivity.h"
 
 #include <gtest/gtest.h>
@@ -12,20 +12,10 @@
 
 using namespace koebe;
 using namespace koebe::test;
-using koebe::test::CircleDomain;
 
 namespace {
 
-/// A flat circle domain, which is its own map.
-MappedSurface flat_domain(Index faces)
-{
-    const CircleDomain domain = test::make_circle_domain(test::five_circles(), faces);
-    MappedSurface surface{test::lift(domain.points, test::Lift::plane), domain.triangles, {}, {}};
-    surface.uv = surface.vertices.leftCols<2>();
-    for (std::size_t k = 0; k < domain.loops.size(); ++k)
-        surface.loops.push_back({{.vertices = domain.loops[k], .roundness = {}, .off_circle = {}}, domain.circles[k]});
-    return surface;
-}
+MappedSurface flat_domain(Index faces) { return mapped(make_circle_domain(five_circles(), faces)); }
 
 double face_area(const PlanarPoints& uv, const Triangles& triangles, Eigen::Index f)
 {
@@ -88,7 +78,7 @@ TEST(LandmarkMap, landmarks_lie_exactly_and_rims_stay_on_their_circles)
     }
     ExecutionContext context;
     const LandmarkMap map =
-        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places, context);
+        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places, false, context);
     for (Index i = 0; i < 6; ++i) {
         EXPECT_GE(map.mesh.vertex[i], count);
         EXPECT_EQ(Complex(map.uv(map.mesh.vertex[i], 0), map.uv(map.mesh.vertex[i], 1)), places[i]);
@@ -107,7 +97,7 @@ TEST(LandmarkMap, a_landmark_that_stays_moves_nothing)
     const VectorXcd places = VectorXcd::Constant(1, Complex(here[0], here[1]));
     ExecutionContext context;
     const LandmarkMap map =
-        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places, context);
+        map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points, places, false, context);
     EXPECT_LT((map.uv.topRows(surface.uv.rows()) - surface.uv).cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -118,7 +108,7 @@ TEST(LandmarkMap, what_excludes_itself_is_named)
     ExecutionContext context;
     try {
         map_with_landmarks(surface, circles_of(surface.loops), surface.uv, surface.uv, points,
-                           (VectorXcd(2) << Complex(0.1, 0.0), Complex(0.0, 0.1)).finished(), context);
+                           (VectorXcd(2) << Complex(0.1, 0.0), Complex(0.0, 0.1)).finished(), false, context);
         FAIL();
     } catch (const InputError& error) {
         EXPECT_EQ(error.elements(), (std::vector<Index>{0, 1}));

@@ -1,9 +1,9 @@
-#include "circle_domain.h"
 #include "core/errors.h"
 #include "fit/dilatation_bounds.h"
 #include "fit/plane_beltrami.h"
 #include "fit/teichmueller.h"
-#include "pipeline/uniformize.h"
+#include "fit/torus_dilatation.h"
+#include "mapped_domain.h"
 
 #include <gtest/gtest.h>
 
@@ -15,20 +15,10 @@ using namespace koebe::test;
 
 namespace {
 
-/// The mesh as a surface whose map is the identity.
-MappedSurface mapped(const CircleDomain& domain)
-{
-    MappedSurface surface{lift(domain.points, Lift::plane), domain.triangles, {}, {}};
-    surface.uv = surface.vertices.leftCols<2>();
-    for (std::size_t k = 0; k < domain.loops.size(); ++k)
-        surface.loops.push_back({{domain.loops[k], {}, {}}, domain.circles[k], 0.0, false});
-    return surface;
-}
-
 TeichmuellerMap extremal(const CircleDomain& a, const std::vector<Circle>& b, const std::vector<int>& match = {})
 {
     ExecutionContext context;
-    return teichmueller_map(mapped(a), b, match, context);
+    return teichmueller_map(mapped(a), b, {.match = match}, context);
 }
 
 std::vector<Circle> four_circles(double way)
@@ -66,8 +56,8 @@ TEST(Teichmueller, bounds_of_the_radial_map_meet)
     for (const double dilatation : {0.5, 1.5, 3.0}) {
         PlanarPoints to = from;
         for (Eigen::Index v = 0; v < to.rows(); ++v) to.row(v) *= std::pow(from.row(v).norm(), dilatation - 1.0);
-        const DilatationBounds bounds =
-            dilatation_bounds(ring.triangles, from, ring.loops, plane_beltrami(from, ring.triangles, to));
+        const DilatationBounds bounds = dilatation_bounds(ring.triangles, from, ring.circles, ring.loops, {},
+                                                          plane_beltrami(from, ring.triangles, to));
         const double exact = std::max(dilatation, 1.0 / dilatation);
         EXPECT_NEAR(bounds.lower, exact, 0.005 * exact);
         EXPECT_NEAR(bounds.upper, exact, 0.005 * exact);

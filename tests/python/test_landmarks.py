@@ -152,6 +152,18 @@ def test_what_excludes_itself_is_told_by_number(landmarks, says, named):
     assert (caught.value.elements, caught.value.of) == (named, "landmarks")
 
 
+def test_the_extremal_map_has_a_smaller_largest_mu_and_a_nearly_constant_one():
+    rng = np.random.default_rng(8)
+    plain = koebe.transfer(SMALL, OTHER)
+    for count in (1, 3, 6):
+        chosen = rng.choice(inside(OTHER), count, replace=False)
+        pairs = [(plain.points[v] + [*rng.uniform(-0.04, 0.04, 2), 0.0], int(v)) for v in chosen]
+        usual, extremal = (koebe.transfer(SMALL, OTHER, landmarks=pairs, extremal=on) for on in (False, True))
+        assert extremal.flipped == 0 and extremal.beltrami["max"] < 0.9 * usual.beltrami["max"]
+        assert extremal.beltrami["mean"] > 0.5 * extremal.beltrami["max"]
+        assert np.allclose(extremal.points[chosen], usual.points[chosen], atol=1e-6)
+
+
 def test_landmarks_named_twice_count_once():
     once = koebe.transfer(A, A, landmarks=[(FIRST, FIRST)])
     assert np.array_equal(once.points, koebe.transfer(A, A, landmarks=[(FIRST, FIRST)] * 2).points)

@@ -71,19 +71,20 @@ nlohmann::ordered_json teichmueller_json(const TeichmuellerMap& map)
 {
     return {{"distance", map.distance()}, {"dilatation", map.dilatation}, {"lower", map.lower},
             {"largest", map.largest},     {"match", map.match},           {"path", map.straight ? "straight" : "bows"},
-            {"flipped", map.flipped}};
+            {"refused", map.refused},     {"flipped", map.flipped}};
 }
 
-/// The map of one surface to the other, loops matched as in `match`.
-TeichmuellerMap extremal_map_of(const ShapeInput& a, const ShapeInput& b, const LoopMatch& match,
+/// The map of one surface to the other, loops matched as in `match`, or with the least K.
+TeichmuellerMap extremal_map_of(const ShapeInput& a, const ShapeInput& b, const LoopMatch& match, bool least,
                                 const CancelToken& token)
 {
     ProgressLine progress(false);
     ExecutionContext context(progress.callback(), token);
-    std::vector<int> partners(match.order_a.size());
-    for (std::size_t k = 0; k < partners.size(); ++k)
-        partners[static_cast<std::size_t>(match.order_a[k])] = match.order_b[k];
-    return teichmueller_map(a.surface, b.circles, partners, context);
+    TeichmuellerOptions options{.least_match = least};
+    if (!least) options.match.resize(match.order_a.size());
+    for (std::size_t k = 0; k < options.match.size(); ++k)
+        options.match[static_cast<std::size_t>(match.order_a[k])] = match.order_b[k];
+    return teichmueller_map(a.surface, b.circles, options, context);
 }
 
 int run_compare(const CompareRequest& request)
@@ -96,12 +97,12 @@ int run_compare(const CompareRequest& request)
     const ShapeInput b = read_shape(request.second, request.options, token);
     ExecutionContext context({}, token);
     const LoopMatch match = run_detachable<LoopMatch>(context, [request, a, b](ExecutionContext& own) {
-        return request.loops == "match" ? match_loops(a.circles, b.circles, request.any_outer, own) : by_length(a, b);
+        return request.loops == "length" ? by_length(a, b) : match_loops(a.circles, b.circles, request.any_outer, own);
     });
     double distance = match.distance;
     nlohmann::ordered_json extremal;
     if (request.teichmueller) {
-        const TeichmuellerMap map = extremal_map_of(a, b, match, token);
+        const TeichmuellerMap map = extremal_map_of(a, b, match, request.loops == "least", token);
         distance = map.distance();
         extremal = teichmueller_json(map);
     }
@@ -145,6 +146,8 @@ void settle_words(CompareRequest& request, const CLI::Option& json)
     require_csv(request);
     if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
     if (request.any_outer && request.loops != "match") throw CLI::ValidationError("--any-outer", "needs --loops match");
+    if (request.loops == "least" && !request.teichmueller)
+        throw CLI::ValidationError("--loops", "least needs --teichmueller");
     if (request.any_outer && request.teichmueller) throw CLI::ValidationError("--teichmueller", "excludes --any-outer");
     require_different_files(request.files(), {request.first, request.second}, true);
 }
@@ -160,8 +163,10 @@ Subcommand add_compare(CLI::App& app)
     options->add_option("B", request->second, "surface with the same number of holes");
     options
         ->add_option("--loops", request->loops,
-                     "match: search for the corresponding loops; length: loops correspond by length")
-        ->check(CLI::IsMember({"match", "length"}))
+                     "match: search for the corresponding loops; length: loops correspond by length; least, with "
+                     "--teichmueller: "
+                     "the loops correspond that give the least K")
+        ->check(CLI::IsMember({"match", "length", "least"}))
         ->capture_default_str();
     options->add_flag("--any-outer", request->any_outer,
                       "with match: the outer loop of one surface may correspond to a hole of the other surface");

@@ -31,7 +31,7 @@ namespace {
 struct TransferRequest {
     std::string first, second, output, json, landmarks;
     WrittenFormat format = WrittenFormat::obj;
-    bool aligned_only = false, quiet = false;
+    bool aligned_only = false, extremal = false, quiet = false;
     UniformizeOptions options;
 
     std::vector<OutputFile> files() const { return {{"OUT", output}, {"--json", json}}; }
@@ -120,7 +120,8 @@ int run_transfer(const TransferRequest& request)
     const auto a = std::make_shared<const MappedInput>(read_and_map(request.first, request, token));
     const auto b = std::make_shared<const MappedInput>(read_and_map(request.second, request, token));
     const ExecutionContext context({}, token);
-    CorrespondenceOptions options{.match = {}, .fit_holes = !request.aligned_only, .landmarks = {}};
+    CorrespondenceOptions options{
+        .match = {}, .fit_holes = !request.aligned_only, .landmarks = {}, .extremal = request.extremal};
     if (!request.landmarks.empty()) {
         const auto on_a = surface_points(a->surface.vertices, a->surface.triangles, named.on_a);
         const auto on_b = surface_points(b->surface.vertices, b->surface.triangles, named.on_b);
@@ -164,6 +165,10 @@ Subcommand add_transfer(CLI::App& app)
             "points that correspond exactly, a line each: two vertices, counted from 0, or x y z on A and x y z "
             "on B")
         ->type_name("FILE");
+    options
+        ->add_flag("--extremal", request->extremal,
+                   "with landmarks: the largest |mu| becomes nearly as small as it can be. Takes longer")
+        ->needs("--landmarks");
     add_options(*options, "shapes", request->options);
     options
         ->add_option("--json", request->json,

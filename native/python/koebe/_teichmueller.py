@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -13,6 +13,8 @@ from ._options import callback, token
 from ._result import UniformizeResult
 from ._shapes import _require_own_circles, mapped_surface
 from ._tiles import TileMap
+from ._transfer import places
+from ._transfer_carry import landmark_pairs
 from .errors import InputError
 
 
@@ -31,6 +33,7 @@ class TeichmuellerMap:
     match       (L,) b's loop for each of a's
     path        'straight', or 'bows' if holes had to go round each other
     flipped     faces that the map turns over: 0
+    refused     with match='least': matches whose K may be less, but for which no one-to-one map was found
     """
 
     K: float
@@ -42,6 +45,7 @@ class TeichmuellerMap:
     match: np.ndarray
     path: str
     flipped: int
+    refused: int = 0
 
     def __repr__(self) -> str:
         return f"<koebe.TeichmuellerMap K {self.K:.5g}, distance {self.distance:.4g}, {self.flipped} flipped>"
@@ -51,7 +55,8 @@ def teichmueller(
     a: Any,
     b: Any,
     *,
-    match: Sequence[int] | None = None,
+    match: Sequence[int] | Literal["least"] | None = None,
+    landmarks: Sequence[tuple[Any, Any]] | None = None,
     progress: Callable[[float, str], Any] | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> TeichmuellerMap:
@@ -61,13 +66,20 @@ def teichmueller(
     a's mesh and tells K from a quadratic differential, by the inequalities of Reich and Strebel.
     a           a result of uniformize
     b           a result of uniformize with equally many loops, or an object with `centers` and `radii`
-    match       b's loop for each of a's, 0 for 0; None: by match_loops
+    match       b's loop for each of a's, 0 for 0. None: by match_loops or, with landmarks and up to five holes, the
+                match that brings circles and landmarks nearest. 'least': the match with the least K
+    landmarks   pairs (on a, on b) of points that must correspond, as for `transfer`: the extremal map of those that
+                keep them. On a rim landmarks are vertices of both. Four on the rim of a surface without holes are the
+                corners of a quadrilateral, and K is the ratio of the moduli of the two rectangles
     progress, cancel    as for `uniformize`
     Two results of torus_map without holes, or of ring_map without further holes, are compared by their moduli, exactly.
     With three holes or more there are many ways round the holes, and each has its own K. The circles take the way of
     fit_circles: straight if there is room. So K is an upper bound for the least K of all ways.
-    Raises InputError for different numbers of loops and circles that are not the surface's own, SolverError if no
-    one-to-one map was found, with a's loops as `elements`, Cancelled.
+    match='least' computes the maps of all matches that may have the least K. A map of dilatation K changes no
+    separation of two loops by more than the factor K (separations), and this leaves most matches out.
+    Raises InputError for different numbers of loops, circles that are not the surface's own, landmarks that exclude
+    each other, and more than 100 matches that may have the least K; SolverError if no one-to-one map was found, with
+    a's loops or the landmarks as `elements`; Cancelled.
 
     >>> import koebe
     >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
@@ -75,18 +87,27 @@ def teichmueller(
     >>> print(f"{extremal.K:.2f} {extremal.distance:.2f}", extremal.flipped)
     1.16 0.07 0
     """
+    pairs = landmark_pairs(landmarks)
     if isinstance(a, TileMap) or isinstance(b, TileMap):
+        if pairs:
+            raise InputError("landmarks are for results of uniformize")
         return _of_tiles(a, b)
     if not isinstance(a, UniformizeResult):
         raise TypeError(f"teichmueller takes a result of uniformize first, not {type(a).__name__}")
     _require_own_circles(a)
     _require_own_circles(b)
     centers, radii = as_circles(b)
-    partners = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(radii), "loops")
-    if match is not None and not len(partners):
-        raise InputError("the match must name each of b's loops once, the outer one first")
+    least = isinstance(match, str) and match == "least"
+    if least and pairs:
+        raise InputError("the search for the least match has no landmarks")
+    partners = np.zeros(0, np.int32)
+    if match is not None and not least:
+        partners = as_indices(match, "match", len(radii), "loops")
+        if not len(partners):
+            raise InputError("the match must name each of b's loops once, the outer one first")
     run = callback(progress, "progress"), token(cancel, "cancel")
-    native = _koebe.teichmueller_map(mapped_surface(a), centers, radii, partners, *run)
+    held = _held_points(a, b, pairs)
+    native = _koebe.teichmueller_map(mapped_surface(a), centers, radii, partners, *held, least, *run)
     return TeichmuellerMap(
         native.dilatation,
         native.distance,
@@ -97,7 +118,18 @@ def teichmueller(
         np.array(native.match, np.int32),
         "straight" if native.straight else "bows",
         native.flipped,
+        native.refused,
     )
+
+
+def _held_points(a: UniformizeResult, b: Any, pairs: list[Any]) -> tuple[list[Any], list[complex]]:
+    """Landmarks on a, and their places in b's domain."""
+    if not pairs:
+        return [], []
+    if not isinstance(b, UniformizeResult):
+        raise TypeError(f"with landmarks teichmueller takes two results of uniformize, not {type(b).__name__}")
+    on_a, on_b = (places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
+    return on_a, [point.place(b.uv, b.surface[1]) for point in on_b]
 
 
 def _of_tiles(a: Any, b: Any) -> TeichmuellerMap:

@@ -81,6 +81,7 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
+    extremal: bool = False,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> Correspondence: ...
@@ -107,6 +108,7 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
+    extremal: bool = False,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> np.ndarray: ...
@@ -132,6 +134,7 @@ def transfer(
     match: Sequence[int] | None = None,
     fit: bool = True,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
+    extremal: bool = False,
     fields: tuple[Any, Any] | None = None,
     moebius: bool = False,
     bend: bool = False,
@@ -152,6 +155,7 @@ def transfer(
                which stands for the nearest point of the surface. Then the domain is bent further, circles to circles.
                Of the maps that take landmarks to landmarks exactly and turn no face over, it takes the one with the
                least fourth power of |mu| over the surface. On a rim landmarks are vertices of both
+    extremal   with landmarks: the largest |mu| becomes nearly as small as it can be, and |mu| nearly constant
     fields     of two results of sphere_map: values at a's vertices and at b's, such as sulcal depth. The sphere of b is
                turned until they correlate best. Several fields are columns: (V_a, k) and (V_b, k)
     moebius    of two results of sphere_map: not only rotations, but all Moebius maps. Landmarks must be three then
@@ -179,8 +183,8 @@ def transfer(
     (True, 0)
     """
     if isinstance(a, SphereMap) and isinstance(b, SphereMap):
-        if match is not None or fit is not True:
-            raise InputError("match and fit are for surfaces with holes")
+        if match is not None or fit is not True or extremal is not False:
+            raise InputError("match, fit and extremal are for surfaces with holes")
         found_on_sphere = sphere_transfer(a, b, landmarks, fields, moebius, bend, stiffness, Run(progress, cancel))
         return found_on_sphere if field is None else found_on_sphere.carry(field)
     if fields is not None or moebius or bend:
@@ -192,20 +196,22 @@ def transfer(
     if match is not None and not chosen:
         raise InputError("the match must name each of the loops of a once, the outer one first")
     pairs = landmark_pairs(landmarks)
-    on_a, on_b = (_places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
+    if flag(extremal, "extremal") and not pairs:
+        raise InputError("extremal needs landmarks")
+    on_a, on_b = (places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
     same = _on_one_template(a, b)
     if same and match is None:
         chosen = list(range(len(a.loops)))
     surfaces = mapped_surface(b, same), mapped_surface(a, same)
     run = callback(progress, "progress"), token(cancel, "cancel")
-    found = _koebe.correspond(*surfaces, chosen, flag(fit, "fit"), on_b, on_a, *run)
+    found = _koebe.correspond(*surfaces, chosen, flag(fit, "fit"), on_b, on_a, extremal, *run)
     _forget(found, ~b._source.used)
     found["alignment"] = DomainAlignment(found["alignment"], b.radii)
     found["warnings"] = [Warning(warning) for warning in found["warnings"]]
     for warning in found["warnings"]:
         warnings.warn(warning, stacklevel=2)
-    places = Correspondence(**found, triangles=a.surface[1])
-    return places if field is None else places.carry(field)
+    correspondence = Correspondence(**found, triangles=a.surface[1])
+    return correspondence if field is None else correspondence.carry(field)
 
 
 def _forget(found: dict[str, Any], vertices: np.ndarray) -> None:
@@ -222,7 +228,7 @@ def _on_one_template(a: UniformizeResult, b: UniformizeResult) -> bool:
     return bool(np.allclose(a.centers, b.centers, 0.0, 1e-9) and np.allclose(a.radii, b.radii, 0.0, 1e-9))
 
 
-def _places(result: UniformizeResult, points: list[Any]) -> "list[_koebe.SurfacePoint]":
+def places(result: UniformizeResult, points: list[Any]) -> "list[_koebe.SurfacePoint]":
     """The places of vertices and points on the surface."""
     if not points:
         return []
