@@ -35,7 +35,7 @@ constexpr int rounds = 2;               // of splitting and merging
 constexpr double vain = 0.9;            // of the overflow: cuts that leave more are in vain
 constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
-constexpr double few_cuts = 4.0;  // roots of a piece's area: a piece unfolded with fewer is not tried otherwise
+constexpr double few_cuts = 3.6;  // roots of a piece's area: a piece unfolded with fewer is not tried otherwise
 
 /// First into the unit cube, as areas of huge or tiny meshes are beyond the range of a double.
 struct Sized {
