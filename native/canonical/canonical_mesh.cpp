@@ -8,6 +8,7 @@
 
 #include <array>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace koebe {
@@ -48,7 +49,7 @@ void leave_out_duplicates(const Triangles& triangles, Index vertex_count, std::v
     std::vector<std::vector<Index>> groups;
     for (Index v = 0; v < vertex_count; ++v) {
         const auto last = faces.begin() + begin[v + 1];
-        std::ranges::sort(faces.begin() + begin[v], last, {}, corners);
+        std::ranges::sort(std::span<Index>(faces.data() + begin[v], faces.data() + begin[v + 1]), {}, corners);
         for (auto run = faces.begin() + begin[v]; run != last;) {
             const auto end = std::find_if(run, last, [&](Index f) { return corners(f).first != corners(*run).first; });
             if (end - run > 1) groups.emplace_back(run, end);

@@ -9,6 +9,7 @@
 #include "fit/bend_between.h"
 #include "fit/bounded_matches.h"
 #include "fit/circle_template.h"
+#include "fit/coarse_gaps.h"
 #include "fit/dilatation_bounds.h"
 #include "fit/plane_beltrami.h"
 #include "fit/template_start.h"
@@ -154,6 +155,17 @@ void require_wide_circles(const std::vector<Circle>& circles, const char* whose)
                       blocked.empty() ? ElementKind::none : ElementKind::loops, std::move(blocked));
 }
 
+/// @param whose a or b @param circles in the order of a's loops
+void require_fine_gaps(const std::vector<Circle>& circles, const std::vector<VertexLoop>& loops, const PlanarPoints& uv,
+                       const char* whose)
+{
+    if (const auto gap = coarse_gap(circles, loops, uv))
+        throw SolverError("the mesh is too coarse for the gap between loops " + std::to_string(gap->first) + " and " +
+                              std::to_string(gap->second) + " in the domain of " + whose +
+                              ": the edges of their rims leave the circles by more than the gap is wide",
+                          ElementKind::loops, {gap->first, gap->second});
+}
+
 std::size_t newly_folded(const Triangles& triangles, const PlanarPoints& before, const PlanarPoints& after)
 {
     const VectorXcd same = plane_beltrami(before, triangles, before), now = plane_beltrami(before, triangles, after);
@@ -272,6 +284,9 @@ TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circ
     if (const auto exact = dilatation_by_modulus(domain, b, mesh, from, uv)) {
         result.lower = result.dilatation = *exact;
         result.largest = std::max(result.largest, result.dilatation);
+    } else {
+        require_fine_gaps(domain.circles, domain.loops, domain.surface.uv, "a");
+        require_fine_gaps(goal, domain.loops, uv, "b");
     }
     result.uv = uv.topRows(domain.surface.uv.rows());
     context.advance(1.0);

@@ -1,4 +1,5 @@
 #include "core/errors.h"
+#include "fit/coarse_gaps.h"
 #include "fit/dilatation_bounds.h"
 #include "fit/plane_beltrami.h"
 #include "fit/teichmueller.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 using namespace koebe;
@@ -144,4 +146,25 @@ TEST(Teichmueller, refuses_other_domains)
     EXPECT_THROW(extremal(domain, b, {0, 1, 1, 2}), InputError);
     EXPECT_THROW(extremal(domain, {b[0], b[1], b[1], b[2]}), InputError);
     EXPECT_THROW(extremal(domain, {b[1], b[0], b[2], b[3]}), InputError);
+}
+
+TEST(Teichmueller, a_gap_is_coarse_if_edges_leave_the_circles_by_more)
+{
+    const std::vector<Circle> circles{{0.0, 1.0}, {-0.3, 0.29}, {0.3, 0.29}};  // with gaps of 0.41, 0.41 and 0.02
+    const auto rims = [&](int count) {
+        std::vector<VertexLoop> loops(circles.size());
+        PlanarPoints uv(static_cast<Eigen::Index>(circles.size()) * count, 2);
+        Index v = 0;
+        for (std::size_t k = 0; k < circles.size(); ++k)
+            for (int i = 0; i < count; ++i) {
+                const Complex z =
+                    circles[k].center + std::polar(circles[k].radius, 2.0 * std::numbers::pi * (i + 0.5) / count);
+                loops[k].push_back(v);
+                uv.row(v++) << z.real(), z.imag();
+            }
+        return coarse_gap(circles, loops, uv);
+    };
+    // An edge of n leaves a circle by 0.29 (1 - cos(pi / n)): by 0.014 for 10 edges, and by 0.007 for 14.
+    EXPECT_EQ(rims(10), (std::pair<Index, Index>{1, 2}));
+    EXPECT_FALSE(rims(14));
 }
