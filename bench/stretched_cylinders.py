@@ -24,6 +24,12 @@ HOLES = {  # cells from, to, along from, to
 }
 
 
+def halved(corners, odd):
+    """The triangles of quadrilaterals: four arrays of corners, and which of them have the other diagonal."""
+    a, b, c, d = (np.concatenate([corner[odd], np.roll(corners, -1, 0)[k][~odd]]) for k, corner in enumerate(corners))
+    return np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+
+
 def cylinder(holes, finer=1, stretch=1.0):
     """Vertices and triangles. The first vertices are those of the lower rim."""
     around, along = AROUND * finer, ALONG * finer
@@ -33,9 +39,7 @@ def cylinder(holes, finer=1, stretch=1.0):
     i, j = np.nonzero(cells)
     number = (np.arange(around + 1) % around)[None] + around * np.arange(along + 1)[:, None]
     corners = [number[j, i], number[j, i + 1], number[j + 1, i + 1], number[j + 1, i]]
-    odd = ((i + j) % 2).astype(bool)
-    a, b, c, d = (np.concatenate([corner[odd], np.roll(corners, -1, 0)[k][~odd]]) for k, corner in enumerate(corners))
-    faces = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    faces = halved(corners, (i + j) % 2 == 1)
     angle = 2 * np.pi * np.arange(around) / around
     radius = np.pi / around / np.sin(np.pi / around)  # so that the girth is 2 pi
     ring = radius * np.column_stack([np.cos(angle), np.sin(angle)])

@@ -13,6 +13,7 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parent.parent / "build" / "python"))
 
 import koebe  # noqa: E402
+from stretched_cylinders import halved  # noqa: E402
 
 WIDE, HIGH = 18, 12  # cells
 HOLES = {0: [], 1: [(3, 7, 3, 7)], 3: [(3, 7, 3, 7), (10, 14, 5, 9), (4, 9, 9, 11)]}  # cells from, to, up from, to
@@ -27,9 +28,7 @@ def rectangle(holes, finer=1, stretch=1.0):
     i, j = np.nonzero(cells)
     number = np.arange((wide + 1) * (high + 1)).reshape(wide + 1, high + 1)
     corners = [number[i, j], number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]]
-    odd = ((i + j) % 2).astype(bool)
-    a, b, c, d = (np.concatenate([corner[odd], np.roll(corners, -1, 0)[k][~odd]]) for k, corner in enumerate(corners))
-    faces = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    faces = halved(corners, (i + j) % 2 == 1)
     x, y = np.meshgrid(np.arange(wide + 1) / finer, np.arange(high + 1) / finer, indexing="ij")
     points = np.column_stack([stretch * x.ravel(), y.ravel(), 0 * x.ravel()])
     used, numbers = np.unique(faces, return_inverse=True)

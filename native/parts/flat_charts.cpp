@@ -1,6 +1,7 @@
 #include "parts/flat_charts.h"
 
 #include "cut/edge_graph.h"
+#include "parts/tension.h"
 
 #include <Eigen/Geometry>
 
@@ -8,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -26,19 +26,7 @@ class ChartLayer {
 public:
     explicit ChartLayer(const CutSurface& surface) : surface_(surface)
     {
-        const auto faces = static_cast<Index>(surface.areas.size());
-        net_.corners = surface.surface.triangles;
-        net_.face.resize(faces);
-        std::iota(net_.face.begin(), net_.face.end(), 0);
-        net_.turned.assign(faces, 0);
-        net_.twin = surface.surface.twin;
-        net_.whole.assign(net_.twin.size(), 0);
-        for (Index h = 0; h < net_.halfedge_count(); ++h)
-            net_.whole[h] = net_.twin[h] != no_twin && !surface.polygon.empty() &&
-                            surface.polygon[face_of(h)] == surface.polygon[face_of(net_.twin[h])];
-        net_.length.assign(surface.lengths.data(), surface.lengths.data() + surface.lengths.size());
-        for (Index h = 0; h < net_.halfedge_count(); ++h)
-            net_.length[h] *= price_of_edge(surface.shown, origin(net_.corners, h), target(net_.corners, h));
+        net_ = seamed(surface.vertices, surface.surface, surface.polygon, surface.shown);
         charts_.at.resize(net_.twin.size());
         charts_.near = same_place * std::sqrt(surface.areas.sum());
     }

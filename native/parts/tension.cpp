@@ -17,25 +17,30 @@ Index last_counter_clockwise(const Surface& surface, Index h)
 
 }  // namespace
 
-SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown)
+SeamedMesh seamed(const Vertices& vertices, const Surface& surface, const std::vector<Index>& polygon,
+                  const std::vector<double>& shown)
 {
-    const Triangles& triangles = flat.surface.triangles;
+    const Triangles& triangles = surface.triangles;
     SeamedMesh mesh;
     mesh.corners = mesh.fans = triangles;
     mesh.face.resize(static_cast<std::size_t>(triangles.rows()));
     std::iota(mesh.face.begin(), mesh.face.end(), 0);
     mesh.turned.assign(mesh.face.size(), 0);
-    mesh.twin = flat.surface.twin;
-    mesh.fan_count = flat.surface.vertex_count;
+    mesh.twin = surface.twin;
+    mesh.fan_count = surface.vertex_count;
     const Index count = mesh.halfedge_count();
     for (Index h = 0; h < count; ++h) {
         const Index a = origin(triangles, h), b = target(triangles, h), t = mesh.twin[h];
-        mesh.length.push_back((flat.vertices.row(a) - flat.vertices.row(b)).norm() * price_of_edge(shown, a, b));
-        const bool within =
-            t != no_twin && !flat.polygon.empty() && flat.polygon[face_of(h)] == flat.polygon[face_of(t)];
+        mesh.length.push_back((vertices.row(a) - vertices.row(b)).norm() * price_of_edge(shown, a, b));
+        const bool within = t != no_twin && !polygon.empty() && polygon[face_of(h)] == polygon[face_of(t)];
         mesh.whole.push_back(t == no_twin || within);
     }
     return mesh;
+}
+
+SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown)
+{
+    return seamed(flat.vertices, flat.surface, flat.polygon, shown);
 }
 
 EvenForces forces_in(const FlatPart& flat, double even)

@@ -9,8 +9,11 @@
 
 namespace koebe {
 
-/// A part's edges, to look for paths. Edges inside a polygon and on the boundary belong to no path.
-/// @param shown (as in FlatPart) edges with weight count as longer. If empty, lengths are lengths on the surface
+/// A surface's edges, to look for paths. Edges inside a polygon and on the boundary belong to no path.
+/// @param polygon, shown as in FlatPart: edges that are shown count as longer. If `shown` is empty, lengths are lengths
+/// on the surface
+SeamedMesh seamed(const Vertices& vertices, const Surface& surface, const std::vector<Index>& polygon,
+                  const std::vector<double>& shown);
 SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {});
 
 /// The forces in a part relaxed for this E (even/even_forces.h), with the sizes that its faces should have.
