@@ -45,6 +45,8 @@ def metadata(version: str) -> str:
         "Name: koebe",
         f"Version: {version}",
         f"Summary: {said['description']}",
+        *(f"Author: {author['name']}" for author in said["authors"]),
+        f"Keywords: {','.join(said['keywords'])}",
         f"License-Expression: {said['license']}",
         "License-File: LICENSE",
         "License-File: THIRD_PARTY.md",
@@ -55,7 +57,7 @@ def metadata(version: str) -> str:
     for extra, packages in said["optional-dependencies"].items():
         lines += [f"Provides-Extra: {extra}", *(f"Requires-Dist: {item}; extra == '{extra}'" for item in packages)]
     lines.append("Description-Content-Type: text/markdown")
-    return "\n".join(lines) + "\n\n" + (ROOT / "README.md").read_text(encoding="utf-8")
+    return "\n".join(lines) + "\n\n" + (ROOT / said["readme"]).read_text(encoding="utf-8")
 
 
 def entry_points() -> str:

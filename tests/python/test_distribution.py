@@ -47,6 +47,15 @@ def test_the_version_is_one(name, pattern):
     assert found == script("package_extension").project_version()
 
 
+def test_the_release_page_says_what_is_new():
+    notes = subprocess.check_output([SCRIPTS / "release_notes.sh", "https://forge/v1/"], text=True)
+    lines = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8").splitlines()
+    begin = next(index for index, line in enumerate(lines) if line.startswith("## "))
+    end = next(index for index, line in enumerate(lines) if line.startswith("### "))
+    assert notes.replace("https://forge/v1/", "").splitlines() == lines[begin + 1 : end] and notes.strip()
+    assert "](https://forge/v1/docs/upgrade.md)" in notes and "](docs" not in notes
+
+
 def test_another_version_is_one_line(tmp_path):
     for name in ("addon", "scripts/package_extension.py", "scripts/version.sh", "native/options/options.json",
                  "LICENSE"):  # fmt: skip
@@ -102,6 +111,8 @@ def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch)
     assert {"koebe/__init__.py", "koebe/libkoebe.so", "koebe/bin/koebe", "koebe/py.typed"} < set(names)
     assert f"{info}/sboms/koebe.cdx.json" in names
     assert "Requires-Python: >=3.10\n" in metadata and "Requires-Dist: numpy" in metadata
+    assert "\n\n# koebe\n" in metadata
+    assert not re.search(r"\]\((?!https:)", metadata)  # a package index has no other pages
 
 
 def test_a_wheel_lists_what_it_holds_of_others():

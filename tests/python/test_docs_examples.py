@@ -11,7 +11,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 BLENDER = os.environ.get("BLENDER", "blender")
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "blend_samples" / "README.md"]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), ROOT / "blend_samples" / "README.md",
+         ROOT / "native" / "python" / "README.md"]
 LINKED = ("build", "addon", "bench", "blend_samples", "docs", "native", "scripts", "CMakeLists.txt")
 PATH = "build/python"  # as README.md says
 LIMIT = 300  # seconds
