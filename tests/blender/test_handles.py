@@ -21,7 +21,8 @@ def unwrap(**options):
 
 def signed_areas(uv, corners):
     a, b, c = (uv[corners[:, k]].astype(float) for k in range(3))
-    return np.cross(b - a, c - a)
+    (x, y), (z, w) = (b - a).T, (c - a).T
+    return x * w - y * z
 
 
 CASES = {

@@ -13,6 +13,13 @@ def is_uv_selection(what, layer):
     return what.startswith((*kinds, "attribute .uv_select_"))
 
 
+def beside_uvs(changed):
+    """Of a fingerprint's names that changed, those that tell neither of the UV layer Koebe nor of the report."""
+    return [name for name in changed
+            if not ("uv" in name or "attribute Koebe" in name or name == "file: report"
+                    or is_uv_selection(name.partition(": ")[2], "Koebe"))]
+
+
 class Touched:
     """The objects that an operator works on, before it is called, and what it may change."""
 
