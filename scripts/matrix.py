@@ -195,14 +195,22 @@ def arm64() -> tuple[Command, dict[str, str]]:
             *(f"tests/python/{name}" for name in tests)], setting  # all but those of the command, which qemu starts not
 
 
-BPY_52 = "[ -e /opt/bpy ] || { python3 -m venv /opt/bpy && /opt/bpy/bin/pip install -q 'bpy==5.2.*' pytest; }"
+def newer_bpy(version: str) -> tuple[Command, dict[str, str]]:
+    """A bpy for Python 3.13, which Debian 13 has."""
+    folder = f"/opt/bpy-{version}"
+    install = f"python3 -m venv {folder} && {folder}/bin/pip install -q 'bpy=={version}.*' pytest"
+    prepare = f"[ -e {folder} ] || {{ {install}; }}"
+    return other_debian("trixie", f"{folder}/bin/python", prepare)
+
+
 PLACES: dict[str, tuple[str, Callable[[], tuple[Command, dict[str, str]]]]] = {
     "debian12": ("Debian 12's Blender", debian_blender),
     "bpy-4.2": ("bpy 4.2 LTS on Debian 12", lambda: bpy("4.2")),
     "bpy-4.5": ("bpy 4.5 LTS on Debian 12", lambda: bpy("4.5")),
     "bpy-5.0": ("bpy 5.0 on Debian 12", lambda: bpy("5.0")),
     "debian13": ("Debian 13's Blender", lambda: other_debian("trixie", "blender")),
-    "bpy-5.2": ("bpy 5.2 LTS on Debian 13", lambda: other_debian("trixie", "/opt/bpy/bin/python", BPY_52)),
+    "bpy-5.1": ("bpy 5.1 on Debian 13", lambda: newer_bpy("5.1")),
+    "bpy-5.2": ("bpy 5.2 LTS on Debian 13", lambda: newer_bpy("5.2")),
     "sid": ("Debian sid's Blender", lambda: other_debian("sid", "blender")),
     "window-12": ("the window of Debian 12's Blender", debian_window),
     "window-13": ("the window of Debian 13's Blender", lambda: other_window("trixie")),

@@ -59,7 +59,7 @@ def _carry_uv(own: bpy.types.Mesh, mesh: bpy.types.Mesh, places: tuple[np.ndarra
     for layer in own.uv_layers:
         if layer.name in mesh.uv_layers:
             continue
-        made = mesh.uv_layers.new(name=layer.name, do_init=False)
+        made = compat.new_uv_layer(mesh, layer.name)
         if made is None:  # Blender has no room for another one
             break
         compat.set_corner_uv(made, _mixed(compat.corner_uv(layer), *places))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All differences between Blender versions that matter to the add-on, detected by feature, not by version number."""
+"""All differences between Blender versions that matter to the add-on: by feature if there is one, else by version."""
 
 import functools
 from typing import Any
@@ -7,6 +7,8 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
+
+MAX_UV_LAYERS = 8  # Blender's limit
 
 
 def corner_uv(layer: bpy.types.MeshUVLoopLayer) -> np.ndarray:
@@ -34,6 +36,26 @@ def _uv_collection(layer: bpy.types.MeshUVLoopLayer) -> tuple[Any, str]:
     if hasattr(layer, "uv"):  # from 3.5 on
         return layer.uv, "vector"
     return layer.data, "uv"
+
+
+def new_uv_layer(mesh: bpy.types.Mesh, name: str) -> Any:
+    """Add a UV layer of zeros, also in Edit Mode. The layer, or None if Blender has no room for it.
+
+    Blender gives it another name if that name is taken. From 5.1 on it is made as an attribute: `uv_layers.new` reads
+    beyond its array in Edit Mode and for a name that is taken. 5.1 crashes then, and 5.2 at times.
+    """
+    if bpy.app.version < (5, 1, 0):
+        return mesh.uv_layers.new(name=name, do_init=False)
+    if len(mesh.uv_layers) >= MAX_UV_LAYERS:
+        return None
+    first = not mesh.uv_layers
+    made = mesh.attributes.new(name, "FLOAT2", "CORNER").name
+    if mesh.is_editmode and f".pn.{made}" not in mesh.attributes:  # the pins, as `uv_layers.new` adds them
+        mesh.attributes.new(f".pn.{made}", "BOOLEAN", "CORNER")
+    if first:
+        mesh.uv_layers.active = mesh.uv_layers[made]
+        mesh.uv_layers[made].active_render = True
+    return mesh.uv_layers[made]
 
 
 def selected_uv(mesh: bpy.types.Mesh, layer_name: str) -> list[np.ndarray]:

@@ -16,17 +16,15 @@ from .mesh_object import MeshObject
 from .mesh_reading import arrays
 from .transaction import Transaction
 
-MAX_UV_LAYERS = 8  # Blender's limit
-
 
 def check_layer(obj: MeshObject, layer_name: str) -> None:
     """Raise TransferError unless the mesh has that UV layer, or could get it."""
     mesh = obj.data
     if layer_name in mesh.uv_layers:
         return
-    if len(mesh.uv_layers) >= MAX_UV_LAYERS:
+    if len(mesh.uv_layers) >= compat.MAX_UV_LAYERS:
         raise TransferError(
-            f"{obj.name}: it has {MAX_UV_LAYERS} UV layers, and Blender allows no more: delete a layer"
+            f"{obj.name}: it has {compat.MAX_UV_LAYERS} UV layers, and Blender allows no more: delete a layer"
         )
     if layer_name in mesh.attributes:
         raise TransferError(
@@ -37,11 +35,11 @@ def check_layer(obj: MeshObject, layer_name: str) -> None:
 def check_layers(obj: MeshObject, names: list[str]) -> None:
     """Raise TransferError unless the mesh has all these UV layers, or could get them."""
     layers = obj.data.uv_layers
-    new, left = [name for name in names if name not in layers], MAX_UV_LAYERS - len(layers)
+    new, left = [name for name in names if name not in layers], compat.MAX_UV_LAYERS - len(layers)
     if len(new) > left:
         raise TransferError(
             f"{obj.name}: {len(new)} new UV layers are needed, and there is room for {left}, as Blender allows "
-            f"{MAX_UV_LAYERS}: choose Target: Attributes, which has no limit"
+            f"{compat.MAX_UV_LAYERS}: choose Target: Attributes, which has no limit"
         )
     for name in names:
         check_layer(obj, name)
@@ -83,7 +81,7 @@ def write_uv(
         selected = compat.selected_uv(old, layer_name) if select else []
     run.before_write(_restore_layers, mesh, *_layers(mesh))
     if layer_name not in mesh.uv_layers:
-        mesh.uv_layers.new(name=layer_name, do_init=False)  # None in 5.2's Edit Mode, though it is made
+        compat.new_uv_layer(mesh, layer_name)
         if layer_name not in mesh.uv_layers:
             taken = "used by a vertex group" if layer_name in obj.vertex_groups else "taken"  # 5.2 allows no more
             raise TransferError(f"{obj.name}: the name {layer_name!r} is {taken}: choose another layer name")
@@ -136,7 +134,7 @@ def _select(
 
 def add_layer(mesh: bpy.types.Mesh, layer_name: str, values: np.ndarray) -> None:
     """Give a new mesh a layer with these UVs (C, 2), all of them selected. Not in Edit Mode."""
-    compat.set_corner_uv(mesh.uv_layers.new(name=layer_name, do_init=False), values)
+    compat.set_corner_uv(compat.new_uv_layer(mesh, layer_name), values)
     selected = [np.ones_like(flags) for flags in compat.selected_uv(mesh, layer_name)]
     compat.set_selected_uv(mesh, layer_name, selected)
 

@@ -1,11 +1,40 @@
 """Which UV layer is written, and when none can be."""
 
+import importlib
+from pathlib import Path
+
 import bmesh
 import bpy
 import numpy as np
+import processes
 import pytest
 import scenes
 import states
+
+# Adds a layer to meshes with some UV layers, and removes it: enough to hit a fault of Blender that shows at times only.
+ADD_LAYERS = """
+import importlib.util, os, sys
+import bpy
+folder = os.environ["ADDON"]
+spec = importlib.util.spec_from_file_location("probe", folder + "/__init__.py", submodule_search_locations=[folder])
+sys.modules["probe"] = importlib.util.module_from_spec(spec)
+compat = importlib.import_module("probe.blender.compat")
+for number in range(60):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=2 + 7 * number % 29, y_subdivisions=2 + 5 * number % 29)
+    mesh = bpy.context.object.data
+    while mesh.uv_layers:
+        mesh.uv_layers.remove(mesh.uv_layers[0])
+    for name in "ABCDEF"[: number % 7]:
+        mesh.uv_layers.new(name=name)
+    bpy.ops.object.mode_set(mode="EDIT")
+    for _ in range(40):
+        compat.new_uv_layer(mesh, "Koebe")
+        assert mesh.uv_layers[-1].name == "Koebe" and len(mesh.uv_layers) == number % 7 + 1
+        mesh.uv_layers.remove(mesh.uv_layers["Koebe"])
+        mesh.update()
+print("DONE", flush=True)
+"""
 
 
 def test_the_layer_of_the_option_is_made_and_the_others_stay():
@@ -15,6 +44,14 @@ def test_the_layer_of_the_option_is_made_and_the_others_stay():
     assert [layer.name for layer in obj.data.uv_layers] == ["UVMap", "Ünïcode 1"]
     assert obj.data.uv_layers.active.name == "Ünïcode 1"
     assert obj.data.uv_layers["UVMap"].active_render
+
+
+def test_new_layers_in_edit_mode_never_end_blender(addon_name, tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(ADD_LAYERS)
+    installed = Path(importlib.import_module(addon_name).__file__).parent
+    code, out, err = processes.finish(processes.start(script, tmp_path, ADDON=installed))
+    assert (code, "DONE" in out) == (0, True), out + err
 
 
 def test_the_longest_name_that_blender_keeps():
