@@ -9,6 +9,8 @@ import bpy
 import numpy as np
 
 MAX_UV_LAYERS = 8  # Blender's limit
+# Whether no UV layer may have a vertex group's name: 5.1 removes the group with such a layer, 5.2 gives another name.
+GROUPS_TAKE_NAMES = bpy.app.version >= (5, 1, 0)
 
 
 def corner_uv(layer: bpy.types.MeshUVLoopLayer) -> np.ndarray:

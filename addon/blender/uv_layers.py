@@ -26,6 +26,10 @@ def check_layer(obj: MeshObject, layer_name: str) -> None:
         raise TransferError(
             f"{obj.name}: it has {compat.MAX_UV_LAYERS} UV layers, and Blender allows no more: delete a layer"
         )
+    if compat.GROUPS_TAKE_NAMES and layer_name in obj.vertex_groups:
+        raise TransferError(
+            f"{obj.name}: the name {layer_name!r} is used by a vertex group: choose another layer name"
+        )
     if layer_name in mesh.attributes:
         raise TransferError(
             f"{obj.name}: the attribute {layer_name!r} is not a UV layer: choose another layer name"
@@ -83,8 +87,7 @@ def write_uv(
     if layer_name not in mesh.uv_layers:
         compat.new_uv_layer(mesh, layer_name)
         if layer_name not in mesh.uv_layers:
-            taken = "used by a vertex group" if layer_name in obj.vertex_groups else "taken"  # 5.2 allows no more
-            raise TransferError(f"{obj.name}: the name {layer_name!r} is {taken}: choose another layer name")
+            raise TransferError(f"{obj.name}: the name {layer_name!r} is taken: choose another layer name")
     elif uv is not None:
         run.before_write(_write, obj, layer_name, uv, surface, faces)
     _write(obj, layer_name, values, surface, faces)
