@@ -81,10 +81,12 @@ $(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) native/op
 PLATFORMS ?= linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
 PYTHONS ?= 3.10 3.11 3.12 3.13 3.14
 
+# The source package is made of a copy of what git knows: its maker would walk through all of build/, other Debians too.
 dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS for PYTHONS, and the source package: dist/
 	PYTHONS="$(PYTHONS)" scripts/dist.sh build/venv-dist $(PLATFORMS)
 	$(PYTHON) scripts/package_extension.py --release
-	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist .
+	rm -rf build/source && mkdir -p build/source && git ls-files -z | xargs -0 cp --parents -t build/source
+	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist build/source
 	$(PYTHON) scripts/check_dist.py dist $(PYTHONS)
 	scripts/audit_wheels.sh build/venv-dist dist
 
