@@ -20,11 +20,15 @@ lacks() { [ "$(cat "$1" 2>/dev/null)" != "$2" ]; }
 fetch_debian() {
     rm -rf "$target"
     mkdir -p "$target/packages" "$target/headers" "$target/lists/partial"
-    # apt's own lists name no sources: the same places again, for sources. Debian's updates of a stable release keep the
+    # apt's own lists name no sources: the same place again, for sources. Debian's updates of a stable release keep the
     # versions above; where they do not, apt says so.
-    sources_of=$target/debian.sources
-    awk '/^Suites:/ { $0 = "Suites: bookworm" } { sub(/^Types:.*/, "Types: deb deb-src"); print }' \
-        /etc/apt/sources.list.d/debian.sources | awk 'BEGIN { RS = "" } NR == 1' >"$sources_of"
+    sources_of=$target/debian.list
+    place=$(apt-get indextargets --format '$(ORIGIN) $(CODENAME) $(REPO_URI)' | awk '$1 " " $2 == "Debian bookworm" { print $3; exit }')
+    if [ -z "$place" ]; then
+        echo "scripts/fetch_sources.sh: apt has no lists of Debian 12 (bookworm): apt-get update" >&2
+        exit 1
+    fi
+    printf '%s\n' "deb $place bookworm main" "deb-src $place bookworm main" >"$sources_of"
     apt=(apt-get -q -q -o "Dir::Etc::sourcelist=$sources_of" -o Dir::Etc::sourceparts=/dev/null
         -o "Dir::State::lists=$target/lists" -o APT::Sandbox::User=root)
     "${apt[@]}" update
@@ -41,7 +45,7 @@ fetch_debian() {
     )
     # CGAL 5.5 names in templates a member that is not there, and newer compilers look before anything is made of them.
     sed -i 's/this->base() == nullptr/this->g == nullptr/' "$target/headers/usr/include/CGAL/boost/graph/iterator.h"
-    rm -rf "$target"/{lists,packages,debian.sources} "$target"/*.orig.tar.*
+    rm -rf "$target"/{lists,packages,debian.list} "$target"/*.orig.tar.*
 }
 
 # One call of mvn for all Pythons of a system: Java starts for seconds.
