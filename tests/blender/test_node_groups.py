@@ -119,7 +119,7 @@ def half_sphere(rings=40, around=80):
     """Half of the unit sphere with its stereographic map, which is conformal."""
     turn = 2 * np.pi * np.arange(around) / around
     radius = np.arange(1, rings + 1) / rings
-    z = np.append(0.0, np.outer(radius, np.cos(turn) + 1j * np.sin(turn))
+    z = np.append(0.0, np.outer(radius, np.cos(turn) + 1j * np.sin(turn)))
     below = 1.0 + np.abs(z) ** 2
     vertices = np.column_stack([2 * z.real / below, 2 * z.imag / below, 2.0 / below - 1.0])
     at = lambda i, j: 1 + i * around + j % around  # noqa: E731
