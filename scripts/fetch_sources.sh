@@ -23,9 +23,12 @@ fetch_debian() {
     # apt's own lists name no sources: the same place again, for sources. Debian's updates of a stable release keep the
     # versions above; where they do not, apt says so.
     sources_of=$target/debian.list
-    place=$(apt-get indextargets --format '$(ORIGIN) $(CODENAME) $(REPO_URI)' | awk '$1 " " $2 == "Debian bookworm" { print $3; exit }')
+    # Debian's images name it in debian.sources, debootstrap in sources.list.
+    place=$(cat /etc/apt/sources.list.d/debian.sources /etc/apt/sources.list 2>/dev/null |
+        awk '!found && /^URIs:/ { print $2; found = 1 }
+             !found && /^deb / { sub(/\[[^]]*\] */, ""); print $2; found = 1 }') || true # one of the files may be missing
     if [ -z "$place" ]; then
-        echo "scripts/fetch_sources.sh: apt has no lists of Debian 12 (bookworm): apt-get update" >&2
+        echo "scripts/fetch_sources.sh: apt knows no place of Debian 12 (bookworm)" >&2
         exit 1
     fi
     printf '%s\n' "deb $place bookworm main" "deb-src $place bookworm main" >"$sources_of"
