@@ -10,6 +10,7 @@ largest sizes that take longer than SHORT. `!` marks what is over a bound: SECON
 
 import argparse
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -29,7 +30,7 @@ BASE_MB, MB_A_FACE = 300, 0.004
 GROWTH = 1.3  # exponent of the time
 SHORT = 0.1  # seconds: below it the start of the process hides the growth
 ENDED = 0.1  # seconds from an interrupt to the end
-LIMIT = 60.0  # seconds until a run is stopped
+LIMIT = 20  # processor seconds until a run is stopped
 
 
 def strip(first, second, closed):
@@ -221,15 +222,19 @@ def words(name, mesh, folder):
 
 def run(command, stop_after=None):
     """Exit code, processor seconds, peak MB, and the seconds from an interrupt to the end. None: stopped at LIMIT."""
-    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+    most = (resource.RLIMIT_CPU, (LIMIT, LIMIT))
+    with subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=lambda: resource.setrlimit(*most)
+    ) as process:
         asked = []
 
         def interrupt():
             asked.append(time.perf_counter())
             process.send_signal(signal.SIGINT)
 
-        timer = threading.Timer(stop_after or LIMIT, interrupt if stop_after else process.kill)
-        timer.start()
+        timer = threading.Timer(stop_after or 0.0, interrupt)
+        if stop_after:
+            timer.start()
         _, status, used = os.wait4(process.pid, 0)
         ended = time.perf_counter()
         timer.cancel()
