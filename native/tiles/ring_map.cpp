@@ -1,4 +1,5 @@
 #include "circles/moebius.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "linear/dense_spd.h"
 #include "mesh/connectivity.h"
@@ -128,6 +129,28 @@ FlatMap unrolled(const PeriodicSurface& domain, const RoundRing& ring, double he
     return map;
 }
 
+/// The circles of the round annulus that the cylinder is by exp; empty if the inner one is too small for a number.
+std::vector<Circle> annulus_circles(double height)
+{
+    const double inner = std::exp(-two_pi * height);
+    if (!std::isnormal(inner)) return {};
+    return {Circle{}, Circle{0.0, inner}};
+}
+
+/// Compares the modulus with its bounds. A circle that is lost in rounding gives any modulus.
+void check_modulus(const PeriodicSurface& domain, double height, TileResult& result)
+{
+    constexpr double slack = 0.02;  // of the bounds: they hold for the polyhedron, circles for smooth rims
+    const ModulusBounds bounds = modulus_bounds(domain);
+    if (height >= (1.0 - slack) * bounds.lower && height <= (1.0 + slack) * bounds.upper) return;
+    result.converged = false;
+    result.warnings.push_back({WarningKind::lost_circles,
+                               "the modulus " + formatted("%.5g", height) + " is not between its bounds, " +
+                                   formatted("%.5g", bounds.lower) + " and " + formatted("%.5g", bounds.upper) +
+                                   ": the circles are lost in rounding",
+                               {0, 1}});
+}
+
 TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                          ExecutionContext& context)
 {
@@ -142,18 +165,22 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
     const HoleShape shape = options.holes == RingHoles::circles      ? HoleShape::open
                             : options.holes == RingHoles::concentric ? HoleShape::along_u
                                                                      : HoleShape::along_v;
+    const bool is_tube = domain.loops.size() == domain.first_hole;
     FlatMap map;
     std::optional<RoundRing> ring;
+    std::vector<Circle> circles;
     double height = 0.0;  // over the period
-    if (shape != HoleShape::open) {
+    if (is_tube || shape != HoleShape::open) {
         context.begin_stage("iterate", 0.1, 0.9);
         map = slit_map(domain, options.holes, height);
+        if (shape == HoleShape::open) circles = annulus_circles(height);
     } else {
         ExecutionContext own([&](double done, const std::string& name) { context.report(0.1 + 0.8 * done, name); }, {},
                              [&] { context.checkpoint(); });
         ring = round_ring(vertices, triangles, domain, options, own);
         height = -std::log(ring->circles[1].radius) / two_pi;
         map = unrolled(domain, *ring, height);
+        circles = ring->circles;
     }
     clock.end(&StageSeconds::iterate);
     context.begin_stage("finish", 0.9, 1.0);
@@ -163,15 +190,17 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
         const double rise = map.z[domain.loops[1].front()].imag() - map.z[domain.loops[0].front()].imag();
         result.modulus = {0.0, std::abs(rise) / map.periods[0].real()};
     }
-    if (ring && result.even == 0.0)
-        for (std::size_t k = 0; k < result.loops.size(); ++k) {
+    if (result.even == 0.0)
+        for (std::size_t k = 0; k < circles.size(); ++k) {
             result.loops[k].has_circle = true;
-            result.loops[k].circle = ring->circles[k];
+            result.loops[k].circle = circles[k];
+            if (!ring) continue;
             std::vector<Index> both;
             std::ranges::set_union(result.loops[k].off_circle, ring->off_circle[k], std::back_inserter(both));
             result.loops[k].off_circle = std::move(both);
         }
     if (ring) {
+        check_modulus(domain, height, result);
         result.sweeps = ring->sweeps;
         result.warnings.insert(result.warnings.begin(), ring->warnings.begin(), ring->warnings.end());
     }

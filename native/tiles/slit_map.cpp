@@ -89,15 +89,26 @@ VectorXd sides_of(const PeriodicSurface& domain, const VectorXcd& z, std::size_t
     return side;
 }
 
+OneForm no_form(const PeriodicSurface& domain)
+{
+    return OneForm::Zero(static_cast<Eigen::Index>(domain.metric_shifts[0].size()));
+}
+
 }  // namespace
+
+ModulusBounds modulus_bounds(const PeriodicSurface& domain)
+{
+    const FloatingLoops floating(domain, true);
+    return {1.0 / energy(domain, floating.between_rims(), no_form(domain)),
+            energy(domain, floating.round(), domain.metric_shifts[0])};
+}
 
 FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height)
 {
     const VectorXd f = FloatingLoops(domain, holes == RingHoles::concentric).between_rims();
     const VectorXd g = FloatingLoops(domain, holes == RingHoles::radial).round();
     // The conjugate function of g has the same energy.
-    const OneForm none = OneForm::Zero(static_cast<Eigen::Index>(domain.metric_shifts[0].size()));
-    height = std::sqrt(energy(domain, g, domain.metric_shifts[0]) / energy(domain, f, none));
+    height = std::sqrt(energy(domain, g, domain.metric_shifts[0]) / energy(domain, f, no_form(domain)));
     if (!std::isfinite(height) || !(height > 0.0))
         throw SolverError("the ring has no height: the metric is degenerate");
     FlatMap map;

@@ -8,6 +8,16 @@ namespace koebe {
 
 /// Makes the rims straight and the holes slits: u and v are the two harmonic functions.
 /// @param holes concentric or radial @param height out: height over period
+/// Without holes it is the tube's conformal map to a cylinder. Nothing is exponential in it, so any height will do.
 FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height);
+
+struct ModulusBounds {
+    double lower = 0.0, upper = 0.0;  ///< of height over period
+};
+
+/// Encloses the height of the ring whose holes are filled, however they are filled. Let E be the Dirichlet energy.
+/// With f from 0 to 1 between the rims and g of period 1 round them, both constant on each hole, 1 / E(f) <= height <=
+/// E(g) [Dirichlet's principle, and conjugate functions], for any such functions on the surface's faces.
+ModulusBounds modulus_bounds(const PeriodicSurface& domain);
 
 }  // namespace koebe
