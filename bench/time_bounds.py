@@ -198,8 +198,8 @@ COMMANDS = {
     "fit": ("fit IN TEMPLATE OUT.obj", ("long_loops", "huge_hole")),
     "parts": ("parts IN OUT.obj", tuple(KINDS)),
     "flatten": ("flatten --page none IN OUT.svg", tuple(KINDS)),
-    "lift": ("lift IN circles OUT.obj", OPEN),
-    "lift ring": ("lift --shape ring IN circles OUT.obj", HOLED),
+    "lift": ("lift --perforate IN circles OUT.obj", OPEN),
+    "lift ring": ("lift --shape ring --perforate IN circles OUT.obj", HOLED),
 }
 
 
