@@ -218,4 +218,45 @@ MatrixXd disk_dirichlet_to_neumann(const VectorXd& angles)
     return t;
 }
 
+CoarseDisk coarse_disk(const VectorXd& angles, const std::vector<std::vector<Index>>& places)
+{
+    const Eigen::Index m = angles.size(), n = static_cast<Eigen::Index>(places.size());
+    const double spacing = static_cast<double>(m) / static_cast<double>(n);
+    const auto arc = [&](Eigen::Index i) {
+        return i + 1 < m ? angles[i + 1] - angles[i] : angles[0] + 2.0 * pi - angles[i];
+    };
+    // The means, and their angles: angles are unrolled from each mean's first node on.
+    CoarseDisk result;
+    VectorXd middles(n);
+    for (Eigen::Index c = 0; c < n; ++c) {
+        const std::vector<Index>& own = places[static_cast<std::size_t>(c)];
+        VectorXd weights(static_cast<Eigen::Index>(own.size()));
+        double sum = 0.0;
+        for (Eigen::Index j = 0; j < weights.size(); ++j) {
+            const Index i = own[static_cast<std::size_t>(j)];
+            double away = std::abs(static_cast<double>(i) - static_cast<double>(c) * spacing);
+            away = std::min(away, static_cast<double>(m) - away);
+            weights[j] = std::max(1.0 - away / spacing, 0.0) * 0.5 * (arc(i) + arc(i > 0 ? i - 1 : m - 1));
+            const double turn = i < own.front() ? 2.0 * pi : 0.0;
+            sum += weights[j] * (angles[i] + turn);
+        }
+        middles[c] = sum / weights.sum() - (own.front() > own.back() && c == 0 ? 2.0 * pi : 0.0);
+        result.means.emplace_back(weights / weights.sum());
+    }
+    result.stiffness = disk_dirichlet_to_neumann(middles);
+    // The energy of exp(i theta): 2 pi of the disk, less the segments outside of the polygon.
+    double exact = 2.0 * pi;
+    for (Eigen::Index i = 0; i < m; ++i) exact -= std::min(arc(i), widest) * (2.0 - 2.0 * std::cos(arc(i))) / 6.0;
+    VectorXcd mode(n);
+    for (Eigen::Index c = 0; c < n; ++c) {
+        Complex sum = 0.0;
+        for (Eigen::Index j = 0; j < result.means[static_cast<std::size_t>(c)].size(); ++j)
+            sum += result.means[static_cast<std::size_t>(c)][j] *
+                   std::polar(1.0, angles[places[static_cast<std::size_t>(c)][static_cast<std::size_t>(j)]]);
+        mode[c] = sum;
+    }
+    result.stiffness *= exact / (mode.dot(result.stiffness * mode)).real();
+    return result;
+}
+
 }  // namespace koebe

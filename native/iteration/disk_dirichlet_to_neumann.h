@@ -3,6 +3,8 @@
 
 #include "core/types.h"
 
+#include <vector>
+
 namespace koebe {
 
 /// T(theta), (m, m), symmetric positive semidefinite, T 1 = 0. u' T u is the energy, the integral of |grad U|^2, of the
@@ -18,6 +20,18 @@ namespace koebe {
 ///
 /// @param angles (m >= 2) radians, strictly increasing, spanning less than 2 pi
 MatrixXd disk_dirichlet_to_neumann(const VectorXd& angles);
+
+/// The disk of a loop with many nodes on fewer of them, each at a weighted mean of some.
+struct CoarseDisk {
+    MatrixXd stiffness;           ///< T of the means
+    std::vector<VectorXd> means;  ///< weights of each mean, sum 1
+};
+
+/// Takes T at the angles of the means of exp(i theta), scaled so that the mode exp(i theta) has the energy that it has
+/// for T(theta). In a circle domain the map is that mode on each loop, so other modes hardly matter.
+/// A mean's weights are hats, as wide as its places, times the arc around each node.
+/// @param angles as above @param places per mean: its nodes in order, the middle one nearest
+CoarseDisk coarse_disk(const VectorXd& angles, const std::vector<std::vector<Index>>& places);
 
 /// sum over j >= 1 of cos(j t) / j^3, for any t.
 double clausen_cosine_3(double t);

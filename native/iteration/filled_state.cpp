@@ -38,7 +38,7 @@ void FilledState::fill(OpenedLoops loops)
 {
     std::erase_if(loops, [&](int k) { return !fills(k); });
     std::vector<MatrixXd> disks(loops.size());
-    const auto compute = [&](std::size_t i) { disks[i] = disk_dirichlet_to_neumann(angles_[loops[i]]); };
+    const auto compute = [&](std::size_t i) { disks[i] = disk_of(loops[i]); };
     double entries = 0.0;
     for (const int k : loops) entries += std::pow(size_[k], 2);
     if (entries < worth_sharing)
@@ -47,6 +47,8 @@ void FilledState::fill(OpenedLoops loops)
         each_beside(loops.size(), compute);
     for (std::size_t i = 0; i < loops.size(); ++i) set_disk(loops[i], disks[i]);
 }
+
+MatrixXd FilledState::disk_of(int k) { return disk_dirichlet_to_neumann(angles_[k]); }
 
 VectorXcd FilledState::rim() const { return unit_circle_points(angles_[0]); }
 

@@ -59,7 +59,10 @@ protected:
     /// Whether loop k is ever filled.
     virtual bool fills(int) const { return true; }
 
-    /// Fills loop k by this disk from now on: T_k, (n_k, n_k).
+    /// The disk of loop k at its angles. May be called for several loops side by side.
+    virtual MatrixXd disk_of(int k);
+
+    /// Fills loop k by this disk from now on: T_k, (n_k, n_k), unless disk_of() makes a smaller one.
     virtual void set_disk(int k, const MatrixXd& disk) = 0;
 
     Index total(const std::vector<int>& loops) const;

@@ -1,6 +1,7 @@
 #include "iteration/sparse_state.h"
 
 #include "execution/thread_share.h"
+#include "iteration/disk_dirichlet_to_neumann.h"
 #include "linear/dense_spd.h"
 
 #include <utility>
@@ -10,12 +11,14 @@ namespace koebe {
 SparseState::SparseState(const SparseMatrix& laplacian, FilledLaplacian& surface, const std::vector<VertexLoop>& loops,
                          const std::vector<VectorXd>& edges, std::vector<VectorXd> first_angles)
     : GroundedState(loops, edges, std::move(first_angles)),
-      vertex_count_(static_cast<Index>(laplacian.rows())),
       surface_(surface),
       inner_loops_(loops.begin() + 1, loops.end()),
       disks_(loops.size() - 1)
 {
-    for (const VertexLoop& loop : inner_loops_) inner_.insert(inner_.end(), loop.begin(), loop.end());
+    for (const VertexLoop& loop : inner_loops_) {
+        inner_.insert(inner_.end(), loop.begin(), loop.end());
+        nodes_.push_back(FilledLaplacian::nodes(static_cast<Index>(loop.size())));
+    }
     couple(laplacian, loops[0]);
     fill();
     if (!begun()) take_arc_lengths(inner_loops());
@@ -41,9 +44,17 @@ void SparseState::couple(const SparseMatrix& laplacian, const VertexLoop& outer)
     coupling_.setFromTriplets(entries.begin(), entries.end());
 }
 
+MatrixXd SparseState::disk_of(int k)
+{
+    if (!has_nodes(k)) return GroundedState::disk_of(k);
+    CoarseDisk coarse = coarse_disk(angles_[k], nodes_[k - 1]);
+    disks_[k - 1].means = std::move(coarse.means);
+    return std::move(coarse.stiffness);
+}
+
 void SparseState::set_disk(int k, const MatrixXd& disk)
 {
-    disks_[k - 1] = disk;
+    disks_[k - 1].stiffness = disk;
     factor_ = nullptr;
 }
 
@@ -59,7 +70,7 @@ std::vector<VectorXcd> SparseState::images()
     const VectorXcd outer = rim();
     MatrixXd parts(size_[0], 2);
     parts << outer.real(), outer.imag();
-    MatrixXd load = MatrixXd::Zero(vertex_count_, 2);
+    MatrixXd load = MatrixXd::Zero(surface_.factor_size(), 2);
     load(beside_outer_, Eigen::all) = -(coupling_ * parts);
     const MatrixXd z = factor().solve_for(inner_, load);
     std::vector<VectorXcd> result{outer};
@@ -74,17 +85,39 @@ std::vector<VectorXcd> SparseState::images()
 
 std::vector<VectorXd> SparseState::fluxes_against_outer()
 {
-    std::vector<MatrixXd> blocks = factor().inverse_blocks(inner_loops_);
-    std::vector<VectorXd> result(blocks.size());
-    each_beside(blocks.size(), [&](std::size_t k) {
-        result[k] = spd_solve(std::move(blocks[k]), VectorXd::Ones(static_cast<Eigen::Index>(inner_loops_[k].size())));
-    });
+    std::vector<VectorXd> result(inner_loops_.size());
+    std::vector<std::vector<Index>> dense;
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < inner_loops_.size(); ++k)
+        if (nodes_[k].empty()) {
+            dense.push_back(inner_loops_[k]);
+            numbers.push_back(k);
+        }
+    if (!dense.empty()) {
+        std::vector<MatrixXd> blocks = factor().inverse_blocks(dense);
+        each_beside(blocks.size(), [&](std::size_t i) {
+            const VectorXd ones = VectorXd::Ones(static_cast<Eigen::Index>(dense[i].size()));
+            result[numbers[i]] = spd_solve(std::move(blocks[i]), ones);
+        });
+    }
+    for (std::size_t k = 0; k < inner_loops_.size(); ++k) {
+        if (nodes_[k].empty()) continue;
+        result[k] = surface_.raise(static_cast<int>(k) + 1, disks_, {}).second;
+        factor_ = nullptr;
+    }
     return result;
 }
 
 VectorXd SparseState::outer_flux()
 {
-    return -(coupling_.transpose() * factor().extend_to(beside_outer_, VectorXd::Ones(size_[1])));
+    VectorXd beside;
+    if (has_nodes(1)) {
+        beside = surface_.raise(1, disks_, beside_outer_).first;
+        factor_ = nullptr;
+    } else {
+        beside = factor().extend_to(beside_outer_, VectorXd::Ones(size_[1]));
+    }
+    return -(coupling_.transpose() * beside);
 }
 
 }  // namespace koebe

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -11,6 +12,13 @@ namespace koebe {
 namespace {
 
 constexpr double stiffness = 1e20;  // over the largest diagonal entry: its inverse vanishes beside rounding
+
+constexpr std::size_t most_dense = 500;                // vertices of a loop: its disk's factor takes about 0.1 s
+constexpr Index fewest_nodes = 250, most_nodes = 500;  // of a longer loop
+constexpr Index vertices_a_node = 8;
+
+/// Of the springs, over K's entries. A node is then off its mean by a millionth of its potential at most.
+constexpr double spring = 1e6;
 
 /// The lower triangle of K without the first loop, with an entry between any two vertices of each other loop.
 SparseMatrix with_room_for_disks(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
@@ -57,50 +65,178 @@ std::vector<Index> joined(const std::vector<std::vector<Index>>& loops)
 
 }  // namespace
 
+std::vector<std::vector<Index>> FilledLaplacian::nodes(Index loop_size)
+{
+    if (loop_size <= static_cast<Index>(most_dense)) return {};
+    const Index count = std::clamp(loop_size / vertices_a_node, fewest_nodes, most_nodes);
+    std::vector<std::vector<Index>> ties(static_cast<std::size_t>(count));
+    const auto m = static_cast<std::int64_t>(loop_size), n = static_cast<std::int64_t>(count);
+    for (std::int64_t c = 0; c < n; ++c)
+        for (std::int64_t i = (c - 1) * m / n; i * n < (c + 1) * m; ++i)  // |i - c m / n| < m / n
+            if (i * n > (c - 1) * m) ties[static_cast<std::size_t>(c)].push_back(static_cast<Index>((i + m) % m));
+    return ties;
+}
+
 FilledLaplacian::FilledLaplacian(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
     : loops_(loops),
       boundary_(laplacian, joined(loops)),
-      cholesky_(with_room_for_disks(laplacian, loops), loops[1], std::vector(loops.begin() + 1, loops.end()))
+      noded_([&] {
+          std::vector<NodedLoop> noded;
+          Index first = static_cast<Index>(laplacian.rows());
+          for (std::size_t k = 1; k < loops.size(); ++k) {
+              std::vector<std::vector<Index>> ties = nodes(static_cast<Index>(loops[k].size()));
+              if (ties.empty()) continue;
+              const Index count = static_cast<Index>(ties.size());
+              noded.push_back({k, first, std::move(ties), GroundColumns(laplacian, loops[k])});
+              first += count;
+          }
+          return noded;
+      }()),
+      surface_size_(static_cast<Index>(laplacian.rows())),
+      factor_size_(surface_size_),
+      stiff_(stiffness * laplacian.diagonal().maxCoeff()),
+      cholesky_([&] {
+          for (const NodedLoop& noded : noded_) factor_size_ += static_cast<Index>(noded.ties.size());
+          const std::vector<std::vector<Index>> rows = disk_rows();
+          return SparseCholesky(with_room_for_disks(with_nodes(laplacian), rows), rows[1], changing_rows());
+      }())
 {
-    take_stiffness(laplacian);
 }
 
 void FilledLaplacian::renew(const SparseMatrix& laplacian)
 {
     boundary_.renew(laplacian);
-    cholesky_.refactorize(with_room_for_disks(laplacian, loops_));
-    take_stiffness(laplacian);
-}
-
-void FilledLaplacian::take_stiffness(const SparseMatrix& laplacian)
-{
-    const double value = stiffness * laplacian.diagonal().maxCoeff();
-    stiff_.clear();
-    for (std::size_t k = 1; k < loops_.size(); ++k)
-        stiff_.push_back(value * MatrixXd::Identity(loops_[k].size(), loops_[k].size()));
+    for (NodedLoop& noded : noded_) noded.columns.renew(laplacian);
+    stiff_ = stiffness * laplacian.diagonal().maxCoeff();
+    cholesky_.refactorize(with_room_for_disks(with_nodes(laplacian), disk_rows()));
     is_filled_ = true;
 }
 
-const SparseCholesky& FilledLaplacian::fill(const std::vector<MatrixXd>& disks)
+/// The rows of each loop's disk: its vertices, or its nodes.
+std::vector<std::vector<Index>> FilledLaplacian::disk_rows() const
+{
+    std::vector<std::vector<Index>> rows = loops_;
+    for (const NodedLoop& noded : noded_) {
+        rows[noded.loop].resize(noded.ties.size());
+        std::iota(rows[noded.loop].begin(), rows[noded.loop].end(), noded.first_node);
+    }
+    return rows;
+}
+
+/// The rows of each block: of the disks, and for loops with nodes of each spring and of each vertex.
+std::vector<std::vector<Index>> FilledLaplacian::changing_rows() const
+{
+    std::vector<std::vector<Index>> rows = disk_rows();
+    rows.erase(rows.begin());
+    for (const NodedLoop& noded : noded_) {
+        for (std::size_t c = 0; c < noded.ties.size(); ++c) {
+            std::vector<Index>& spring_rows = rows.emplace_back();
+            for (const Index place : noded.ties[c]) spring_rows.push_back(loops_[noded.loop][place]);
+            spring_rows.push_back(noded.first_node + static_cast<Index>(c));
+        }
+        for (const Index v : loops_[noded.loop]) rows.push_back({v});
+    }
+    return rows;
+}
+
+/// K with rows for the nodes, and in its lower triangle an entry between any two rows of a spring.
+SparseMatrix FilledLaplacian::with_nodes(const SparseMatrix& laplacian) const
+{
+    if (noded_.empty()) return laplacian;
+    SparseMatrix wide = laplacian;
+    wide.conservativeResize(factor_size_, factor_size_);
+    std::vector<Eigen::Triplet<double, Index>> room;
+    for (const NodedLoop& noded : noded_) {
+        const std::vector<Index>& loop = loops_[noded.loop];
+        const Index m = static_cast<Index>(loop.size()), n = static_cast<Index>(noded.ties.size());
+        // Each pair of one spring's vertices once: all places ahead of a vertex that share a spring with it.
+        for (Index i = 0; i < m; ++i)
+            for (Index ahead = 0; ahead <= 2 * m / n && ahead < m; ++ahead) {
+                const auto [low, high] = std::minmax(loop[i], loop[(i + ahead) % m]);
+                room.emplace_back(high, low, 0.0);
+            }
+        for (Index c = 0; c < n; ++c) {
+            const Index node = noded.first_node + c;
+            room.emplace_back(node, node, 0.0);
+            for (const Index place : noded.ties[static_cast<std::size_t>(c)]) room.emplace_back(node, loop[place], 0.0);
+        }
+    }
+    SparseMatrix zeros(factor_size_, factor_size_);
+    zeros.setFromTriplets(room.begin(), room.end());
+    return wide + zeros;
+}
+
+/// The blocks of changing_rows(). @param held the number of a loop with nodes that is held at 0 without its disk; 0:
+/// no loop is
+std::vector<MatrixXd> FilledLaplacian::blocks(const std::vector<LoopDisk>& disks, int held) const
+{
+    std::vector<MatrixXd> result;
+    for (const LoopDisk& disk : disks) result.push_back(disk.stiffness);
+    for (const NodedLoop& noded : noded_) {
+        const bool is_held = static_cast<int>(noded.loop) == held;
+        for (const VectorXd& mean : disks[noded.loop - 1].means) {
+            VectorXd row(mean.size() + 1);  // the spring's energy is (row u)^2
+            row << -mean, 1.0;
+            if (is_held) row.head(mean.size()).setZero();
+            result.emplace_back(spring * row * row.transpose());
+        }
+        result.insert(result.end(), loops_[noded.loop].size(), MatrixXd::Constant(1, 1, is_held ? stiff_ : 0.0));
+    }
+    return result;
+}
+
+/// Blocks that hold all loops at 0.
+std::vector<MatrixXd> FilledLaplacian::stiff_blocks() const
+{
+    std::vector<MatrixXd> result;
+    const std::vector<std::vector<Index>> rows = changing_rows();
+    for (const std::vector<Index>& block : rows)
+        result.emplace_back(stiff_ * MatrixXd::Identity(block.size(), block.size()));
+    return result;
+}
+
+const SparseCholesky& FilledLaplacian::fill(const std::vector<LoopDisk>& disks)
 {
     is_filled_ = true;
-    cholesky_.refactorize(disks);
+    cholesky_.refactorize(blocks(disks, 0));
     return cholesky_;
+}
+
+std::pair<VectorXd, VectorXd> FilledLaplacian::raise(int k, const std::vector<LoopDisk>& disks,
+                                                     const std::vector<Index>& wanted)
+{
+    is_filled_ = true;
+    cholesky_.refactorize(blocks(disks, k));
+    const auto noded = std::ranges::find(noded_, static_cast<std::size_t>(k), &NodedLoop::loop);
+    const std::vector<Index>& loop = loops_[k];
+    MatrixXd load = MatrixXd::Zero(factor_size_, 1);
+    load.topRows(surface_size_) = noded->columns.load(MatrixXd::Ones(static_cast<Eigen::Index>(loop.size()), 1));
+    load(loop, 0).setZero();
+    load(loops_[0], 0).setZero();
+    std::vector<Index> all(surface_size_);
+    std::iota(all.begin(), all.end(), 0);
+    VectorXd u = cholesky_.solve_for(all, load).col(0);
+    u(loop).setOnes();
+    u(loops_[0]).setZero();
+    return {u(wanted), -noded->columns.flux(u)};
 }
 
 /// Solves K_II u_I = f_I. Boundary entries are undefined. Returns NaN if K_II is not positive definite.
 MatrixXd FilledLaplacian::solve_inside(MatrixXd load)
 {
+    const Eigen::Index rows = load.rows();
     load(boundary_.vertices(), Eigen::all).setZero();
+    load.conservativeResize(factor_size_, Eigen::NoChange);
+    load.bottomRows(factor_size_ - rows).setZero();
     try {
-        if (is_filled_) cholesky_.refactorize(stiff_);
+        if (is_filled_) cholesky_.refactorize(stiff_blocks());
     } catch (const OutOfMemory&) {
         throw;
     } catch (const SolverError&) {
-        return MatrixXd::Constant(load.rows(), load.cols(), std::numeric_limits<double>::quiet_NaN());
+        return MatrixXd::Constant(rows, load.cols(), std::numeric_limits<double>::quiet_NaN());
     }
     is_filled_ = false;
-    std::vector<Index> all(load.rows());
+    std::vector<Index> all(rows);
     std::iota(all.begin(), all.end(), 0);
     return cholesky_.solve_for(all, load);
 }

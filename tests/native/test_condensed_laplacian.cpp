@@ -82,14 +82,14 @@ TEST(FilledLaplacian, has_the_disks_and_without_them_what_every_other_has)
     const VectorXd load = VectorXd::Random(sample.plane.rows());
     for (const double scale : {1.0, 30.0}) {
         SparseMatrix with_disks = sample.laplacian;
-        std::vector<MatrixXd> disks;
+        std::vector<LoopDisk> disks;
         for (std::size_t k = 1; k < sample.domain.loops.size(); ++k) {
             const VertexLoop& loop = sample.domain.loops[k];
             const VectorXd x = VectorXd::Random(static_cast<Eigen::Index>(loop.size()));
-            disks.push_back(scale * x * x.transpose());
+            disks.push_back({scale * x * x.transpose(), {}});
             for (std::size_t i = 0; i < loop.size(); ++i)
                 for (std::size_t j = 0; j < loop.size(); ++j)
-                    with_disks.coeffRef(loop[i], loop[j]) += disks.back()(i, j);
+                    with_disks.coeffRef(loop[i], loop[j]) += disks.back().stiffness(i, j);
         }
         VectorXd grounded = load;
         for (const Index v : sample.domain.loops[0]) grounded[v] = 0.0;

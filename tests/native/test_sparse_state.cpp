@@ -2,6 +2,7 @@
 #include "circles/circle_fit.h"
 #include "iteration/koebe_condensed.h"
 #include "linear/condensed_laplacian.h"
+#include "linear/filled_laplacian.h"
 #include "surface/laplacian.h"
 
 #include <gtest/gtest.h>
@@ -65,6 +66,20 @@ TEST(SparseState, finds_the_circles_that_the_dense_state_finds)
         EXPECT_LT(inversive_distance_error(sparse.circles, dense.circles), 1e-9) << to_string(kind);
         EXPECT_NEAR(sparse.outcome.history.back().mean_roundness.all.paper,
                     dense.outcome.history.back().mean_roundness.all.paper, 1e-10);
+    }
+}
+
+TEST(SparseState, a_hole_whose_disk_lies_on_nodes_is_where_the_dense_state_finds_it)
+{
+    const CircleDomain domain = make_circle_domain({Circle{}, {0.1, 0.84}, {-0.87, 0.06}}, 22000);
+    ASSERT_FALSE(FilledLaplacian::nodes(static_cast<Index>(domain.loops[1].size())).empty());
+    for (const Lift kind : {Lift::plane, Lift::enneper}) {
+        const Vertices surface = lift(domain.points, kind);
+        const KoebeRun dense = run(domain, surface, Method::gk, 100000), nodes = run(domain, surface, Method::gk, 0);
+        ASSERT_TRUE(dense.outcome.converged && nodes.outcome.converged);
+        const double error = inversive_distance_error(dense.circles, domain.circles);
+        EXPECT_LT(inversive_distance_error(nodes.circles, dense.circles), error) << to_string(kind);
+        EXPECT_LT(inversive_distance_error(nodes.circles, domain.circles), 1.2 * error) << to_string(kind);
     }
 }
 
