@@ -14,6 +14,8 @@
 namespace koebe {
 namespace {
 
+constexpr double least_report = 0.005;  // of the whole: each report wakes the thread that shows it
+
 /// State shared by the threads.
 struct Shared {
     std::atomic<std::size_t> next{0}, done{0};
@@ -80,7 +82,13 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
         ExecutionContext own({}, {}, [&context] { context.checkpoint(); });
         std::optional<BesideOthers> beside;
         if (!others.empty()) beside.emplace();
-        run(own, [&] { context.advance(static_cast<double>(shared.done) / static_cast<double>(count)); });
+        double told = 0.0;
+        run(own, [&] {
+            const double share = static_cast<double>(shared.done) / static_cast<double>(count);
+            if (share < told + least_report) return context.checkpoint();
+            told = share;
+            context.advance(share);
+        });
         context.checkpoint();
     } catch (...) {
         cancelled = std::current_exception();
