@@ -105,8 +105,8 @@ def fit_circles(
     Of all such maps, those of least angle distortion: it minimizes the sum of a_f 4 |mu_f|^2 / (1 - |mu_f|^2), a_f a
     face's area on the surface, mu_f its Beltrami coefficient from the conformal circle domain. It starts there, and the
     circles move to their places without meeting.
-    mesh, triangles    vertices and triangles as for `uniformize`; or only a mesh: a pair (vertices, triangles), a file, a
-                mesh of another package. Then `triangles` is left out: fit_circles(mesh, centers, radii)
+    mesh, triangles    vertices and triangles as for `uniformize`; or a mesh alone, without `triangles`: a pair
+                (vertices, triangles), a file, a mesh of another package
     centers     (H, 2) of the H holes' circles, in the unit disk
     radii       (H,) their radii. The unit circle may come first in both, as in a result's `centers` and `radii`
     loops       for each circle the number of its hole in boundary_loops(triangles), and the loop left over is the outer
