@@ -16,13 +16,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace koebe {
 namespace {
 
 constexpr double wanted_width = 3e-4;  // of an enclosure, of the largest capacity: the circles then change by 1e-4
-constexpr double wanted_error = 1e-9;  // of harmonic measures of circles
-constexpr double settled = 1e-9;       // of the module, a length in the unit disk
+constexpr double wanted_error = 1e-6;  // of harmonic measures of circles: far below the widths
+constexpr double settled = 1e-4;       // change of the module, a length in the disk: what is left goes with its square
 constexpr int most_steps = 30;
 constexpr double ring_capacity = 2.0 * std::numbers::pi;  // of a ring, times the log of the ratio of its radii
 
@@ -48,20 +49,25 @@ public:
         return CircleCapacities(module, wanted_error, context).values(of_circles_);
     }
 
-    /// The module with these capacities. @param near where to begin
-    VectorXd module_with(const VectorXd& wanted, const VectorXd& near, ExecutionContext& context) const
+    /// The modules with these capacities, and with others nearby. @param near where to begin
+    std::pair<VectorXd, VectorXd> modules_with(const VectorXd& wanted, const VectorXd& others, const VectorXd& near,
+                                               ExecutionContext& context) const
     {
-        if (near.size() == 1) return VectorXd::Constant(1, std::exp(-ring_capacity / wanted[0]));
+        if (near.size() == 1)
+            return {VectorXd::Constant(1, std::exp(-ring_capacity / wanted[0])),
+                    VectorXd::Constant(1, std::exp(-ring_capacity / others[0]))};
         VectorXd module = near;
         for (int step = 0; step < most_steps; ++step) {
             // With n loops the capacities are more than the module's 3n - 6 numbers: least squares of relative errors.
             const CircleCapacities now(module, wanted_error, context);
             const VectorXd gap = (wanted - now.values(of_circles_)).cwiseQuotient(wanted);
             const MatrixXd slopes = wanted.cwiseInverse().asDiagonal() * now.gradients(of_circles_);
-            const VectorXd change = slopes.colPivHouseholderQr().solve(gap);
+            const auto factored = slopes.colPivHouseholderQr();
+            const VectorXd change = factored.solve(gap);
             module += change;
             require_circle_domain(circles_of_module(module));
-            if (change.cwiseAbs().maxCoeff() < settled) return module;
+            if (change.cwiseAbs().maxCoeff() < settled)
+                return {module, module + factored.solve((others - wanted).cwiseQuotient(wanted))};
         }
         throw SolverError("the circles of the polyhedron were not found: the steps towards them do not settle");
     }
@@ -117,8 +123,8 @@ PolygonalCircles polygonal_circles(const Vertices& vertices, const Triangles& tr
     }
     return run_detachable<PolygonalCircles>(context, [=](ExecutionContext& own) {
         fix_product_blocks();
-        const VectorXd found = capacities.module_with(middle, near, own);
-        return PolygonalCircles{circles_with(found), circles_with(capacities.module_with(upper, found, own))};
+        const auto [found, of_upper] = capacities.modules_with(middle, upper, near, own);
+        return PolygonalCircles{circles_with(found), circles_with(of_upper)};
     });
 }
 
