@@ -28,7 +28,7 @@ def square_ring(n):
 
 
 def round_plate(n):
-    z, triangles = round_domain(n, HOLES, 0.3)
+    z, triangles = round_domain(n, HOLES[:2], 0.3)
     return np.column_stack([z.real, z.imag, 0.0 * z.real]), triangles
 
 
@@ -62,7 +62,7 @@ def test_five_loops_have_one_too():
 
 
 def test_a_forecast_tells_the_difference(plate):
-    names = koebe.module_names(4)
+    names = koebe.module_names(3)
     radii = [k for k, name in enumerate(names) if name[0] == "r"]
     smooth, polygonal = (koebe.conformal_module(plate, rims=rims)[radii] for rims in ("smooth", "polygonal"))
     forecast = _koebe.polygonal_changes(mapped_surface(plate))
@@ -84,18 +84,18 @@ def test_one_option_chooses_everywhere(plate):
         koebe.conformal_module(found, rims="polygonal")
 
 
-def test_the_commands_say_which(tmp_path, plate):
+def test_the_commands_say_which(tmp_path):
     paths = [tmp_path / "a.obj", tmp_path / "b.obj"]
-    for path, n in zip(paths, (22, 24), strict=True):
-        path.write_text(obj_text(*round_plate(n)))
+    for path, n in zip(paths, (2, 3), strict=True):
+        path.write_text(obj_text(*square_ring(n)))
     smooth, polygonal = (
         json.loads(command("module", paths[0], "--rims", rims).stdout) for rims in ("smooth", "polygonal")
     )
     assert (smooth["rims"], polygonal["rims"]) == ("smooth", "polygonal") and "errors" not in smooth
-    assert np.allclose(polygonal["module"], koebe.conformal_module(plate, rims="polygonal"), atol=1e-6)
+    found = koebe.conformal_module(koebe.uniformize(*square_ring(2)), rims="polygonal")
+    assert np.allclose(polygonal["module"], found, atol=1e-6) and len(polygonal["errors"]) == 1
     told = [[one["kind"] for one in report["warnings"]] for report in (smooth, polygonal)]
     assert "coarse_mesh" in told[0] and "coarse_mesh" not in told[1]
-    assert len(polygonal["errors"]) == 6
     assert json.loads(command("module", paths[0], "--certified").stdout)["rims"] == "polygonal"
     compared = command("compare", *paths, "--rims", "polygonal").stdout
     assert compared.startswith("distance ") and compared.endswith(" (polygonal rims)\n")
