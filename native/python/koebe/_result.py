@@ -254,9 +254,10 @@ class MapReport(Saved):
 
     def _repr_html_(self) -> str:
         """The map and its figures, as a notebook shows them."""
+        sweeps = getattr(self, "sweeps", None)
         lines = [
             ", ".join([f"{self.vertex_count:,} vertices", f"{self.face_count:,} faces", *self._counts()]),
-            "converged" if self.converged else "not converged",
+            ("converged" if self.converged else "not converged") + (f" in {sweeps} sweeps" if sweeps else ""),
             f"angle error {self.angle_error_deg['mean']:.3g}°, {self.flipped} flipped",
             *(escape(str(warning)) for warning in self.warnings),
         ]
@@ -396,7 +397,7 @@ class UniformizeResult(MapReport):
         return self.uv[self.triangles], 2.0
 
     def _counts(self) -> list[str]:
-        return [f"{len(self.loops)} loops", f"{self.sweeps} sweeps"]
+        return [f"{len(self.loops)} loops"]
 
     def _picture(self) -> str:
         """The circle domain."""
