@@ -29,7 +29,7 @@ from .tube import unroll
 from .upright import upright_turn
 from .wording import counted
 
-# Of the largest coordinate: the distance from a line that rounding to 32 bits can cause, and a little more.
+# Of the extent: the distance from a line that rounding to 32 bits can cause, and a little more.
 FLAT = 2.4e-7
 FEW = 1000  # triangles that are checked first
 UNROLLED_STAYS = "Even does nothing to an unrolled tube: use Unwrap to Cylinder"
@@ -278,7 +278,8 @@ def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:
     a, b, c = (vertices.take(corner, axis=0) for corner in triangles.T)
     with np.errstate(invalid="ignore"):
         longest = np.max([np.linalg.norm(one - two, axis=1) for one, two in ((a, b), (b, c), (c, a))], axis=0)
-        return bool((areas(vertices, triangles) <= FLAT * np.abs(vertices).max() * longest).all())
+        extent = np.ptp(vertices[triangles], axis=(0, 1)).max()
+        return bool((areas(vertices, triangles) <= FLAT * extent * longest).all())
 
 
 @contextlib.contextmanager

@@ -89,6 +89,11 @@ def _rows() -> dict[str, Row]:
     return {row.name: row for row in rows}
 
 
+def solver_default(of: str, name: str) -> Any:
+    """The default of a map's option in the solver, which no property or flag here sets."""
+    return next(entry["default"] for entry in _table() if name == entry["name"] and of in entry["maps"].split())
+
+
 ROWS = _rows()
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from .islands import cut_into_islands, put_together
 from .mapping import failing_alone
+from .option_table import ROWS, solver_default
 from .options import PartsChoice
 from .outcomes import LATER, Outcome, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
@@ -16,8 +17,9 @@ from .stored import LostAreaError
 from .surface import next_corners
 from .wording import counted, density_text, in_mesh
 
-# The price of a part at the dial's ends: as few parts as possible, and texels as even as possible.
-HIGHEST, LOWEST = 0.03, 0.0003
+# The price of a part: at the dial's default the command's, at its ends ten times as much and a tenth. These ends make
+# as few parts as possible, and texels as even as possible.
+PRICE, SPREAD = solver_default("parts", "price"), 10.0
 # More than any unevenness costs: only necessary cuts are made.
 NO_CUTS = 1e3
 OTHERS = -1  # the number of a face of another surface in the same atlas
@@ -25,7 +27,7 @@ OTHERS = -1  # the number of a face of another surface in the same atlas
 
 def price_of(evenness: float) -> float:
     """The price of a part, from a dial between 0, fewer parts, and 1, more even parts."""
-    return float(HIGHEST * (LOWEST / HIGHEST) ** evenness)
+    return float(PRICE * SPREAD ** (2.0 * (ROWS["evenness"].default - evenness)))
 
 
 @dataclasses.dataclass(frozen=True)

@@ -6,9 +6,14 @@
 #include "mesh/connectivity.h"
 #include "mesh/topology.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace koebe {
@@ -248,6 +253,28 @@ CanonicalMesh canonical_mesh(const Vertices& vertices, const Triangles& triangle
     return mesh;
 }
 
+namespace {
+
+/// The face with the least height over its longest edge.
+std::size_t thinnest_face(const CanonicalMesh& mesh)
+{
+    std::size_t thinnest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        const Eigen::RowVector3d a = mesh.vertices.row(mesh.triangles(f, 0));
+        const Eigen::RowVector3d b = mesh.vertices.row(mesh.triangles(f, 1)) - a;
+        const Eigen::RowVector3d c = mesh.vertices.row(mesh.triangles(f, 2)) - a;
+        const double longest = std::max({b.squaredNorm(), c.squaredNorm(), (c - b).squaredNorm()});
+        if (const double height = longest > 0.0 ? b.cross(c).norm() / longest : 0.0; height < least) {
+            least = height;
+            thinnest = static_cast<std::size_t>(f);
+        }
+    }
+    return thinnest;
+}
+
+}  // namespace
+
 void throw_named(const CanonicalMesh& mesh, const KoebeError& error)
 {
     std::vector<Index> elements = error.elements();
@@ -257,7 +284,13 @@ void throw_named(const CanonicalMesh& mesh, const KoebeError& error)
         throw TopologyError(topology->kind(), error.what(), std::move(elements));
     if (dynamic_cast<const InputError*>(&error)) throw InputError(error.what(), kind, std::move(elements));
     if (dynamic_cast<const OutOfMemory*>(&error)) throw OutOfMemory(error.what(), kind, std::move(elements));
-    if (dynamic_cast<const SolverError*>(&error)) throw SolverError(error.what(), kind, std::move(elements));
+    if (dynamic_cast<const SolverError*>(&error)) {
+        // A matrix that cannot be factored, or a number that is not finite, comes from faces that are too thin.
+        if (elements.empty() && mesh.triangles.rows() > 0)
+            throw SolverError(std::string(error.what()) + " (the thinnest face listed)", ElementKind::faces,
+                              {mesh.original_faces[thinnest_face(mesh)]});
+        throw SolverError(error.what(), kind, std::move(elements));
+    }
     if (dynamic_cast<const Cancelled*>(&error)) throw Cancelled();
     throw KoebeError(error.what(), kind, std::move(elements));
 }

@@ -1,5 +1,6 @@
 #include "canonical/canonical_position.h"
 
+#include "core/all_elements.h"
 #include "core/errors.h"
 
 #include <Eigen/Geometry>
@@ -18,7 +19,10 @@ constexpr double coarsest = 0x1p-34;  // grid step over the extent
 constexpr double finest = 0x1p-50;
 constexpr double of_shortest = 0x1p-22;  // grid step over the shortest edge
 
-[[noreturn]] void throw_one_point() { throw InputError("all vertices lie on one point"); }
+[[noreturn]] void throw_one_point(Eigen::Index vertex_count)
+{
+    throw InputError("all vertices lie on one point", ElementKind::vertices, all_elements(vertex_count));
+}
 
 /// One value for each block of rows.
 template <class Value>
@@ -121,7 +125,7 @@ Vertices scaled_position(const Surface& surface, const Vertices& vertices)
     }
     const Point middle = 0.5 * low + 0.5 * high;
     const double extent = (0.5 * high - 0.5 * low).maxCoeff();
-    if (!(extent > 0.0)) throw_one_point();
+    if (!(extent > 0.0)) throw_one_point(vertices.rows());
     Vertices result(vertices.rows(), 3);
     each_rows(vertices.rows(), [&](Eigen::Index first, Eigen::Index count) {
         result.middleRows(first, count) = (vertices.middleRows(first, count).rowwise() - middle) / extent;
@@ -140,7 +144,7 @@ CanonicalPosition turned_position(const Triangles& triangles, Vertices points)
     const Eigen::Vector3d reach =
         points.row(farthest(points.rows(), [&](Eigen::Index v) { return points.row(v).norm(); }));
     const double extent = *std::max_element(extents.begin(), extents.end());
-    if (!(extent > 0.0)) throw_one_point();
+    if (!(extent > 0.0)) throw_one_point(points.rows());
     const Eigen::Vector3d first = reach / reach.norm();
     const auto aside = [&](Eigen::Index v) -> Eigen::Vector3d {
         const Eigen::Vector3d p = points.row(v);

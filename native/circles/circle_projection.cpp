@@ -1,5 +1,6 @@
 #include "circles/circle_projection.h"
 
+#include "circles/on_circle.h"
 #include "core/tolerances.h"
 
 #include <cmath>
@@ -11,6 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr double rounding = 0x1p-49;    // of a coordinate, relative: some rounding errors of a Moebius map
 constexpr double least_of_mean = 1e-3;  // least distance of neighbours over the mean one, dimensionless
 
 /// The nondecreasing sequence nearest to the given one.
@@ -86,9 +88,12 @@ VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int
     return result;
 }
 
-bool is_off_circle(const Circle& circle, Complex point)
+bool is_on_circle(const Circle& circle, Complex point, double tolerance)
 {
-    return !(std::abs(std::abs(point - circle.center) - circle.radius) <= circle_tolerance);
+    const double slack = tolerance * circle.radius + rounding * (std::abs(circle.center) + circle.radius);
+    return std::abs(std::abs(point - circle.center) - circle.radius) <= slack;
 }
+
+bool is_off_circle(const Circle& circle, Complex point) { return !is_on_circle(circle, point, circle_tolerance); }
 
 }  // namespace koebe

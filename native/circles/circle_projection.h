@@ -17,7 +17,7 @@ VectorXcd project_onto_circle(const Circle& circle, const VectorXcd& points, int
 /// @param turn +1 counter-clockwise, -1 clockwise
 bool run_once_round(const VectorXcd& arms, int turn);
 
-/// Whether a point of the unit disk is farther from a circle than circle_tolerance, or is not finite.
+/// Whether a point is farther from a circle than circle_tolerance (on_circle.h), or is not finite.
 bool is_off_circle(const Circle& circle, Complex point);
 
 }  // namespace koebe

@@ -15,11 +15,11 @@ const char* to_string(TopologyKind kind) noexcept
 ElementKind elements_of(TopologyKind kind) noexcept
 {
     switch (kind) {
-    case TopologyKind::closed: return ElementKind::none;
     case TopologyKind::genus:
     case TopologyKind::nonmanifold_vertex: return ElementKind::vertices;
     case TopologyKind::nonmanifold_edge:
     case TopologyKind::nonorientable: return ElementKind::edges;
+    case TopologyKind::closed:
     case TopologyKind::disconnected: return ElementKind::faces;
     }
     return ElementKind::none;

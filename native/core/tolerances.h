@@ -6,10 +6,10 @@ namespace koebe {
 /// UV units. A face whose longest edge is shorter is below the resolution of 32-bit UVs (steps of 6e-8).
 inline constexpr double uv_resolution = 1e-6;
 
-/// Disk units: how far from its circle a loop vertex may lie. The disk is 2 wide, the UV square 1.
+/// Radii: how far from its circle a loop vertex may lie.
 inline constexpr double circle_tolerance = 1e-6;
 
-/// Disk units: how far a vertex may be moved off its circle, or be found off it. It leaves room for rounding.
+/// Radii: how far a vertex may be moved off its circle, or be found off it. It leaves room for rounding.
 inline constexpr double inner_circle_tolerance = 0.5 * circle_tolerance;
 
 }  // namespace koebe

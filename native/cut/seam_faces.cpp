@@ -170,7 +170,7 @@ private:
     void measure(const Vertices& vertices)
     {
         SeamedMesh& mesh = seams_.mesh;
-        const double extent = vertices.cwiseAbs().maxCoeff();
+        const double extent = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).maxCoeff();
         const double unit = extent > 0.0 ? extent : 1.0;
         mesh.length.resize(mesh.twin.size());
         for (Index h = 0; h < mesh.halfedge_count(); ++h) {

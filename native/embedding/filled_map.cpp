@@ -2,6 +2,7 @@
 
 #include "circles/circle_projection.h"
 #include "circles/moebius.h"
+#include "circles/on_circle.h"
 #include "core/tolerances.h"
 #include "embedding/roomy_rim.h"
 #include "planar/planar_predicates.h"
@@ -351,8 +352,7 @@ std::vector<Index> FilledMap::off_circle(std::size_t loop, bool pulled) const
 {
     std::vector<Index> off;
     for (const Index v : loops_[loop])
-        if ((!pulled || pulled_[v]) &&
-            std::abs(std::abs(at(v) - now_.circles[loop].center) - now_.circles[loop].radius) > inner_circle_tolerance)
+        if ((!pulled || pulled_[v]) && !is_on_circle(now_.circles[loop], at(v), inner_circle_tolerance))
             off.push_back(v);
     return off;
 }

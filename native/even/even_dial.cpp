@@ -1,6 +1,7 @@
 #include "even/even_dial.h"
 
 #include "circles/circle_fit.h"
+#include "core/all_elements.h"
 #include "core/errors.h"
 #include "foldover/newton_system.h"
 #include "mesh/topology.h"
@@ -51,10 +52,13 @@ EvenDial::EvenDial(const Vertices& vertices, const Triangles& triangles, const P
     if (points.rows() != vertices.rows() || !points.allFinite())
         throw InputError("the map must have a finite point for each vertex");
     Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
-    if (surface.loops.empty()) throw TopologyError(TopologyKind::closed, "a closed surface has no flat map", {});
+    if (surface.loops.empty()) throw TopologyError(TopologyKind::closed, "a closed surface has no flat map", {0});
     std::vector<char> used(static_cast<std::size_t>(vertices.rows()), 0);
     for (const Index v : triangles.reshaped()) used[v] = 1;
-    if (std::ranges::count(used, 0) > 0) throw InputError("the map has vertices that belong to no face");
+    std::vector<Index> unused;
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (!used[v]) unused.push_back(static_cast<Index>(v));
+    if (!unused.empty()) throw InputError("the map has vertices that belong to no face", ElementKind::vertices, unused);
     triangles_ = std::move(surface.triangles);
     loops_ = std::move(surface.loops);
     double image = 0.0;
@@ -67,7 +71,8 @@ EvenDial::EvenDial(const Vertices& vertices, const Triangles& triangles, const P
     if (!turned.empty())
         throw InputError("the map has faces that are turned over, or without area", ElementKind::faces, turned);
     scale_ = scale_to_size(vertices_, triangles_, image);
-    if (!std::isfinite(scale_) || !(scale_ > 0.0)) throw InputError("the surface has no area");
+    if (!std::isfinite(scale_) || !(scale_ > 0.0))
+        throw InputError("the surface has no area", ElementKind::faces, all_elements(triangles_.rows()));
     points_ *= scale_;
     extent_ = roomy_extent * (points_.colwise().maxCoeff() - points_.colwise().minCoeff()).maxCoeff();
     if (!round) return;

@@ -54,8 +54,10 @@ void require_feasible(const CircleTemplate& wanted)
                                      " of the template meet: the gap must be at least 1e-6",
                                  ElementKind::loops, {static_cast<Index>(k), static_cast<Index>(j)});
         }
-    if (std::set<int>(wanted.loops.begin(), wanted.loops.end()).size() != wanted.loops.size())
-        throw InputError("two circles of the template name the same loop");
+    std::set<int> named;
+    for (const int loop : wanted.loops)
+        if (!named.insert(loop).second)
+            throw InputError("two circles of the template name the same loop", ElementKind::loops, {loop});
     require_finite_pin(wanted.outer);
     for (const TemplateRim& rim : wanted.rims) require_finite_pin(rim);
 }

@@ -42,7 +42,8 @@ void require_as_many(const CircleTemplate& wanted, std::size_t loops)
     for (const int rank : wanted.loops)
         if (rank < 0 || rank >= static_cast<int>(loops))
             throw InputError("the template names the loop " + std::to_string(rank) + ", and the surface has " +
-                             counted(loops, "loop") + ", counted from 0");
+                                 counted(loops, "loop") + ", counted from 0",
+                             ElementKind::loops, {rank});
 }
 
 /// Makes the loop that no circle names the outer loop.
@@ -125,7 +126,8 @@ std::vector<Index> template_circles(const std::vector<Index>& loops, const std::
 {
     std::string sentence = "no one-to-one map to the template was found: " + why;
     if (!circles.empty()) sentence += ", the first at circle " + std::to_string(circles.front());
-    throw SolverError(sentence + ". The mesh is too coarse for this template, or too coarse between these holes",
+    throw SolverError(sentence + ". The mesh is too coarse for this template, or too coarse between these holes: "
+                                 "subdivide its faces there, or place the circles farther apart",
                       circles.empty() ? ElementKind::none : ElementKind::loops, circles);
 }
 

@@ -1,5 +1,6 @@
 #include "foldover/tangled_map.h"
 
+#include "circles/on_circle.h"
 #include "core/sort_unique.h"
 #include "core/tolerances.h"
 #include "execution/thread_share.h"
@@ -93,9 +94,7 @@ bool TangledMap::hangs(Index face) const
 
 bool TangledMap::near_circle(Index vertex) const
 {
-    const Circle& circle = circles_[loop_of_[vertex]];
-    return std::abs(std::abs(Complex(uv_(vertex, 0), uv_(vertex, 1)) - circle.center) - circle.radius) <=
-           inner_circle_tolerance;
+    return is_on_circle(circles_[loop_of_[vertex]], {uv_(vertex, 0), uv_(vertex, 1)}, inner_circle_tolerance);
 }
 
 bool TangledMap::loops_cross(const std::vector<Index>& moved) const

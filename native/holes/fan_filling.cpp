@@ -75,7 +75,8 @@ std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std:
     for (const Index k : *loops)
         if (k < 0 || k >= static_cast<Index>(surface.loops.size()))
             throw InputError("there is no boundary loop " + std::to_string(k) + ": the surface has " +
-                             counted(surface.loops.size(), "loop") + ", numbered from 0");
+                                 counted(surface.loops.size(), "loop") + ", numbered from 0",
+                             ElementKind::loops, {k});
     ranks = *loops;
     sort_unique(ranks);
     return ranks;

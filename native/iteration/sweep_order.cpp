@@ -58,16 +58,20 @@ void require_schedule(const Sweep& schedule, int loop_count, Method method)
         for (const int k : step) {
             if (k < 0 || k >= loop_count)
                 throw InputError("the schedule names loop " + std::to_string(k) + ", but the surface has loops 0 to " +
-                                 std::to_string(loop_count - 1));
+                                     std::to_string(loop_count - 1),
+                                 ElementKind::loops, {k});
             opened[k] = 1;
         }
         if (step.front() == step.back() && opens == 2)
-            throw InputError("a step of the schedule opens loop " + std::to_string(step.front()) + " twice");
+            throw InputError("a step of the schedule opens loop " + std::to_string(step.front()) + " twice",
+                             ElementKind::loops, {step.front()});
         if (method == Method::against_outer && std::ranges::find(step, 0) == step.end())
-            throw InputError("a step of the schedule fills loop 0, which this method never does");
+            throw InputError("a step of the schedule fills loop 0, which this method never does", ElementKind::loops,
+                             {0});
     }
     if (const auto missed = std::ranges::find(opened, 0); missed != opened.end())
-        throw InputError("the schedule never opens loop " + std::to_string(missed - opened.begin()));
+        throw InputError("the schedule never opens loop " + std::to_string(missed - opened.begin()), ElementKind::loops,
+                         {static_cast<Index>(missed - opened.begin())});
 }
 
 }  // namespace koebe

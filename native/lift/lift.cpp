@@ -1,5 +1,6 @@
 #include "lift/lift.h"
 
+#include "core/all_elements.h"
 #include "core/counted.h"
 #include "core/enum_words.h"
 #include "core/sort_unique.h"
@@ -76,7 +77,9 @@ PatternOptions pattern_options(const FlatDomain& domain, const LiftOptions& opti
     chosen.rows = options.rows;
     chosen.hole = domain.hole;
     chosen.whole = options.rim == LiftRim::whole;
-    if (!(chosen.size > 0.0)) throw InputError("the surface has no area: no size for the pattern");
+    if (!(chosen.size > 0.0))
+        throw InputError("the surface has no area: no size for the pattern", ElementKind::faces,
+                         all_elements(sheet.triangles.rows()));
     return chosen;
 }
 

@@ -305,7 +305,8 @@ Surface require_bordered_genus_zero(const Triangles& triangles, Index vertex_cou
                                 "(vertices of a loop through it listed)",
                             find_handle_loop(surface));
     if (surface.loops.empty())
-        throw TopologyError(TopologyKind::closed, "the surface is closed: delete a face or mark a seam to open it");
+        throw TopologyError(TopologyKind::closed,
+                            "the surface is closed: delete a face or mark a seam to open it (a face listed)", {0});
     return surface;
 }
 

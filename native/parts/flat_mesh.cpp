@@ -1,5 +1,6 @@
 #include "parts/flat_mesh.h"
 
+#include "core/all_elements.h"
 #include "core/errors.h"
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
@@ -48,10 +49,11 @@ Sized of_area_one(const Vertices& vertices, const Triangles& triangles)
     const Eigen::RowVector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
     const Eigen::RowVector3d middle = 0.5 * low + 0.5 * high;
     const double extent = (0.5 * high - 0.5 * low).maxCoeff();
-    if (!(extent > 0.0)) throw InputError("all vertices lie on one point");
+    if (!(extent > 0.0))
+        throw InputError("all vertices lie on one point", ElementKind::vertices, all_elements(vertices.rows()));
     const Vertices scaled = (vertices.rowwise() - middle) / extent;
     const double area = face_areas(scaled, triangles).sum();
-    if (!(area > 0.0)) throw InputError("the surface has no area");
+    if (!(area > 0.0)) throw InputError("the surface has no area", ElementKind::faces, all_elements(triangles.rows()));
     return {scaled / std::sqrt(area), extent * std::sqrt(area)};
 }
 

@@ -69,8 +69,8 @@ void bind_domains(py::module_& m)
     bind_options<FlattenOptions>(m, "FlattenOptions");
     bind_result<FlattenResult>(m, "FlattenResult")
         .def_property_readonly("part", [](const FlattenResult& r) { return array_of(r.part); })
-        .def("svg", [](const FlattenResult& r) { return pattern_svg(r.pattern); })
-        .def("dxf", [](const FlattenResult& r) { return pattern_dxf(r.pattern); })
+        .def_property_readonly("svg", [](const FlattenResult& r) { return pattern_svg(r.pattern); })
+        .def_property_readonly("dxf", [](const FlattenResult& r) { return pattern_dxf(r.pattern); })
         .def("report", &report_of<FlattenResult>);
     bind_map<FlattenOptions, FlattenResult>(m, "flatten", flatten);
     m.def("page_problem", [](const std::string& name) { return page_named(name) ? std::string() : page_help(name); });

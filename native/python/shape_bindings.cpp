@@ -6,6 +6,7 @@
 #include "report_object.h"
 
 #include "certified/capacities.h"
+#include "certified/polygonal_circles.h"
 #include "circles/circle_fit.h"
 #include "linear/dense_spd.h"
 #include "opened/disk_packing.h"
@@ -68,6 +69,16 @@ void bind_shapes(py::module_& m)
             return refined_circles(surface.vertices, surface.triangles, surface.loops, options, context);
         }));
     });
+    m.def("polygonal_circles",
+          [](const MappedSurface& surface, int threads, const py::object& progress, const CancelToken& cancel) {
+              const PolygonalCircles found = without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return polygonal_circles(surface.vertices, surface.triangles, surface.loops, threads, context);
+              });
+              return py::make_tuple(arrays_of(found.circles), arrays_of(found.of_upper_bounds));
+          });
+    m.def("polygonal_changes", [](const MappedSurface& surface) {
+        return polygonal_changes(surface.vertices, surface.triangles, surface.uv, surface.loops);
+    });
     m.def("require_own_circles", [](const std::vector<bool>& own) {
         std::vector<LoopReport> loops(own.size());
         for (std::size_t k = 0; k < own.size(); ++k) loops[k].shrunk = !own[k];
@@ -111,9 +122,23 @@ void bind_shapes(py::module_& m)
         .def_readonly("worst", &DomainAlignment::worst)
         .def_readonly("misses", &DomainAlignment::misses)
         .def_readonly("converged", &DomainAlignment::converged)
-        .def("__call__", [](const DomainAlignment& d, const Eigen::Ref<const PlanarPoints>& points) {
-            return planar(d.map(complex(points)));
-        });
+        .def("__call__", [](const DomainAlignment& d,
+                            const Eigen::Ref<const PlanarPoints>& points) { return planar(d.map(complex(points))); })
+        .def(py::pickle(
+            [](const DomainAlignment& d) {
+                return py::make_tuple(d.map.a, d.map.turn, d.match, d.residual, d.largest, d.worst, d.misses,
+                                      d.iterations, d.converged);
+            },
+            [](const py::tuple& state) {
+                return DomainAlignment{{state[0].cast<Complex>(), state[1].cast<Complex>()},
+                                       state[2].cast<std::vector<int>>(),
+                                       state[3].cast<double>(),
+                                       state[4].cast<double>(),
+                                       state[5].cast<int>(),
+                                       state[6].cast<std::vector<double>>(),
+                                       state[7].cast<int>(),
+                                       state[8].cast<bool>()};
+            }));
     py::class_<SurfacePoint>(m, "SurfacePoint")
         .def("place", [](const SurfacePoint& point, const PlanarPoints& uv, const Triangles& triangles) {
             const Eigen::RowVector2d at = point.of(uv, triangles);

@@ -1,5 +1,6 @@
 #include "report/capacity_json.h"
 
+#include "certified/polygonal_circles.h"
 #include "core/warning.h"
 #include "report/json.h"
 #include "shape/conformal_module.h"
@@ -22,9 +23,10 @@ nlohmann::ordered_json to_json(const CapacityReport& report)
                               {"high", capacity.condenser.high},
                               {"lower", capacity.value.lower},
                               {"upper", capacity.value.upper}});
-    nlohmann::ordered_json json{{"version", KOEBE_VERSION}, {"input", ""},           {"converged", report.converged},
-                                {"width", report.width},    {"faces", report.faces}, {"levels", report.levels},
-                                {"capacities", capacities}};
+    nlohmann::ordered_json json{{"version", KOEBE_VERSION},      {"input", ""},
+                                {"converged", report.converged}, {"rims", to_string(Rims::polygonal)},
+                                {"width", report.width},         {"faces", report.faces},
+                                {"levels", report.levels},       {"capacities", capacities}};
     if (report.modulus) json["modulus"] = enclosure_json(*report.modulus);
     if (!report.module.empty()) {
         const std::vector<std::string> names = module_names(report.order.size());

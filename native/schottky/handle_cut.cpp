@@ -1,5 +1,6 @@
 #include "schottky/handle_cut.h"
 
+#include "core/all_elements.h"
 #include "core/errors.h"
 #include "core/sort_unique.h"
 #include "cut/open_surface.h"
@@ -77,7 +78,8 @@ Vertices in_unit_cube(const Vertices& vertices)
 {
     const Eigen::RowVector3d low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
     const double extent = 0.5 * (0.5 * high - 0.5 * low).maxCoeff() * 2.0;
-    if (!(extent > 0.0)) throw InputError("all vertices lie on one point");
+    if (!(extent > 0.0))
+        throw InputError("all vertices lie on one point", ElementKind::vertices, all_elements(vertices.rows()));
     return (vertices.rowwise() - (0.5 * low + 0.5 * high)) / extent;
 }
 

@@ -105,7 +105,9 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
     require_memory_for_faces(triangles.rows());
     const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
     if (surface.genus == 0)
-        throw TopologyError(TopologyKind::genus, "the surface has no handle: a Schottky group needs one at least");
+        throw TopologyError(TopologyKind::genus,
+                            "the surface has no handle: a Schottky group needs one at least (a vertex listed)",
+                            {surface.triangles(0, 0)});
     const FinerFaces faces = finer_faces(vertices, surface.triangles, enough_faces, finer);
     HandleCut first = cut_handles(faces.vertices, faces.triangles, result.vertex_count, context);
     clock.end(&StageSeconds::topology);

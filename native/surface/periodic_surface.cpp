@@ -1,5 +1,6 @@
 #include "surface/periodic_surface.h"
 
+#include "core/all_elements.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"
@@ -20,9 +21,10 @@ namespace {
 void require_genus(const Surface& surface, int genus, const std::string& needs)
 {
     if (surface.genus != genus)
-        throw TopologyError(TopologyKind::genus, "the surface has " +
-                                                     counted(static_cast<std::size_t>(surface.genus), "handle") + ": " +
-                                                     needs);
+        throw TopologyError(TopologyKind::genus,
+                            "the surface has " + counted(static_cast<std::size_t>(surface.genus), "handle") + ": " +
+                                needs + " (a vertex listed)",
+                            {surface.triangles(0, 0)});
 }
 
 /// The dual graph: its nodes are the faces and, after them, the boundary loops.
@@ -155,12 +157,11 @@ PeriodicSurface prepared(const Vertices& vertices, const Triangles& triangles)
     for (Index& v : own.reshaped()) v = number[v];
     result.surface = analyze_surface(own, static_cast<Index>(result.original.size()));
     result.vertices = vertices(result.original, Eigen::all);
-    const double largest = result.vertices.cwiseAbs().maxCoeff();
-    if (largest > 0.0) result.vertices /= largest;
     const Eigen::RowVector3d low = result.vertices.colwise().minCoeff(), high = result.vertices.colwise().maxCoeff();
-    const double extent = 0.5 * (high - low).maxCoeff();
-    if (!(extent > 0.0)) throw InputError("all vertices lie on one point");
-    result.vertices = (result.vertices.rowwise() - 0.5 * (low + high)) / extent;
+    const double extent = (0.5 * high - 0.5 * low).maxCoeff();  // no sum overflows
+    if (!(extent > 0.0))
+        throw InputError("all vertices lie on one point", ElementKind::vertices, all_elements(result.vertices.rows()));
+    result.vertices = (result.vertices.rowwise() - (0.5 * low + 0.5 * high)) / extent;
     return result;
 }
 
@@ -272,7 +273,9 @@ PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangl
     require_genus(surface, 0, "a ring needs a surface without handles");
     if (surface.loops.size() < 2)
         throw TopologyError(TopologyKind::closed,
-                            "a ring needs two boundary loops, the surface has " + std::to_string(surface.loops.size()));
+                            "a ring needs two boundary loops, the surface has " + std::to_string(surface.loops.size()) +
+                                " (a face listed)",
+                            {0});
     const std::size_t none = surface.loops.size();
     std::size_t first = outer >= 0 || inner < 0 ? rim_with(domain, outer, none) : none;
     const std::size_t second = rim_with(domain, inner, first);

@@ -1,5 +1,6 @@
 #include "tiles/even_tile.h"
 
+#include "circles/on_circle.h"
 #include "core/tolerances.h"
 #include "even/even_map.h"
 #include "planar/planar_predicates.h"
@@ -107,8 +108,7 @@ bool make_tile_even(const PeriodicSurface& domain, const TileOptions& options, F
         const Circle circle{round[k].track.circle.center / scale - lower, round[k].track.circle.radius / scale};
         map.circles.push_back(circle);
         for (const Index v : domain.loops[k])
-            if (std::abs(std::abs(map.z[v] - circle.center) - circle.radius) > inner_circle_tolerance)
-                map.off_circle.push_back(v);
+            if (!is_on_circle(circle, map.z[v], inner_circle_tolerance)) map.off_circle.push_back(v);
     }
     std::ranges::sort(map.off_circle);
     return true;

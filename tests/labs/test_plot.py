@@ -58,3 +58,35 @@ def test_a_result_is_drawn_into_axes_of_ones_own():
     for wrong in (3, [], [plane, plane], "plane"):
         with pytest.raises(TypeError, match="ax must be"):
             koebe.plot(RESULT, ax=wrong)
+
+
+LINK = Path(__file__).resolve().parents[2] / "docs" / "link.obj"
+MAPS = {
+    "cut": lambda: koebe.uniformize(LINK, cut=True),
+    "parts": lambda: koebe.parts(LINK),
+    "ring": lambda: koebe.ring_map(VERTICES, TRIANGLES),
+    "torus": lambda: koebe.torus_map(LINK),
+    "sphere": lambda: koebe.sphere_map(VERTICES, TRIANGLES),
+    "schottky": lambda: koebe.schottky_map(LINK),
+    "flatten": lambda: koebe.flatten(LINK),
+    "lift": lambda: koebe.lift(VERTICES, TRIANGLES, perforate=True),
+}
+
+
+@pytest.mark.parametrize("kind", MAPS)
+def test_every_map_is_drawn(kind):
+    result = MAPS[kind]()
+    for field in ("checker", "log_scale", "angle_error"):
+        space, plane = koebe.plot(result, field=field).axes[:2]
+        areas = [0.5 * np.cross(b - a, c - a) for a, b, c in (p.vertices[:3] for p in plane.collections[0].get_paths())]
+        uv = result.corner_uv[result._drawn()]
+        (ux, uy), (vx, vy) = (uv[:, 1] - uv[:, 0]).T, (uv[:, 2] - uv[:, 0]).T
+        assert np.isclose(np.abs(areas).sum(), 0.5 * np.abs(ux * vy - uy * vx).sum(), rtol=1e-6)
+        assert len(space.collections[0].get_facecolor()) == len(areas)
+
+
+def test_a_solid_is_drawn_without_uvs():
+    solid = koebe.lift(VERTICES, TRIANGLES, perforate=True, thickness=0.01)
+    assert len(koebe.plot(solid).axes) == 1
+    with pytest.raises(koebe.InputError, match="a solid has no UVs"):
+        koebe.plot(solid, field="log_scale")

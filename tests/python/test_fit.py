@@ -201,6 +201,20 @@ def test_infeasible_templates(centers, radii, words):
         koebe.fit_circles(PLATE, centers, radii)
 
 
+def test_the_surface_may_be_two_arrays_or_one_mesh():
+    circles = {"centers": SPOTS, "radii": [0.2, 0.3, 0.1]}
+    ways = [
+        koebe.fit_circles(*PLATE, SPOTS, [0.2, 0.3, 0.1]),
+        koebe.fit_circles(*PLATE, **circles),
+        koebe.fit_circles(PLATE, SPOTS, radii=[0.2, 0.3, 0.1]),
+        koebe.fit_circles(mesh=PLATE, **circles),
+        koebe.fit_circles(*PLATE, SPOTS, [0.2, 0.3, 0.1], FIT.ranks[1:]),
+    ]
+    assert all(np.array_equal(fit.uv, FIT.uv) for fit in ways)
+    with pytest.raises(TypeError, match="needs the centers and the radii"):
+        koebe.fit_circles(*PLATE)
+
+
 @pytest.mark.parametrize("gap", [0.1, 0.01, 1e-3, 1e-5])
 def test_hard_templates_have_no_flips_or_are_a_typed_error(gap):
     # Three circles in a row, on a mesh with few vertices between the holes.

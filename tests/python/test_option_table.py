@@ -48,7 +48,7 @@ def test_every_row_is_of_the_form():
     kinds = {*TYPES, "text"}
     for row in TABLE:
         assert row["kind"] in kinds and row["does"] and not row["does"].endswith("."), row["name"]
-        assert set(row["maps"].split()) <= {*MAPS, "ricci", "shapes"}, row["name"]
+        assert set(row["maps"].split()) <= {*MAPS, "ricci", "shapes", "module"}, row["name"]
         assert set(row.get("in", "command").split()) <= {"command", "python", "blender", "batch"}, row["name"]
         assert ("choices" in row) == (row["kind"] in ("choice", "loop")), row["name"]
         assert row["kind"] != "choice" or row["default"] in [word for word, _, _ in row["choices"]], row["name"]
@@ -59,7 +59,7 @@ def test_every_row_is_of_the_form():
 
 
 def test_a_name_is_one_option_of_a_map_and_one_property():
-    for of in (*MAPS, "ricci", "shapes"):
+    for of in (*MAPS, "ricci", "shapes", "module"):
         for front in ("command", "python"):
             names = [row["name"] for row in TABLE if of in row["maps"].split() and front in row.get("in", front)]
             assert len(names) == len(set(names))

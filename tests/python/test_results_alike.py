@@ -1,8 +1,11 @@
 """All results have the same names for the same things."""
 
+import functools
 import json
 import pickle
+import re
 import warnings
+from xml.etree import ElementTree
 
 import koebe
 import numpy as np
@@ -22,9 +25,71 @@ MAPS = {
 }
 
 
+MADE = {name: functools.cache(make) for name, make in MAPS.items()}
+OTHERS = {  # results that are no maps
+    "lift": lambda: koebe.lift(FACE, perforate=True),
+    "transfer": lambda: koebe.transfer(MADE["uniformize"](), MADE["uniformize"]()),
+    "teichmueller": lambda: koebe.teichmueller(MADE["uniformize"](), MADE["uniformize"]()),
+    "alignment": lambda: koebe.align_domains(MADE["uniformize"](), MADE["fit"]()),
+    "family": lambda: koebe.family([MADE["uniformize"]()]),
+    "certified": lambda: koebe.certified_moduli(FACE),
+    "opened": lambda: koebe.open_surface("docs/link.obj"),
+    "permutations": lambda: koebe.permutation_test(1.0 - np.eye(4), [0, 0, 1, 1]),
+}
+
+
+def parts_of(result):
+    """What a result holds, in a form that can be compared."""
+    return {name: repr(value) for name, value in vars(result).items() if "native" not in name}
+
+
+@pytest.mark.parametrize("kind", [*MAPS, *OTHERS])
+def test_every_result_goes_to_another_process(kind):
+    result = {**MADE, **OTHERS}[kind]()
+    again = pickle.loads(pickle.dumps(result))
+    assert type(again) is type(result) and parts_of(again) == parts_of(result)
+    if kind == "transfer":
+        assert np.array_equal(again.alignment([[0.1, 0.2]]), result.alignment([[0.1, 0.2]]))
+
+
+@pytest.mark.parametrize("kind", MAPS)
+def test_every_result_with_save_is_loaded_again(kind, tmp_path):
+    result = MADE[kind]()
+    result.save(tmp_path / "result.npz")
+    again = koebe.load(tmp_path / "result.npz")
+    assert type(again) is type(result) and again.to_dict() == result.to_dict() and repr(again) == repr(result)
+    assert np.array_equal(again.corner_uv, result.corner_uv)
+    assert again._repr_html_() == result._repr_html_()
+    if kind == "flatten":
+        assert (again.svg, again.dxf) == (result.svg, result.dxf)
+
+
+@pytest.mark.parametrize("kind", [*MAPS, "lift"])
+def test_every_result_shows_itself(kind):
+    shown = ElementTree.fromstring({**MADE, **OTHERS}[kind]()._repr_html_())
+    picture = shown.find("svg")
+    assert list(picture) and "".join(shown.itertext())
+    for path in picture.iter("path"):
+        pixels = np.array(re.findall(r"[\d.]+", path.get("d")), float).reshape(-1, 2)
+        size = float(picture.get("width")), float(picture.get("height"))
+        assert len(pixels) > 10 and (pixels >= 0).all() and (pixels <= size).all()
+
+
+def test_calls_that_fit_no_result_say_what_fits(tmp_path):
+    disk, sphere = MADE["uniformize"](), MADE["sphere"]()
+    for shapes in ([disk, sphere], [sphere, disk]):
+        with pytest.raises(koebe.InputError, match="a family has results of uniformize, or of sphere_map") as caught:
+            koebe.family(shapes)
+        assert caught.value.elements == [1]
+    with pytest.raises(TypeError, match="plot takes a result of a map"):
+        koebe.plot([1])
+    with pytest.raises(koebe.OptionError, match="^koebe batch has no option --evn: did you mean --even"):
+        koebe.batch(FACE, tmp_path, evn=1)
+
+
 @pytest.mark.parametrize("kind", MAPS)
 def test_vertices_triangles_and_uvs_are_of_one_kind(kind):
-    result = MAPS[kind]()
+    result = MADE[kind]()
     assert result.vertices.shape == (result.vertex_count, 3) and result.triangles.shape == (result.face_count, 3)
     assert (result.to_dict()["vertices"], result.to_dict()["faces"]) == (result.vertex_count, result.face_count)
     assert result.corner_uv.shape == (result.face_count, 3, 2)
@@ -39,7 +104,7 @@ def test_vertices_triangles_and_uvs_are_of_one_kind(kind):
 
 
 def test_a_loop_has_its_figures():
-    result, ring = MAPS["uniformize"](), MAPS["ring"]()
+    result, ring = MADE["uniformize"](), MADE["ring"]()
     assert [loop["radius"] for loop in result.loops] == result.radii.tolist()
     assert sum(loop["rim"] for loop in ring.loops) == 2
     loop = result.loops[0]

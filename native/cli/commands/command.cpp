@@ -7,13 +7,17 @@
 #include "cli/process/scarce_memory.h"
 #include "cli/process/standard_streams.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <new>
+#include <numeric>
 #include <sstream>
+#include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -50,6 +54,40 @@ int run_guarded(const std::function<int()>& run)
     }
 }
 
+/// How many letters must be changed, added or left out to make one word the other [Levenshtein 1966].
+std::size_t edit_distance(const std::string& a, const std::string& b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t corner = std::exchange(row[0], i);
+        for (std::size_t j = 1; j <= b.size(); ++j)
+            corner = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, corner + (a[i - 1] != b[j - 1])}));
+    }
+    return row.back();
+}
+
+/// What is wrong with words that a command does not know.
+std::string unknown_words(const CLI::App& app)
+{
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    const std::vector<std::string> words = command->remaining();
+    const auto option = std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("--"); });
+    if (option == words.end()) return {};
+    const std::string name = option->substr(2, option->find('=') - 2);
+    std::string nearest;
+    std::size_t least = 1 + name.size() / 3;  // letters
+    for (const CLI::Option* const known : command->get_options())
+        for (const std::string& other : known->get_lnames())
+            if (const std::size_t letters = edit_distance(name, other); letters <= least) {
+                least = letters - (letters > 0);
+                nearest = other;
+            }
+    return "koebe " + (command == &app ? "" : command->get_name() + " ") + "has no option --" + name +
+           (nearest.empty() ? "" : ": did you mean --" + nearest + "?");
+}
+
 /// Ends after parsing: prints the help or the version, or an error as one line.
 int end_of_parsing(const CLI::App& app, const CLI::ParseError& error)
 {
@@ -58,7 +96,9 @@ int end_of_parsing(const CLI::App& app, const CLI::ParseError& error)
         print(text.str());
         return done;
     }
-    return fail(error_line("WrongUsage", error.what()) + " (see koebe --help)", wrong_usage);
+    const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    const std::string words = unknown ? unknown_words(app) : "";
+    return fail(error_line("WrongUsage", words.empty() ? error.what() : words) + " (see koebe --help)", wrong_usage);
 }
 
 int run_command(std::span<const AddSubcommand> added, int argc, char** argv)

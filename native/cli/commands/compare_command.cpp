@@ -121,7 +121,8 @@ int run_compare(const CompareRequest& request)
     }
     if (!request.with_json || to_file) {
         char line[64];
-        std::snprintf(line, sizeof line, "distance %.9g\n", distance);
+        std::snprintf(line, sizeof line, "distance %.9g%s\n", distance,
+                      request.options.rims == Rims::polygonal ? " (polygonal rims)" : "");
         print(line, to_file ? "; the file is written" : "");
     }
     return a.converged && b.converged ? done : not_converged;
@@ -148,6 +149,10 @@ void settle_words(CompareRequest& request, const CLI::Option& json)
     if (request.any_outer && request.loops != "match") throw CLI::ValidationError("--any-outer", "needs --loops match");
     if (request.loops == "least" && !request.teichmueller)
         throw CLI::ValidationError("--loops", "least needs --teichmueller");
+    if (request.options.rims == Rims::polygonal && request.teichmueller)
+        throw CLI::ValidationError("--teichmueller", "needs --rims smooth: the map of least K takes rims for smooth");
+    if (request.options.with_error && !request.with_json)
+        throw CLI::ValidationError("--error", "needs --csv or --json");
     if (request.any_outer && request.teichmueller) throw CLI::ValidationError("--teichmueller", "excludes --any-outer");
     require_different_files(request.files(), {request.first, request.second}, true);
 }
@@ -182,7 +187,7 @@ Subcommand add_compare(CLI::App& app)
         options->add_option("--json", request->json, "both modules as JSON: there, or in place of the line on stdout")
             ->expected(0, 1)
             ->type_name("[FILE]");
-    add_options(*options, "shapes", request->options);
+    add_options(*options, "shapes", request->options.map);
     options->callback([request, json] { settle_words(*request, *json); });
     return {options, [request] { return run_compare(*request); }};
 }

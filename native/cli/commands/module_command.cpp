@@ -98,7 +98,7 @@ int run_certified(const ModuleRequest& request, const CancelToken& token)
     std::vector<Condenser> condensers;
     for (const std::string& words : request.between) condensers.push_back(condenser_of(words));
     CapacityOptions bounds = request.bounds;
-    bounds.threads = request.options.threads;
+    bounds.threads = request.options.map.threads;
     const CapacityReport report = with_filed_faces(input, [&] {
         return certified_capacities(input.polygons.vertices, input.triangulation.triangles, condensers, bounds,
                                     context);
@@ -179,7 +179,7 @@ Subcommand add_module(CLI::App& app)
         "a table instead of JSON: a row for each shape, with its loops in the order of the reference's loops",
         "the mesh makes, each from a map of a finer mesh");
     options->add_flag("--any-outer", request->any_outer, "with canonical: any loop may be the outer one");
-    add_options(*options, "shapes", request->options);
+    add_options(*options, "shapes", request->options.map);
     add_certified_options(*options, *request);
     options->callback([request] { require_loop_words(*request); });
     return {options, [request] { return run_module(*request); }};

@@ -1,5 +1,6 @@
 #include "cli/commands/shape_family.h"
 
+#include "cli/options/option_table.h"
 #include "cli/process/error_line.h"
 #include "cli/process/exit_code.h"
 #include "execution/detachable_run.h"
@@ -89,22 +90,21 @@ void add_family_options(CLI::App& app, FamilyRequest& request, const std::string
     app.add_option("--reference", request.reference,
                    "with --csv: the file whose loops are matched to those of all other files, by default the first")
         ->type_name("NAME");
-    app.add_flag("--error", request.with_error, "with --csv: also bars of the error that " + bars);
+    app.add_flag("--error", request.options.with_error, "also bars of the error that " + bars);
+    add_choice(app, *find_row("module", "rims"), static_cast<int>(request.options.rims),
+               [&request](int k) { request.options.rims = static_cast<Rims>(k); });
 }
 
 void require_csv(const FamilyRequest& request)
 {
-    if (request.csv.empty() && (request.with_error || !request.reference.empty()))
-        throw CLI::ValidationError(request.with_error ? "--error" : "--reference", "needs --csv");
+    if (request.csv.empty() && !request.reference.empty()) throw CLI::ValidationError("--reference", "needs --csv");
 }
 
 ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::string>& files,
                         const std::function<std::vector<int>(const ShapeInput&)>& order, const CancelToken& token)
 {
     const auto name = [](const std::string& path) { return fs::path(path).filename().string(); };
-    const auto read = [&](const std::string& file) {
-        return read_shape(file, request.options, token, request.with_error);
-    };
+    const auto read = [&](const std::string& file) { return read_shape(file, request.options, token); };
     std::size_t first = 0;
     ShapeInput reference;
     if (!request.reference.empty()) {
@@ -132,8 +132,9 @@ ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::str
             const ShapeInput shape = i == first ? reference : read(files[i]);
             const std::vector<int> own = i == first ? wanted : like(reference, shape, wanted, token);
             row.module = conformal_module(shape.circles, own);
-            if (request.with_error) row.error = module_error(row.module, conformal_module(shape.refined, own));
+            if (request.options.with_error) row.error = module_error(row.module, conformal_module(shape.refined, own));
             row.known = true;
+            if (request.options.rims == Rims::polygonal) row.note = "polygonal rims";
             if (!shape.converged) row.note = "not converged";
             family.converged = family.converged && shape.converged;
         } catch (const Cancelled&) {

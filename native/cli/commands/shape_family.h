@@ -13,17 +13,16 @@ namespace koebe::cli {
 
 /// The options for many shapes.
 struct FamilyRequest {
-    std::string csv;          ///< where the table is written; empty: no table
-    std::string reference;    ///< the name of one of the files, whose loops set the order; empty: the first that can be
-                              ///< mapped
-    bool with_error = false;  ///< add error bars, each from a map of a finer mesh
-    UniformizeOptions options;
+    std::string csv;        ///< where the table is written; empty: no table
+    std::string reference;  ///< the name of one of the files, whose loops set the order; empty: the first that can be
+                            ///< mapped
+    ShapeOptions options;
 };
 
-/// Adds --csv, --reference, --error. @param table what --csv writes @param bars what --error adds
+/// Adds --csv, --reference, --error, --rims. @param table what --csv writes @param bars what --error adds
 void add_family_options(CLI::App& app, FamilyRequest& request, const std::string& table, const std::string& bars);
 
-/// @throws CLI::ValidationError an option of a table without --csv
+/// @throws CLI::ValidationError --reference without --csv
 void require_csv(const FamilyRequest& request);
 
 struct FamilyRow {

@@ -9,32 +9,76 @@
 #include "shape/conformal_module.h"
 #include "shape/module_error.h"
 
+#include <cstdio>
 #include <filesystem>
 #include <utility>
 
 namespace koebe::cli {
 
-ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token,
-                      bool with_refined)
+namespace {
+
+constexpr double told_change = 0.005;  // of a radius: about the bars of coarse meshes (docs/shapes.md)
+
+/// Warns if polygons in place of smooth curves would change a radius by more than its error bar, or without bars by
+/// more than 0.5 %.
+void warn_about_rims(ShapeInput& shape, const VectorXd& change)
+{
+    VectorXd allowed = VectorXd::Constant(change.size(), told_change);
+    if (!shape.refined.empty()) {
+        const VectorXd module = conformal_module(shape.circles);
+        const VectorXd bars = module_error(module, conformal_module(shape.refined));
+        // The radii of the module are its numbers 0, 2, 5, 8, ...
+        for (Eigen::Index k = 1; k < change.size(); ++k) {
+            const Eigen::Index radius = k == 1 ? 0 : 3 * k - 4;
+            allowed[k] = bars[radius] / module[radius];
+        }
+    }
+    Eigen::Index most = 0;
+    if ((change.cwiseAbs() - allowed).maxCoeff(&most) <= 0.0) return;
+    char number[64];
+    std::snprintf(number, sizeof number, "%+.2g %%", 100.0 * change[most]);
+    shape.warnings.push_back({WarningKind::coarse_mesh,
+                              "the mesh is coarse at its rims: as polygons in place of smooth curves they have another "
+                              "module, in which the radius of loop " +
+                                  std::to_string(most) + " differs by about " + number,
+                              {},
+                              "The option rims chooses"});
+}
+
+/// The circles that the options ask for.
+void take_circles(ShapeInput& shape, const UniformizeResult& result, const Vertices& vertices,
+                  const Triangles& triangles, const ShapeOptions& options, ExecutionContext& context)
+{
+    if (options.rims == Rims::polygonal) {
+        PolygonalCircles polygonal = polygonal_circles(vertices, triangles, result.loops, options.map.threads, context);
+        shape.circles = std::move(polygonal.circles);
+        shape.refined = std::move(polygonal.of_upper_bounds);
+        return;
+    }
+    for (const LoopReport& loop : result.loops) shape.circles.push_back(loop.circle);
+    if (options.with_error) shape.refined = refined_circles(vertices, triangles, result.loops, options.map, context);
+    warn_about_rims(shape, polygonal_changes(vertices, triangles, result.uv, result.loops));
+}
+
+}  // namespace
+
+ShapeInput read_shape(const std::string& path, const ShapeOptions& options, const CancelToken& token)
 {
     const MeshInput input = read_mesh_input(path, token, {.keep_file = false});
     ProgressLine progress(false);
     ExecutionContext context(progress.callback(), token);
     const Triangles& triangles = input.triangulation.triangles;
     UniformizeResult result =
-        with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
+        with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options.map, context); });
 
     require_own_circles(result.loops);
-    ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, {}, {}, result.converged, {}};
+    ShapeInput shape{
+        std::filesystem::path(path).filename().string(), options.rims, {}, {}, {}, {}, result.converged, {}};
     add_input_warnings(input, result.warnings);
     shape.warnings = std::move(result.warnings);
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
-    for (const LoopReport& loop : result.loops) {
-        shape.circles.push_back(loop.circle);
-        shape.ranks.push_back(loop_with(loops, loop.vertices.front()));
-    }
-    if (with_refined)
-        shape.refined = refined_circles(input.polygons.vertices, triangles, result.loops, options, context);
+    for (const LoopReport& loop : result.loops) shape.ranks.push_back(loop_with(loops, loop.vertices.front()));
+    with_filed_faces(input, [&] { take_circles(shape, result, input.polygons.vertices, triangles, options, context); });
     shape.surface = {input.polygons.vertices, triangles, std::move(result.uv), std::move(result.loops)};
     return shape;
 }
@@ -44,13 +88,19 @@ nlohmann::ordered_json module_json(const ShapeInput& shape, const std::vector<in
     const VectorXd module = conformal_module(shape.circles, order);
     std::vector<Index> ranks;
     for (const int k : order) ranks.push_back(shape.ranks[k]);
-    return {{"version", KOEBE_VERSION},
-            {"input", shape.name},
-            {"converged", shape.converged},
-            {"loops", ranks},
-            {"names", module_names(order.size())},
-            {"module", std::vector<double>(module.begin(), module.end())},
-            {"warnings", to_json(shape.warnings)}};
+    nlohmann::ordered_json json{{"version", KOEBE_VERSION},
+                                {"input", shape.name},
+                                {"converged", shape.converged},
+                                {"rims", to_string(shape.rims)},
+                                {"loops", ranks},
+                                {"names", module_names(order.size())},
+                                {"module", std::vector<double>(module.begin(), module.end())}};
+    if (!shape.refined.empty()) {
+        const VectorXd bars = module_error(module, conformal_module(shape.refined, order));
+        json["errors"] = std::vector<double>(bars.begin(), bars.end());
+    }
+    json["warnings"] = to_json(shape.warnings);
+    return json;
 }
 
 }  // namespace koebe::cli

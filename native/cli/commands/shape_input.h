@@ -1,6 +1,7 @@
 // A mesh file mapped to its circle domain, for sub-commands that use only the circles.
 #pragma once
 
+#include "certified/polygonal_circles.h"
 #include "cli/commands/subcommand.h"
 #include "execution/execution.h"
 #include "pipeline/result.h"
@@ -13,10 +14,18 @@
 
 namespace koebe::cli {
 
+struct ShapeOptions {
+    UniformizeOptions map;
+    Rims rims = Rims::smooth;
+    bool with_error = false;  ///< also what error bars need: another map, of a finer mesh
+};
+
 struct ShapeInput {
     std::string name;             ///< of the file
+    Rims rims = Rims::smooth;     ///< whose circles they are
     std::vector<Circle> circles;  ///< the outer one first, then by length
-    std::vector<Circle> refined;  ///< circles of the same loops on a finer mesh (refined_circles), if requested
+    std::vector<Circle> refined;  ///< for error bars: the same on a finer mesh (refined_circles) if requested, or of
+                                  ///< upper bounds (PolygonalCircles)
     MappedSurface surface;        ///< the mesh and its map
     std::vector<Index> ranks;     ///< rank of each circle's loop, by lowest vertex as in `koebe fill`
     bool converged = false;
@@ -24,10 +33,11 @@ struct ShapeInput {
 };
 
 /// @throws FileError, InputError, TopologyError, SolverError, Cancelled
-ShapeInput read_shape(const std::string& path, const UniformizeOptions& options, const CancelToken& token,
-                      bool with_refined = false);
+/// With smooth rims a warning says where a forecast of polygonal ones (polygonal_changes) is another module.
+ShapeInput read_shape(const std::string& path, const ShapeOptions& options, const CancelToken& token);
 
-/// {"version", "input", "converged", "loops", "names", "module", "warnings"}: the module with the loops in this order.
+/// {"version", "input", "converged", "rims", "loops", "names", "module", "warnings"}: the module with the loops in this
+/// order, and "errors" (module_error) if the shape has them.
 nlohmann::ordered_json module_json(const ShapeInput& shape, const std::vector<int>& order);
 
 }  // namespace koebe::cli

@@ -174,7 +174,9 @@ def _run(words: list[str], run: Run | None = None) -> str:
         raise Cancelled("the run was interrupted: the same call goes on from there")
     if not printed:  # a completed run prints a line, also for failed meshes
         last = (complaints.strip().splitlines() or [f"koebe batch ended with {process.returncode}"])[-1]
-        raise (OptionError if process.returncode == _WRONG_USAGE else KoebeError)(last)
+        if process.returncode == _WRONG_USAGE:
+            raise OptionError(last.removeprefix("WrongUsage: ").removesuffix(" (see koebe --help)"))
+        raise KoebeError(last)
     return printed
 
 

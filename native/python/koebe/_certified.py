@@ -28,6 +28,8 @@ class CertifiedModuli:
     module          dict: name -> pair, the numbers of conformal_module by their names (r_1, y_2, r_2, x_3, ...). With
                     four loops the sign of x_3 is not proved. Empty if it is not enclosed: `warnings` says why
     module_loops    the module's loops in their order, the outer one first, numbered as in boundary_loops
+    rims            'polygonal': the numbers are of the polyhedron, as conformal_module(..., rims='polygonal') estimates
+                    them
     warnings        list of Warning
     width           of the widest enclosure
     converged       whether no enclosure is wider than wanted. If not, they still hold
@@ -45,6 +47,7 @@ class CertifiedModuli:
         names = _koebe.module_names(len(self.module_loops)) if self.module_loops else []
         self.module = {name: (report[name]["lower"], report[name]["upper"]) for name in names}
         self.warnings = [Warning(warning) for warning in report["warnings"]]
+        self.rims: str = report["rims"]
         self.width: float = report["width"]
         self.converged: bool = report["converged"]
         self.face_count: int = report["faces"]

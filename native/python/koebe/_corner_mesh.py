@@ -1,7 +1,7 @@
 """A mesh of another package with UVs per corner: its vertices are doubled along the cuts."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,12 +15,14 @@ from ._meshes import (
     mesh_with_fields,
     mesh_with_vertices,
 )
-from ._result import Source
 from .errors import InputError
+
+if TYPE_CHECKING:
+    from ._result import Source
 
 
 def mesh_with_corner_uv(
-    source: Source, uv: np.ndarray, mapped: np.ndarray, more: Mapping[str, np.ndarray] | None = None
+    source: "Source", uv: np.ndarray, mapped: np.ndarray, more: Mapping[str, np.ndarray] | None = None
 ) -> Any:
     """A copy of the source's mesh with its faces in order, and fields as in UniformizeResult.to_mesh.
 
@@ -36,7 +38,7 @@ def mesh_with_corner_uv(
     if source.mesh is None or source.polygons is None or source.polygon is None:
         raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
     count = len(source.vertices)
-    old, triangles, uv_of = _doubled(source.triangles, uv, count)
+    old, triangles, uv_of = doubled(source.triangles, uv, count)
     points = source.vertices[old]
     error = face_angle_error_deg(points, triangles, uv_of)
     known = mapped & np.isfinite(error)
@@ -60,7 +62,7 @@ def mesh_with_corner_uv(
     return mesh_with_fields(source.mesh, source.polygons, fields)
 
 
-def _doubled(triangles: np.ndarray, uv: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def doubled(triangles: np.ndarray, uv: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Old numbers (n,) of the new vertices, triangles (F, 3) with new numbers, and UVs (n, 2)."""
     corners = uv.reshape(-1, 2) + 0.0  # minus zero is zero
     table = np.column_stack([triangles.reshape(-1, 1).astype(np.uint64), corners.view(np.uint64)])
@@ -74,7 +76,7 @@ def _doubled(triangles: np.ndarray, uv: np.ndarray, count: int) -> tuple[np.ndar
     return old, place[number.ravel()].reshape(-1, 3), uv_of
 
 
-def _polygon_corners(source: Source, triangles: np.ndarray) -> np.ndarray:
+def _polygon_corners(source: "Source", triangles: np.ndarray) -> np.ndarray:
     """The new vertex (C,) at each corner of the polygons."""
     polygons, polygon = source.polygons, source.polygon
     assert polygons is not None and polygon is not None

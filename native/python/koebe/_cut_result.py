@@ -54,12 +54,18 @@ class CutResult(MapReport):
         self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
+    def _drawn(self) -> np.ndarray:
+        return self.piece >= 0
+
+    def _counts(self) -> list[str]:
+        return [f"{len(self.pieces)} pieces", f"{len(self.cuts)} cuts"]
+
     def to_mesh(self) -> Any:
         """The mesh of the input, of the same kind, with the fields of UniformizeResult.to_mesh. The scale is UV length
         per surface length. The faces are the same, in their order. Vertices are doubled along the cuts: koebe_vertex is
         the number of each vertex in the input. A GiftiImage keeps its vertices: koebe_uv is NaN at a vertex with
         several UVs, and koebe_corner_uv has the six numbers of each face. Raises InputError if the input was arrays."""
-        return mesh_with_corner_uv(self._source, self.uv, self.piece >= 0)
+        return mesh_with_corner_uv(self._source, self.uv, self._drawn())
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with input_sha256 and options."""

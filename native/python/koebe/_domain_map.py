@@ -42,10 +42,6 @@ class DomainMap(MapReport):
     def _arrays(self) -> dict[str, Any]:
         return {"uv": self.uv, "flipped_faces": self.flipped_faces}
 
-    def _drawn(self) -> np.ndarray:
-        """(F,) faces whose UVs can be drawn."""
-        return np.ones(len(self.uv), bool)
-
     def _counts(self) -> list[str]:
         """The parts of the result, in words."""
         return [f"{len(self.loops)} loops"]

@@ -15,7 +15,7 @@ from ._native import _koebe
 from ._options import flag, whole
 from ._progress import Run
 from ._shapes import conformal_module, match_loops, module_error, module_names
-from ._signatures import Progress
+from ._signatures import Progress, Rims
 from ._sphere import SphereMap
 from ._sphere_family import SphereFamily, sphere_family
 from ._sphere_transfer import STIFFNESS
@@ -31,6 +31,7 @@ class Family:
     orders     (N, n + 1) int32: each shape's loops in the common order, the outer one first
     labels     of the shapes
     errors     (N, 3n - 3) error bars of the modules (module_error), or None without them
+    rims       'smooth' or 'polygonal', as asked for (conformal_module)
     """
 
     modules: np.ndarray
@@ -38,6 +39,7 @@ class Family:
     orders: np.ndarray
     labels: list[str]
     errors: np.ndarray | None = None
+    rims: str = "smooth"
 
     def __repr__(self) -> str:
         return f"<koebe.Family {len(self.labels)} shapes, {self.orders.shape[1]} loops>"
@@ -91,6 +93,7 @@ def family(
     order: Sequence[int] | None = None,
     orders: Sequence[Sequence[int]] | None = None,
     labels: Sequence[str] | None = None,
+    rims: Rims = "smooth",
     error: bool = False,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
@@ -102,6 +105,7 @@ def family(
     order: Sequence[int] | None = None,
     orders: Sequence[Sequence[int]] | None = None,
     labels: Sequence[str] | None = None,
+    rims: Rims = "smooth",
     error: bool = False,
     landmarks: Sequence[Sequence[Any]] | None = None,
     fields: Sequence[Any] | None = None,
@@ -118,6 +122,7 @@ def family(
     order       of the reference's loops, the outer one first (mouth, eye, eye); None: as in its result
     orders      of every shape's loops, given by you; then nothing is matched
     labels      of the shapes, such as file names; None: 0, 1, 2, ...
+    rims        'smooth' or 'polygonal', as in conformal_module
     error       also compute error bars of the modules (module_error), which maps a finer mesh for each
     landmarks, fields    of results of sphere_map: of every shape its landmarks, in one order, or its fields
     moebius, bend, stiffness    of results of sphere_map, as in transfer
@@ -141,9 +146,20 @@ def family(
     shapes = list(results)
     if not shapes:
         raise InputError("there are no shapes")
-    if all(isinstance(shape, SphereMap) for shape in shapes):
-        if order is not None or orders is not None or error:
-            raise InputError("order, orders and error are for surfaces with holes")
+    spheres = [isinstance(shape, SphereMap) for shape in shapes]
+    for number, shape in enumerate(shapes):
+        if spheres[number] != spheres[0]:
+            raise InputError(
+                f"shape {number} is a map to the {'sphere' if spheres[number] else 'disk'}, shape 0 is not: a "
+                "family has results of uniformize, or of sphere_map",
+                [number],
+                "shapes",
+            )
+        if not (spheres[number] or (hasattr(shape, "centers") and hasattr(shape, "radii"))):
+            raise TypeError(f"family takes results of uniformize, or of sphere_map, not {type(shape).__name__}")
+    if spheres[0]:
+        if order is not None or orders is not None or error or rims != "smooth":
+            raise InputError("order, orders, rims and error are for surfaces with holes")
         how: dict[str, Any] = {"moebius": moebius, "bend": bend, "stiffness": stiffness}
         return sphere_family(shapes, reference, labels, landmarks, fields, run, **how)
     if landmarks is not None or fields is not None or moebius or bend:
@@ -151,7 +167,11 @@ def family(
     count = len(shapes[0].radii)
     for number, shape in enumerate(shapes):
         if len(shape.radii) != count:
-            raise InputError(f"shape {number} has {len(shape.radii)} loops, shape 0 has {count}")
+            raise InputError(
+                f"shape {number} has {len(shape.radii)} loops, shape 0 has {count}: a family has equally many",
+                [number],
+                "shapes",
+            )
     if labels is not None and len(labels) != len(shapes):
         raise InputError(f"there are {len(labels)} labels for {len(shapes)} shapes")
     if orders is None:
@@ -161,28 +181,32 @@ def family(
         chosen: list[np.ndarray] = []
         for shape in shapes:
             part.at(len(chosen) / len(shapes), "match")
-            chosen.append(_like(shapes[first], shape, wanted))
+            chosen.append(_like(shapes[first], shape, wanted, rims))
     elif order is not None:
         raise InputError("give one order, or the orders of all shapes")
     elif len(orders) != len(shapes):
         raise InputError(f"there are {len(orders)} orders for {len(shapes)} shapes")
     else:
         chosen = [as_indices(each, "orders", count, "loops") for each in orders]
-    modules = [conformal_module(shape, order=each.tolist()) for shape, each in zip(shapes, chosen, strict=True)]
+    modules = [
+        conformal_module(shape, order=each.tolist(), rims=rims) for shape, each in zip(shapes, chosen, strict=True)
+    ]
     names = [str(label) for label in (labels if labels is not None else range(len(shapes)))]
     bars: list[np.ndarray] = []
     for shape, each in zip(shapes, chosen, strict=True) if flag(error, "error") else ():
         part = run.part(*(0.3 + 0.7 * (len(bars) + k) / len(shapes) for k in (0, 1)))
-        bars.append(module_error(shape, order=each.tolist(), progress=part.progress, cancel=part.cancel))
+        bars.append(module_error(shape, order=each.tolist(), rims=rims, progress=part.progress, cancel=part.cancel))
     run.at(1.0, "finish")
-    return Family(np.array(modules), module_names(count), np.array(chosen), names, np.array(bars) if error else None)
+    return Family(
+        np.array(modules), module_names(count), np.array(chosen), names, np.array(bars) if error else None, rims
+    )
 
 
-def _like(reference: Any, shape: Any, wanted: np.ndarray) -> np.ndarray:
+def _like(reference: Any, shape: Any, wanted: np.ndarray, rims: Rims) -> np.ndarray:
     """The shape's loops that correspond to the reference's, in the wanted order."""
     if shape is reference:
         return wanted
-    order, other, _ = match_loops(reference, shape)
+    order, other, _ = match_loops(reference, shape, rims=rims)
     partner = np.empty_like(other)
     partner[order] = other
     return partner[wanted]

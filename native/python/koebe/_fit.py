@@ -94,8 +94,9 @@ class FitResult(UniformizeResult):
 @takes("shapes", names=None, pins=None, fixed=(), extremal=False, progress=None, cancel=None)
 def fit_circles(
     mesh: Any,
-    centers: Any,
-    radii: Any,
+    triangles: Any = None,
+    centers: Any = None,
+    radii: Any = None,
     loops: Sequence[int] | None = None,
     **given: "Unpack[FitOptions]",
 ) -> FitResult:
@@ -104,7 +105,8 @@ def fit_circles(
     Of all such maps, those of least angle distortion: it minimizes the sum of a_f 4 |mu_f|^2 / (1 - |mu_f|^2), a_f a
     face's area on the surface, mu_f its Beltrami coefficient from the conformal circle domain. It starts there, and the
     circles move to their places without meeting.
-    mesh        a surface, as for `uniformize`: a pair (vertices, triangles), a file, a mesh of another package
+    mesh, triangles    vertices and triangles as for `uniformize`; or a mesh alone, without `triangles`: a pair
+                (vertices, triangles), a file, a mesh of another package
     centers     (H, 2) of the H holes' circles, in the unit disk
     radii       (H,) their radii. The unit circle may come first in both, as in a result's `centers` and `radii`
     loops       for each circle the number of its hole in boundary_loops(triangles), and the loop left over is the outer
@@ -129,7 +131,15 @@ def fit_circles(
     extremal = flag(given.pop("extremal"), "extremal")
     progress, cancel = callback(given.pop("progress"), "progress"), token(given.pop("cancel"), "cancel")
     options, said = solver_options("shapes", given)
-    source = surface_of(mesh, mask=given.pop("mask"))
+    if triangles is not None and not _are_triangles(triangles):
+        if centers is None:
+            centers = triangles
+        else:
+            centers, radii, loops = triangles, centers, loops if radii is None else radii
+        triangles = None
+    if centers is None or radii is None:
+        raise TypeError("fit_circles needs the centers and the radii of the circles: fit_circles(mesh, centers, radii)")
+    source = surface_of(mesh, triangles, mask=given.pop("mask"))
     places, sizes = _holes(centers, radii)
     count = len(sizes)
     ranks = [] if loops is None else as_indices(loops, "loops", max(len(source.triangles), 1), "loops").tolist()
@@ -139,6 +149,12 @@ def fit_circles(
     native = source.call(_koebe.fit_circles, wanted, options, extremal, progress, cancel)
     report = with_origin(native.report(), source, {**said, "extremal": extremal})
     return FitResult(report, native.uv, np.array(native.flipped_faces), native.mu, source)
+
+
+def _are_triangles(given: Any) -> bool:
+    """Whether an argument is an array of triangles, not of centers of circles."""
+    array = np.asarray(given)
+    return array.ndim == 2 and array.shape[1] == 3 and array.dtype.kind in "iu"
 
 
 def _holes(centers: Any, radii: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -52,13 +52,20 @@ class FlattenResult(DomainMap):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         self._set_arrays(part=native.part)
-        self.svg, self.dxf = native.svg(), native.dxf()
+        self.svg, self.dxf = [str(page) for page in native.svg], str(native.dxf)
 
     def _arrays(self) -> dict[str, Any]:
-        return {**super()._arrays(), "part": self.part}
+        return {**super()._arrays(), "part": self.part, "svg": np.array(self.svg, str), "dxf": np.array(self.dxf)}
 
     def _drawn(self) -> np.ndarray:
         return self.part >= 0
+
+    def _layout(self) -> tuple[np.ndarray, float]:
+        """The sheets side by side."""
+        widths = [sheet["size_mm"][0] for sheet in self.sheets]
+        begin = np.cumsum([0.0, *widths])
+        shift = np.array([begin[piece["sheet"]] for piece in self.pieces] + [0.0])  # the last one: of no piece
+        return self.uv + np.stack([shift, 0.0 * shift], axis=1)[self.part][:, None], float(begin[-1])
 
     def _counts(self) -> list[str]:
         return [f"{len(self.pieces)} pieces", f"{self.pages} pages", f"stretch {self.stretch_percent['mean']:.3g} %"]

@@ -2,6 +2,7 @@
 
 import copy
 import os
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from ._input import surface_of
 from ._native import _koebe
 from ._options import callback, filled, takes, token, vertex_weights
+from ._picture import outline_svg
 from ._report_entries import Warning
 from ._signatures import LiftOptions
 
@@ -73,6 +75,18 @@ class LiftResult:
     def corner_uv(self) -> np.ndarray:
         """(F, 3, 2): `uv`, under the name that it has in all results."""
         return self.uv
+
+    def _drawn(self) -> np.ndarray:
+        return np.ones(len(self.triangles), bool)
+
+    def _layout(self) -> tuple[np.ndarray, float]:
+        return (self.uv if len(self.uv) else np.zeros((len(self.triangles), 3, 2))), 1.0
+
+    def _repr_html_(self) -> str:
+        """The outlines in the map and the figures, as a notebook shows them."""
+        picture = outline_svg(self.triangles, *self._layout(), self._drawn()) if len(self.uv) else ""
+        lines = [escape(repr(self).strip("<>")), *(escape(str(warning)) for warning in self.warnings)]
+        return f'<div style="display:flex;gap:1em">{picture}<div>{"<br/>".join(lines)}</div></div>'
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""

@@ -69,9 +69,15 @@ class PartsResult(MapReport):
         self.flipped_faces = flipped_faces
         self.warnings = [Warning(warning) for warning in report["warnings"]]
 
+    def _drawn(self) -> np.ndarray:
+        return self.part >= 0
+
+    def _counts(self) -> list[str]:
+        return [f"{len(self.parts)} parts", f"texel density within {self.density_ratio_5_95:.3g}"]
+
     def to_mesh(self) -> Any:
         """The mesh of the input, of the same kind, with fields as in CutResult.to_mesh."""
-        return mesh_with_corner_uv(self._source, self.uv, self.part >= 0)
+        return mesh_with_corner_uv(self._source, self.uv, self._drawn())
 
     def _arrays(self) -> dict[str, Any]:
         return {"uv": self.uv, "part": self.part, "flipped_faces": self.flipped_faces}

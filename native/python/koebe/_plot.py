@@ -1,27 +1,34 @@
-"""Pictures of a result: the surface and its circle domain, by matplotlib, which is imported on first use."""
+"""Pictures of a result: the surface and its map, by matplotlib, which is imported on first use."""
 
 from typing import Any
 
 import numpy as np
 
+from ._fields import face_angle_error_deg, log_scale_of_corners
+from ._lift import LiftResult
 from ._options import choice_of
-from ._result import UniformizeResult
+from ._result import MapReport, UniformizeResult
+from .errors import InputError
 
 _FIELDS = {
-    "checker": "checker of the disk",
-    "log_scale": "log of the scale, disk lengths per surface length",
+    "checker": "checker of the map",
+    "log_scale": "log of the scale, lengths in the map per surface length",
     "angle_error": "angle error of the faces, degrees",
 }
-_CHECKER = 24  # squares across the disk
+_CHECKER = 24  # squares across the map's square
+_PATCHES = ((0.93, 0.95, 0.98, 1.0), (0.62, 0.74, 0.86, 1.0), (0.25, 0.45, 0.65, 1.0))  # of a solid
 _DRAWN_FACES = 80000  # about, in squares
+_CLOSED = 1e-3  # mean normal of a surface that is closed, up to holes
 
 
-def plot(result: UniformizeResult, *, field: str = "checker", ax: Any = None) -> Any:
-    """A matplotlib Figure with the surface in space and the circle domain beside it, in the same colours.
+def plot(result: MapReport | LiftResult, *, field: str = "checker", ax: Any = None) -> Any:
+    """A matplotlib Figure with the surface in space and its map beside it, in the same colours.
 
-    field   'checker': squares of the disk, 1/12 wide, mapped to the surface, which keeps their angles; 'log_scale';
-            'angle_error', degrees
-    ax      your own axes: plane ones for the domain, 3D ones for the surface, or a pair of both. None: a new figure
+    result  of any map: its circle domain, or its UVs. Of `flatten`: the sheets side by side. Of `lift`: the surface
+            with the pattern; of a solid, which has no UVs, the outside, the inside and the walls
+    field   'checker': squares of the map, 24 across, brought to the surface; a conformal map keeps their angles;
+            'log_scale'; 'angle_error', degrees
+    ax      your own axes: plane ones for the map, 3D ones for the surface, or a pair of both. None: a new figure
     Needs matplotlib (the extra `plot`). A notebook shows the figure; elsewhere call its savefig or show.
 
     >>> import koebe
@@ -29,24 +36,36 @@ def plot(result: UniformizeResult, *, field: str = "checker", ax: Any = None) ->
     >>> len(figure.axes)
     2
     """
+    choice_of(field, "field", _FIELDS)
+    if not isinstance(result, (MapReport, LiftResult)):
+        raise TypeError(f"plot takes a result of a map, such as uniformize, parts or lift, not {type(result).__name__}")
     import matplotlib.pyplot as plt
 
-    choice_of(field, "field", _FIELDS)
-    vertices, triangles = result.surface
-    corners, images = vertices[triangles], result.uv[triangles]
-    if field == "checker":  # squares do not end at edges: coarse faces are drawn in pieces
-        pieces = max(1, int(np.sqrt(_DRAWN_FACES / len(triangles))))
-        corners, images = _in_pieces(corners, pieces), _in_pieces(images, pieces)
-    colors, scale = _colors(result, field, images, plt)
+    vertices, drawn = result.vertices, result._drawn()
+    triangles, (images, side) = result.triangles[drawn], result._layout()
+    corners, images = vertices[triangles], images[drawn]
+    if not len(triangles):
+        raise InputError("the result has no faces to draw")
+    if isinstance(result, LiftResult) and not len(result.uv):
+        if field != "checker":
+            raise InputError(f"a solid has no UVs, and so no {field}")
+        colors, scale, images = np.array(_PATCHES)[result.patch], None, np.zeros((0, 3, 2))
+    else:
+        values = None if field == "checker" else _values(field, vertices, triangles, images)
+        if values is None:  # squares do not end at edges: coarse faces are drawn in pieces
+            pieces = max(1, int(np.sqrt(_DRAWN_FACES / len(triangles))))
+            corners, images = _in_pieces(corners, pieces), _in_pieces(images, pieces)
+        colors, scale = _colors(values, images * (_CHECKER / side), plt)
     if ax is None:
         figure = plt.figure(figsize=(11, 5), layout="constrained")
-        space, plane = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
+        space = figure.add_subplot(1, 2 if len(images) else 1, 1, projection="3d")
+        plane = figure.add_subplot(1, 2, 2) if len(images) else None
     else:
         figure, space, plane = _axes(ax)
     if space is not None:
-        _draw_surface(space, corners, colors, result)
+        _draw_surface(space, corners, colors, _in_front_of(vertices, triangles))
     if plane is not None:
-        _draw_domain(plane, images, colors, result, plt)
+        _draw_map(plane, images, colors, result, plt)
     if scale is not None:
         figure.colorbar(scale, ax=space if plane is None else plane, shrink=0.7, label=_FIELDS[field])
     return figure
@@ -64,34 +83,41 @@ def _axes(ax: Any) -> tuple[Any, Any, Any]:
     return given[0].figure, next(iter(space), None), next(iter(plane), None)
 
 
-def _draw_surface(space: Any, corners: np.ndarray, colors: np.ndarray, result: UniformizeResult) -> None:
+def _draw_surface(space: Any, corners: np.ndarray, colors: np.ndarray, view: tuple[float, float]) -> None:
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-    drawn = result.vertices[result.triangles]
     space.add_collection3d(Poly3DCollection(corners, facecolors=colors, edgecolors=colors, linewidths=0.3))
-    space.view_init(*_in_front_of(*result.surface))
-    low, high = drawn.min(axis=(0, 1)), drawn.max(axis=(0, 1))
+    space.view_init(*view)
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     for axis, a, b in zip("xyz", low, high, strict=True):
         getattr(space, f"set_{axis}lim")(a, b)
     space.set_box_aspect(np.maximum(high - low, 1e-9 * (high - low).max()))
     space.set_axis_off()
 
 
-def _draw_domain(plane: Any, images: np.ndarray, colors: np.ndarray, result: UniformizeResult, plt: Any) -> None:
+def _draw_map(plane: Any, images: np.ndarray, colors: np.ndarray, result: MapReport | LiftResult, plt: Any) -> None:
     from matplotlib.collections import PolyCollection
 
     plane.add_collection(PolyCollection(images, facecolors=colors, edgecolors=colors, linewidths=0.3))
-    for center, radius in zip(result.centers, result.radii, strict=True):
-        plane.add_patch(plt.Circle(center, radius, fill=False, color="#1d4e89", linewidth=1.2))
-    plane.set(xlim=(-1.03, 1.03), ylim=(-1.03, 1.03), aspect="equal")
+    if isinstance(result, UniformizeResult):
+        for center, radius in zip(result.centers, result.radii, strict=True):
+            plane.add_patch(plt.Circle(center, radius, fill=False, color="#1d4e89", linewidth=1.2))
+        low, high = np.array([-1.0, -1.0]), np.array([1.0, 1.0])
+    else:
+        low, high = np.nanmin(images, axis=(0, 1)), np.nanmax(images, axis=(0, 1))
+    room = 0.015 * (high - low).max()
+    plane.set(xlim=(low[0] - room, high[0] + room), ylim=(low[1] - room, high[1] + room), aspect="equal")
     plane.set_axis_off()
 
 
 def _in_front_of(vertices: np.ndarray, triangles: np.ndarray) -> tuple[float, float]:
     """Elevation and azimuth, degrees, of a view along the mean normal, with y up if the view is along z."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    normal = np.cross(b - a, c - a).sum(axis=0)
-    x, y, z = normal / max(np.linalg.norm(normal), np.finfo(float).tiny)
+    normals = np.cross(b - a, c - a)
+    normal, area = normals.sum(axis=0), np.linalg.norm(normals, axis=1).sum()
+    if not np.linalg.norm(normal) > _CLOSED * area:  # a closed surface has no mean normal
+        return 30.0, -60.0
+    x, y, z = normal / np.linalg.norm(normal)
     level = float(np.hypot(x, y))
     return float(np.degrees(np.arctan2(z, level))), float(np.degrees(np.arctan2(y, x))) if level > 0.5 else -90.0
 
@@ -106,13 +132,21 @@ def _in_pieces(corners: np.ndarray, count: int) -> np.ndarray:
     return np.einsum("pkc,fcd->fpkd", weights, corners).reshape(-1, 3, corners.shape[2])
 
 
-def _colors(result: UniformizeResult, field: str, images: np.ndarray, plt: Any) -> tuple[np.ndarray, Any]:
-    """Colours (n, 4) of the drawn triangles, with images (n, 3, 2), and what a colour bar explains, or None."""
-    triangles = result.surface[1]
-    if field == "checker":
-        square = np.floor(images.mean(axis=1) * _CHECKER / 2).astype(int).sum(axis=1) % 2
-        return np.array([[0.93, 0.95, 0.98, 1.0], [0.25, 0.45, 0.65, 1.0]])[square], None
-    values = result.face_angle_error_deg if field == "angle_error" else result.log_scale[triangles].mean(axis=1)
+def _values(field: str, vertices: np.ndarray, triangles: np.ndarray, images: np.ndarray) -> np.ndarray:
+    """(F,) the field's value of each triangle, with images (F, 3, 2)."""
+    if field == "log_scale":
+        return log_scale_of_corners(vertices, triangles, images)[triangles].mean(axis=1)
+    own = np.arange(3 * len(triangles)).reshape(-1, 3)  # each corner by itself
+    return face_angle_error_deg(vertices[triangles].reshape(-1, 3), own, images.reshape(-1, 2))
+
+
+def _colors(values: np.ndarray | None, squares: np.ndarray, plt: Any) -> tuple[np.ndarray, Any]:
+    """Colours (n, 4) of the drawn triangles, by their values or by the squares that hold their images (n, 3, 2), and
+    what a colour bar explains, or None."""
+    if values is None:
+        middle = np.nan_to_num(squares.mean(axis=1))
+        dark = np.floor(middle).astype(int).sum(axis=1) % 2
+        return np.array([_PATCHES[0], _PATCHES[2]])[dark], None
     known = values[np.isfinite(values)]
     # The worst hundredth of the faces must not use up the colours.
     limits = np.percentile(known, [1, 99]) if len(known) else (0.0, 1.0)

@@ -17,6 +17,7 @@ from ._fields import face_angle_error_deg, log_scale
 from ._files import Saved
 from ._meshes import ANGLE_ERROR, LOG_SCALE, Fields, Polygons, mesh_with_fields
 from ._native import _koebe
+from ._picture import outline_svg
 from ._report_entries import Loop, Warning
 from .errors import InputError, KoebeError
 
@@ -235,6 +236,33 @@ class MapReport(Saved):
         """(F,) int32: the number in the input of each mapped triangle; 0, 1, 2, ... without a mask."""
         return self._source.source_face
 
+    def _drawn(self) -> np.ndarray:
+        """(F,) triangles that have a place of their own in the map."""
+        return np.ones(self.face_count, bool)
+
+    def _layout(self) -> tuple[np.ndarray, float]:
+        """(F, 3, 2) places of the corners in a picture of the map, and the length of a side of its square."""
+        return self.corner_uv, 1.0
+
+    def _counts(self) -> list[str]:
+        """The parts of the result, in words."""
+        return []
+
+    def _picture(self) -> str:
+        """The map as SVG."""
+        return outline_svg(self.triangles, *self._layout(), self._drawn())
+
+    def _repr_html_(self) -> str:
+        """The map and its figures, as a notebook shows them."""
+        sweeps = getattr(self, "sweeps", None)
+        lines = [
+            ", ".join([f"{self.vertex_count:,} vertices", f"{self.face_count:,} faces", *self._counts()]),
+            ("converged" if self.converged else "not converged") + (f" in {sweeps} sweeps" if sweeps else ""),
+            f"angle error {self.angle_error_deg['mean']:.3g}°, {self.flipped} flipped",
+            *(escape(str(warning)) for warning in self.warnings),
+        ]
+        return f'<div style="display:flex;gap:1em">{self._picture()}<div>{"<br/>".join(lines)}</div></div>'
+
     def export(self, path: str | os.PathLike[str]) -> None:
         """Write the map in the format that the file's name says. The file is complete or absent.
 
@@ -262,6 +290,7 @@ class UniformizeResult(MapReport):
     roundness_least_squares     (L,) deviation from the circle of least squares, in radii, before the final projection
     mean_roundness   their means
     off_circle       int32 arrays: vertices of each loop that are not on its circle
+    rims             'smooth': the circles are those of loops that are samples of smooth curves (conformal_module)
     own_circle       (L,) whether each circle is the surface's own: the iteration's, and not lost in rounding
     vertices, triangles, vertex_count, face_count    as in MapReport
     method, engine   as chosen
@@ -285,6 +314,7 @@ class UniformizeResult(MapReport):
     mean_roundness: MeanRoundness
     off_circle: list[np.ndarray]
     own_circle: np.ndarray
+    rims: str = "smooth"
     method: str
     engine: str
     outer_loop: int
@@ -363,19 +393,19 @@ class UniformizeResult(MapReport):
             f"{self.sweeps} sweeps, angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
         )
 
-    def _repr_html_(self) -> str:
-        """The circle domain and its figures, as a notebook shows them."""
+    def _layout(self) -> tuple[np.ndarray, float]:
+        return self.uv[self.triangles], 2.0
+
+    def _counts(self) -> list[str]:
+        return [f"{len(self.loops)} loops"]
+
+    def _picture(self) -> str:
+        """The circle domain."""
         circles = "".join(
             f'<circle cx="{x:.6g}" cy="{-y:.6g}" r="{radius:.6g}" fill="{"#e8eef7" if k == 0 else "#fff"}"/>'
             for k, ((x, y), radius) in enumerate(zip(self.centers, self.radii, strict=True))
         )
-        lines = [
-            f"{self.vertex_count:,} vertices, {self.face_count:,} faces, {len(self.loops)} loops",
-            f"{'converged' if self.converged else 'not converged'} in {self.sweeps} sweeps",
-            f"angle error {self.angle_error_deg['mean']:.3g}°, {self.flipped} flipped",
-            *(escape(str(warning)) for warning in self.warnings),
-        ]
         return (
-            '<div style="display:flex;gap:1em"><svg width="160" height="160" viewBox="-1.02 -1.02 2.04 2.04" '
-            f'stroke="#1d4e89" stroke-width="0.012">{circles}</svg><div>{"<br/>".join(lines)}</div></div>'
+            '<svg width="160" height="160" viewBox="-1.02 -1.02 2.04 2.04" '
+            f'stroke="#1d4e89" stroke-width="0.012">{circles}</svg>'
         )

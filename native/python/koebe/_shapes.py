@@ -4,6 +4,7 @@ A domain here is an object with `centers` (L, 2) and `radii` (L,), the unit circ
 """
 
 import math
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,11 +12,39 @@ import numpy as np
 
 from ._arrays import as_circles, as_indices, as_numbers, as_points
 from ._native import _koebe
-from ._options import choice, flag, whole
+from ._option_table import rows
+from ._options import choice, choice_of, flag, whole
 from ._progress import Run
+from ._report_entries import Warning
 from ._result import UniformizeResult
-from ._signatures import Progress
+from ._signatures import Progress, Rims
 from .errors import InputError, OptionError
+
+_RIMS = {word: word for word in rows("module")["rims"].words}
+
+
+class _Polygonal:
+    """The circle domain of a result's polyhedron, kept with the result."""
+
+    def __init__(self, result: UniformizeResult, run: Run) -> None:
+        circles, of_upper_bounds = _koebe.polygonal_circles(mapped_surface(result), 0, run.progress, run.cancel)
+        self.centers, self.radii = circles
+        self.refined: tuple[np.ndarray, np.ndarray] = of_upper_bounds
+
+
+def with_rims(domain: Any, rims: Rims, run: Run | None = None) -> Any:
+    """The domain with its circles for this kind of rims."""
+    if choice_of(rims, "rims", _RIMS) == "smooth" or isinstance(domain, _Polygonal):
+        return domain
+    if not isinstance(domain, UniformizeResult):
+        raise TypeError(
+            f"polygonal rims need a result of uniformize, not {type(domain).__name__}: circles are not enough"
+        )
+    kept = vars(domain)
+    if "_polygonal" not in kept:
+        _require_own_circles(domain)
+        kept["_polygonal"] = _Polygonal(domain, run or Run(None, None))
+    return kept["_polygonal"]
 
 
 def _require_own_circles(domain: Any) -> None:
@@ -38,11 +67,14 @@ def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
     return np.array(_koebe.canonical_order(*as_circles(result), flag(any_outer, "any_outer")), dtype=np.int32)
 
 
-def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -> np.ndarray:
+def conformal_module(result: Any, *, order: Sequence[int] | str | None = None, rims: Rims = "smooth") -> np.ndarray:
     """The conformal module of a circle domain (paper, Fig. 13): r_1, y_2, r_2, x_3, y_3, r_3, ...
 
     order    the loops in the wanted order, the outer one first, which may be any loop; None: as in the result;
              'canonical': by canonical_order
+    rims     'smooth': the boundary loops of the mesh are samples of smooth curves, as in the map; 'polygonal': they are
+             polygons. This is the module of the polyhedron itself, which certified_moduli encloses: for up to 12 loops.
+             The two differ by 3.3 / N^2 of a radius for rims of N equal edges (docs/shapes.md)
     The second loop is moved to the middle of the unit disk and the third's centre onto the positive y axis. Returns
     3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, 0 without holes: lengths in the unit disk. They are equal
     if and only if a conformal map that keeps orientation and numbering takes one surface to the other. Raises
@@ -54,6 +86,7 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None) -
     {'r_1': 0.2, 'y_2': 0.6, 'r_2': 0.1, 'x_3': -0.4, 'y_3': 0.4, 'r_3': 0.1}
     """
     _require_own_circles(result)
+    result = with_rims(result, rims)
     return _koebe.conformal_module(*as_circles(result), chosen_order(result, order))
 
 
@@ -61,15 +94,18 @@ def module_error(
     result: UniformizeResult,
     *,
     order: Sequence[int] | str | None = None,
+    rims: Rims = "smooth",
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> np.ndarray:
-    """Error bars of conformal_module(result, order=order), lengths in the unit disk: the effect of the mesh.
+    """Error bars of conformal_module(result, order=order, rims=rims), lengths in the unit disk: the effect of the mesh.
 
     Maps the same surface on a mesh with four times as many faces, whose new vertices lie on the smooth surface and the
     smooth rims that the mesh approximates. Each bar is twice the change of its number plus the root mean square of all
     changes. On exact domains 97 % of the errors lie within the bars, and half of the bars are less than 5 times the
-    error (docs/shapes.md). Takes about 5 times as long as the map, once for each result.
+    error (docs/shapes.md). Takes about 5 times as long as the map, once for each result. With rims='polygonal' the bars
+    come from the bounds of the polyhedron's capacities. With smooth rims a koebe.Warning ('coarse_mesh') says where
+    polygonal ones would change a radius by more than its bar, by a forecast.
     progress, cancel    as for `uniformize`
     Raises InputError if circles are not the surface's own, SolverError, Cancelled.
 
@@ -82,9 +118,31 @@ def module_error(
         raise TypeError(f"module_error takes a result of uniformize, not {type(result).__name__}")
     chosen = chosen_order(result, order)
     run = Run(progress, cancel)
-    refined = _koebe.conformal_module(*_refined(result, run), chosen)
+    domain = with_rims(result, rims, run)
+    module = _koebe.conformal_module(*as_circles(domain), chosen)
+    refined = domain.refined if isinstance(domain, _Polygonal) else _refined(result, run)
+    bars = _koebe.module_error(module, _koebe.conformal_module(*refined, chosen))
     run.at(1.0, "finish")
-    return _koebe.module_error(conformal_module(result, order=chosen.tolist()), refined)
+    if not isinstance(domain, _Polygonal):
+        _tell_of_polygons(result, refined)
+    return bars
+
+
+def _tell_of_polygons(result: UniformizeResult, refined: tuple[np.ndarray, np.ndarray]) -> None:
+    """Warn where polygons in place of smooth rims would change a radius by more than its bar, by a forecast."""
+    change = _koebe.polygonal_changes(mapped_surface(result))
+    order = np.arange(len(change), dtype=np.int32)
+    module = _koebe.conformal_module(*as_circles(result), order)
+    bars = _koebe.module_error(module, _koebe.conformal_module(*refined, order))
+    radius = [k for k, name in enumerate(module_names(len(change))) if name.startswith("r_")]
+    excess = abs(change[1:]) - bars[radius] / module[radius]
+    if (excess > 0.0).any():
+        loop = 1 + int(excess.argmax())
+        text = (
+            "the mesh is coarse at its rims: as polygons in place of smooth curves they have another module, in which "
+            f"the radius of loop {loop} differs by about {100.0 * change[loop]:+.2g} %. The option rims chooses"
+        )
+        warnings.warn(Warning(kind="coarse_mesh", elements=[], text=text), stacklevel=3)
 
 
 def _refined(result: UniformizeResult, run: Run) -> tuple[np.ndarray, np.ndarray]:
@@ -125,12 +183,15 @@ def module_names(loop_count: int) -> list[str]:
     return _koebe.module_names(whole(loop_count, "loop_count", least=0))
 
 
-def match_loops(a: Any, b: Any, *, any_outer: bool = False) -> tuple[np.ndarray, np.ndarray, float]:
+def match_loops(
+    a: Any, b: Any, *, any_outer: bool = False, rims: Rims = "smooth"
+) -> tuple[np.ndarray, np.ndarray, float]:
     """The correspondence of the loops of two domains with the least distance of their modules.
 
     Returns an order of a's loops and one of b's in which corresponding loops stand at the same place, outer ones
     first, and the distance of the modules in these orders. It is symmetric, and 0 only for equal shapes. any_outer:
-    the outer loop of one may correspond to a hole of the other. Raises InputError for different numbers of loops.
+    the outer loop of one may correspond to a hole of the other. rims: as in conformal_module. Raises InputError for
+    different numbers of loops.
 
     >>> import koebe
     >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
@@ -140,13 +201,14 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False) -> tuple[np.ndarray,
     """
     _require_own_circles(a)
     _require_own_circles(b)
+    a, b = with_rims(a, rims), with_rims(b, rims)
     order_a, order_b, distance = _koebe.match_loops(*as_circles(a), *as_circles(b), flag(any_outer, "any_outer"))
     return np.array(order_a, dtype=np.int32), np.array(order_b, dtype=np.int32), distance
 
 
-def module_distance(a: Any, b: Any) -> float:
+def module_distance(a: Any, b: Any, *, rims: Rims = "smooth") -> float:
     """L2 distance of two conformal modules, a length in the unit disk. Two results are compared in the orders of
-    match_loops.
+    match_loops. rims: of two results, as in conformal_module.
 
     >>> import koebe
     >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
@@ -154,7 +216,7 @@ def module_distance(a: Any, b: Any) -> float:
     0.06 0.0
     """
     if hasattr(a, "radii") and hasattr(b, "radii"):
-        return match_loops(a, b)[2]
+        return match_loops(a, b, rims=rims)[2]
     first, second = as_numbers(a, "the module"), as_numbers(b, "the module")
     if first.shape != second.shape:
         raise InputError(f"modules of shapes {first.shape} and {second.shape} cannot be compared")

@@ -6,6 +6,7 @@ from typing import Any, Literal, TypedDict
 from ._native import _koebe
 
 Progress = Callable[[float, str], Any]
+Rims = Literal["smooth", "polygonal"]
 
 
 class SurfaceOptions(TypedDict, total=False):

@@ -1,0 +1,102 @@
+"""Each refusal of a surface names elements, and nothing depends on where a surface lies."""
+
+import koebe
+import numpy as np
+import pytest
+from cli_support import koebe as command
+from cli_support import obj_text, perforated, triangles_of
+
+POINTS, QUADS = perforated(12)
+TRIANGLES = triangles_of(QUADS)
+BALL = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
+FACES = np.array([[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]])
+ONE_POINT, LINE = np.ones_like(POINTS), POINTS * [1.0, 0.0, 0.0]
+MAPS = {
+    "uniformize": koebe.uniformize, "parts": koebe.parts, "ring": koebe.ring_map, "torus": koebe.torus_map,
+    "sphere": koebe.sphere_map, "schottky": koebe.schottky_map, "flatten": koebe.flatten, "lift": koebe.lift,
+    "certified": koebe.certified_moduli,
+}  # fmt: skip
+SURFACES = {
+    "closed": (BALL, FACES), "plate": (POINTS, TRIANGLES), "one point": (ONE_POINT, TRIANGLES), "line": (LINE, TRIANGLES),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("surface", SURFACES)
+@pytest.mark.parametrize("kind", MAPS)
+def test_a_refusal_names_elements_of_the_surface(kind, surface):
+    vertices, triangles = SURFACES[surface]
+    try:
+        MAPS[kind](vertices, triangles)
+    except koebe.KoebeError as error:
+        count = len(vertices) if error.of in ("vertices", "edges") else len(triangles)
+        assert error.of in ("vertices", "edges", "faces") and len(error.elements), error
+        assert 0 <= min(error.elements) and max(error.elements) < count
+
+
+def test_a_surface_without_area_lists_its_faces():
+    with pytest.raises(koebe.InputError, match="the surface has no area") as caught:
+        koebe.parts(LINE, TRIANGLES)
+    assert caught.value.of == "faces" and sorted(caught.value.elements) == [*range(len(TRIANGLES))]
+
+
+def test_a_misspelt_option_names_the_nearest_one(tmp_path):
+    (tmp_path / "in.obj").write_text(obj_text(POINTS, TRIANGLES))
+    for word, nearest in (("--toleranse=1", "--tolerance"), ("--metod", "--method")):
+        told = command("uniformize", tmp_path / "in.obj", tmp_path / "out.obj", word)
+        name = word.split("=")[0]
+        assert told.stderr == f"WrongUsage: koebe uniformize has no option {name}: did you mean {nearest}? (see koebe --help)\n"
+    told = command("uniformize", tmp_path / "in.obj", tmp_path / "out.obj", "--xyzzy")
+    assert told.stderr == "WrongUsage: koebe uniformize has no option --xyzzy (see koebe --help)\n"
+
+
+FAR = np.array([0.0, 2.0**18, -(2.0**17)])  # with coordinates in steps of 2^-20 the sums are exact
+
+
+@pytest.mark.parametrize("kind", ["uniformize", "cut", "parts", "ring", "sphere", "flatten"])
+def test_a_surface_far_from_the_origin_has_the_same_map(kind):
+    make = {**MAPS, "cut": lambda *surface: koebe.uniformize(*surface, cut=True)}[kind]
+    near = np.round(POINTS * 2**20) / 2**20
+    here, there = make(near, TRIANGLES), make(near + FAR, TRIANGLES)
+    assert np.abs(here.corner_uv - there.corner_uv).max() <= 1e-6 * max(1.0, np.abs(here.corner_uv).max())
+
+
+def test_a_plate_far_from_the_origin_is_no_line(addon):
+    are_flat = addon("maps.mapping")._are_flat
+    assert not are_flat(POINTS + FAR, TRIANGLES) and not are_flat(1e-3 * POINTS + [0, 2e5, 0], TRIANGLES)
+    assert are_flat(LINE, TRIANGLES) and are_flat(ONE_POINT, TRIANGLES)
+
+
+def test_the_dial_and_the_command_have_one_default_price(addon):
+    parts, table = addon("maps.parts"), addon("maps.option_table")
+    assert parts.price_of(table.ROWS["evenness"].default) == table.solver_default("parts", "price") == 0.0037
+    assert parts.price_of(0.0) > parts.price_of(0.5) > parts.price_of(1.0)
+
+
+def long_tube(seed):
+    """A rough tube of 9 to 27 radii, with diagonals, holes and teeth at random: vertices and triangles."""
+    rng = np.random.default_rng(seed)
+    around, length = int(rng.integers(5, 16)), rng.uniform(9, 27)
+    along = int(length * around / 6)
+    z, angle = np.meshgrid(np.linspace(0.0, length, along + 1), 2 * np.pi * np.arange(around) / around, indexing="ij")
+    radius = np.linspace(1.0, rng.uniform(0.3, 1.5), along + 1)[:, None] * (1 + 0.05 * rng.standard_normal(z.shape))
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=2).reshape(-1, 3)
+    a = (np.arange(along)[:, None] * around + np.arange(around)).ravel()
+    b = (np.arange(along)[:, None] * around + (np.arange(around) + 1) % around).ravel()
+    quads = np.stack([a, b, b + around, a + around], axis=1)
+    quads = np.where(rng.random(len(quads))[:, None] < 0.5, quads, np.roll(quads, 1, axis=1))
+    keep = rng.random(len(quads)) > 0.01
+    keep[-2 * around :: 3] &= rng.random() < 0.5
+    keep[: 2 * around] = True
+    return points, triangles_of(quads[keep])
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_vertices_of_the_smallest_circles_lie_on_them_or_are_listed(seed):
+    used, triangles = np.unique(long_tube(seed)[1], return_inverse=True)
+    try:
+        result = koebe.uniformize(long_tube(seed)[0][used], triangles.reshape(-1, 3), even=0.5)
+    except koebe.TopologyError:
+        return  # teeth that hang by a vertex
+    for loop, off, center, radius in zip(result.loops, result.off_circle, result.centers, result.radii, strict=True):
+        away = abs(np.linalg.norm(result.uv[loop] - center, axis=1) - radius)
+        assert (away[~np.isin(loop, off)] <= 1e-6 * radius + 4e-15).all()
