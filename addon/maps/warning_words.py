@@ -36,6 +36,9 @@ WORDS = {
     "left_out": (
         "faces",
         "{count} {have} no UVs, because another face has the same vertices. Use Mesh ▸ Clean Up ▸ Merge by Distance"),
+    "coincident": (
+        "vertices",
+        "{count} at edges lie where another one lies. Merge Distance, under Seams and Cuts, joins {them} in the UVs"),
     "not_mapped": ("faces", "{count} could not be mapped, and {are} at one point in the UVs. Repair the mesh there"),
 }  # fmt: skip
 # Of a surface that was cut open: there the mesh is not at fault.

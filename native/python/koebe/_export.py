@@ -130,7 +130,7 @@ def _as(result: Any, kind: str) -> Any:
     source = result._source
     if source.mesh is not None and kind_of(source.mesh) == kind:
         return result
-    vertices, triangles = source.vertices, source.triangles
+    vertices, triangles = source.vertices, source.given_triangles
     if kind == "gifti":
         mesh = gifti_of(vertices, triangles, {})
     elif kind == "meshio":
