@@ -51,6 +51,13 @@ std::set<std::size_t> materials_of(const Json& primitive)
     return materials;
 }
 
+/// The material of this number, or null.
+Json* material_at(Json& file, std::size_t number)
+{
+    const auto materials = file.find("materials");
+    return materials != file.end() && number < materials->size() ? &(*materials)[number] : nullptr;
+}
+
 /// The pointers of all animations (KHR_animation_pointer) in one text.
 std::string animated(const Json& file)
 {
@@ -73,21 +80,22 @@ void take_off(Json& texture)
 
 }  // namespace
 
-int tangent_set(const Json& file, const Json& primitive)
+int tangent_set(Json& file, const Json& primitive)
 {
     if (!primitive.contains("material")) return 0;
-    const Json& material = file.at("materials").at(primitive["material"].get<std::size_t>());
-    return material.contains("normalTexture") ? set_of(material["normalTexture"]) : 0;
+    const Json* const material = material_at(file, primitive["material"].get<std::size_t>());
+    return material != nullptr && material->contains("normalTexture") ? set_of((*material)["normalTexture"]) : 0;
 }
 
 std::vector<Warning> take_transforms_off(Json& file, const GltfPlaces& primitives, int set)
 {
     std::set<std::size_t> own, of_others;
-    const Json& meshes = file["meshes"];
-    for (std::size_t m = 0; m < meshes.size(); ++m)
-        for (std::size_t k = 0; k < meshes[m]["primitives"].size(); ++k)
-            for (const std::size_t material : materials_of(meshes[m]["primitives"][k]))
+    for (std::size_t m = 0; m < file["meshes"].size(); ++m) {
+        const Json of_mesh = file["meshes"][m].value("primitives", Json::array());
+        for (std::size_t k = 0; k < of_mesh.size(); ++k)
+            for (const std::size_t material : materials_of(of_mesh[k]))
                 (primitives.contains({m, k}) ? own : of_others).insert(material);
+    }
     const std::string pointers = animated(file);
     std::size_t taken = 0, left = 0;
     for (const std::size_t material : own) {
@@ -95,8 +103,10 @@ std::vector<Warning> take_transforms_off(Json& file, const GltfPlaces& primitive
         const bool is_moved =
             pointers.find(place) != std::string::npos && pointers.find(transform_name) != std::string::npos;
         const bool may_change = !of_others.contains(material) && !is_moved;
+        Json* const json = material_at(file, material);
+        if (json == nullptr) continue;
         bool found = false;
-        visit_textures(file.at("materials").at(material), [&](Json& texture) {
+        visit_textures(*json, [&](Json& texture) {
             if (transform_of(texture) == nullptr || set_of(texture) != set) return;
             found = true;
             if (may_change) take_off(texture);

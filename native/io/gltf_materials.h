@@ -17,7 +17,7 @@ using GltfPlaces = std::set<std::pair<std::size_t, std::size_t>>;
 
 /// The set of UVs along which the tangents of a primitive run: that of its material's normal texture (glTF 2.0, section
 /// 3.7.2.1).
-int tangent_set(const nlohmann::ordered_json& file, const nlohmann::ordered_json& primitive);
+int tangent_set(nlohmann::ordered_json& file, const nlohmann::ordered_json& primitive);
 
 /// Takes KHR_texture_transform off the textures that lie in a set of UVs, if only these primitives have the material
 /// and nothing moves the transform. Else a texture would show a part of itself on the new UVs.

@@ -24,6 +24,8 @@ void require_ply_properties(const PlyElement& element, bool is_text)
         throw InputError("the header gives element " + element.name + " no list of int or uint vertex_indices");
 }
 
+constexpr Index strip_end = -1;
+
 class PlyReader {
 public:
     explicit PlyReader(const PlyFile& file) : values_(file)
@@ -67,8 +69,8 @@ private:
         corners.erase(begin, corners.end());
         std::size_t place = 0;  // in its strip
         for (std::size_t k = 0; k < strips.size(); ++k, ++place) {
-            if (strips[k] < 0) place = static_cast<std::size_t>(-1);
-            if (strips[k] < 0 || place < 2) continue;
+            if (strips[k] == strip_end) place = static_cast<std::size_t>(-1);
+            if (strips[k] == strip_end || place < 2) continue;
             const std::size_t turned = place % 2;
             corners.insert(corners.end(), {strips[k - 2 + turned], strips[k - 1 - turned], strips[k]});
             mesh_.face_begin.push_back(static_cast<Index>(corners.size()));

@@ -141,6 +141,8 @@ PolygonMesh read_stl(std::string_view bytes)
     if (is_text_stl(bytes)) return read_text_stl(bytes);
     if (!is_binary_stl(bytes))
         throw InputError("the file is no STL: a text starts with 'solid', a binary file is as long as its header says");
+    if (facet_count(bytes) == 0 && bytes.size() >= header_bytes + facet_bytes)
+        throw InputError("the header of the STL file counts no facet, though more bytes follow");
     return read_binary_stl(bytes);
 }
 

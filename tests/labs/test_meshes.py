@@ -263,3 +263,14 @@ def test_a_welded_mesh_comes_back_with_its_own_vertices(kind):
     back = result.to_mesh()
     assert len(back.vertices if kind == "trimesh" else back.points) == faces.size
     assert np.isfinite(koebe.uniformize(back, weld=0).uv).all()
+
+
+def test_objects_that_only_look_like_surfaces_are_told_so():
+    for thing in (
+        SimpleNamespace(vertices=VERTICES, faces=[[[0, 1, 2]], [[0, 1, 2]]]),
+        SimpleNamespace(vertices=VERTICES, faces=[None]),
+        SimpleNamespace(vertices=np.ma.masked_greater(VERTICES, 0.5), faces=TRIANGLES),
+        SimpleNamespace(VTKObject=5),
+    ):
+        with pytest.raises(koebe.InputError):
+            koebe.parts(thing)

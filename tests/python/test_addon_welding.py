@@ -30,7 +30,7 @@ def test_joined_surfaces_have_the_islands_of_the_whole_one(addon, apart, with_se
     own = np.arange(QUADS.size).reshape(-1, 4)
     points = VERTICES[QUADS.ravel()]
     soup = surface_of(addon, points, own, seams)
-    moved = np.random.default_rng(2).uniform(-0.4, 0.4, points.shape) * apart
+    moved = np.random.default_rng(2).uniform(-0.5, 0.5, points.shape) * apart / np.sqrt(3)
     apart_soup = type(soup)(**{**vars(soup), "positions": points + moved})
     cut = addon("maps.islands").cut_into_islands
     assert len(cut(apart_soup)) == len(QUADS)

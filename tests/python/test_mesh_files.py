@@ -103,3 +103,9 @@ def test_triangle_strips_of_ply_are_triangles(tmp_path, form):
     report = json.loads((tmp_path / "out.json").read_text())
     assert report["flipped"] == 0 and report["faces"] == len(faces)
     assert len(parsed((tmp_path / "out.ply").read_bytes(), ".ply")[0]) == len(faces)
+
+
+def test_a_count_of_no_facets_is_the_reason(tmp_path):
+    (tmp_path / "in.stl").write_bytes(binary_stl(0))
+    done = run("parts", "in.stl", "out.obj", cwd=tmp_path)
+    assert done.returncode == 3 and "counts no facet" in done.stderr

@@ -105,7 +105,7 @@ def test_in_python_all_vertices_have_values_and_faces_that_collapse_are_left_out
     result = koebe.uniformize(points, own, weld=0)
     whole = koebe.uniformize(VERTICES, TRIANGLES)
     assert np.isfinite(result.uv).all() and result.uv.shape == (len(points), 2)
-    assert np.array_equal(result.uv[own], result.corner_uv * 2 - 1)
+    assert np.allclose(result.uv[own], result.corner_uv * 2 - 1)
     assert [len(loop) for loop in result.loops] == [len(loop) for loop in whole.loops]
     assert np.isfinite(result.log_scale).all()
     middle = points[own[7]].mean(axis=0)
@@ -130,7 +130,7 @@ def test_places_where_three_faces_meet_are_refused_or_split(tmp_path):
     fins = [[0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 0, 0], [0, 0, 1], [-1, 1, 0], [0, 0, 0], [0, 0, 1], [-1, -1, 0]]
     (tmp_path / "fins.obj").write_text(obj_text(fins, np.arange(9).reshape(3, 3)))
     done = run("uniformize", "fins.obj", "out.obj", "--weld", 0, cwd=tmp_path)
-    assert done.returncode == CANNOT_BE_MAPPED and done.stderr.startswith("TopologyError: nonmanifold_edge")
+    assert done.returncode == CANNOT_BE_MAPPED and done.stderr.startswith("TopologyError(nonmanifold_edge)")
     done = run("parts", "fins.obj", "out.obj", "--weld", 0, "--json", "out.json", cwd=tmp_path)
     assert done.returncode == 0 and json.loads((tmp_path / "out.json").read_text())["flipped"] == 0
 

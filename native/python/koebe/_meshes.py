@@ -59,7 +59,10 @@ def plain(mesh: Any) -> Any:
             raise InputError(f"the mesh has the parts {', '.join(mesh.parts)}: give one of them, mesh.parts['left']")
         (mesh,) = mesh.parts.values()
     elif kind == "vtk":
-        mesh = importlib.import_module("pyvista").wrap(getattr(mesh, "VTKObject", mesh))
+        try:
+            mesh = importlib.import_module("pyvista").wrap(getattr(mesh, "VTKObject", mesh))
+        except (NotImplementedError, TypeError) as error:
+            raise InputError(f"VTK's object is no surface: {error}") from None
     if kind_of(mesh) == "pyvista" and getattr(mesh, "n_strips", False):
         mesh = _without_strips(mesh)
     return mesh
@@ -335,6 +338,8 @@ def _from_points(mesh: Any) -> Polygons:
         faces = np.asarray(faces)
         if faces.ndim != 2 and faces.dtype != object:
             raise InputError(f"faces must be (F, n) whole numbers, or a list of polygons, not {faces.shape}")
+    if np.ma.is_masked(getattr(mesh, name)) or np.ma.is_masked(faces):
+        raise InputError(f"{name} and faces must not be masked")
     return _polygons(getattr(mesh, name), [faces], [np.arange(len(faces))], len(faces))
 
 
@@ -351,6 +356,8 @@ def _polygons(vertices: Any, blocks: list[Any], cells: list[np.ndarray], cell_co
     sizes, corners = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
     for block in blocks:
         faces = [np.asarray(face) for face in block] if _is_ragged(block) else np.asarray(block)
+        if isinstance(faces, list) and any(face.ndim != 1 for face in faces):
+            raise InputError("each face of the mesh must be a list of vertices")
         sizes.append(np.array([len(face) for face in faces], dtype=np.int64))
         named = np.concatenate(faces) if isinstance(faces, list) else faces.ravel()
         if named.dtype.kind not in "iu":
