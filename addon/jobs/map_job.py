@@ -22,7 +22,7 @@ from ..maps.outcomes import LATER, Outcome, Place, Progress, Task, failure_row
 from ..maps.surface import Surface
 from ..maps.tile_pattern import Pattern
 from ..maps.welding import joined
-from ..maps.wording import few
+from ..maps.wording import counted, few
 from . import native_package
 
 
@@ -47,6 +47,7 @@ class Job:
         self.koebe = native_package.load()
         self.options, self.selected_only = options, selected_only
         self._first: np.ndarray | None = None  # of the surface that was read last, see `joined`
+        self._loose: dict[str, int] = {}  # by object: vertices at the place of another one
         self.refused = [] if refused is None else refused
         self.targets: list[Target] = []
         self.tasks: list[Task] = []
@@ -99,6 +100,8 @@ class Job:
         surface, self._first = mesh_reading.read_surface(obj, self.selected_only), None
         if self.options.weld > 0.0:
             surface, self._first = joined(self.koebe, surface, self.options.weld)
+        elif loose := np.count_nonzero(np.diff(np.sort(self.koebe.weld(surface.positions))) == 0):
+            self._loose[obj.name] = loose
         return surface
 
     def _named(self, vertex: Any) -> Any:
@@ -228,6 +231,11 @@ class Job:
         hidden = sequence_player.shown_instead(plan.obj, plan.layer)
         if hidden is not None:
             outcome.remarks.append(hidden)
+        if loose := self._loose.get(outcome.name, 0):
+            outcome.remarks.append(
+                f"{counted(loose, 'vertex', 'vertices')} at the place of another one: Merge Distance, under Seams and "
+                "Cuts, joins them in the UVs"
+            )
         self._put_checker(run, outcome, plan.obj, material)
 
     @staticmethod

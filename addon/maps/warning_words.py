@@ -36,9 +36,6 @@ WORDS = {
     "left_out": (
         "faces",
         "{count} {have} no UVs, because another face has the same vertices. Use Mesh ▸ Clean Up ▸ Merge by Distance"),
-    "coincident": (
-        "vertices",
-        "{count} at edges lie where another one lies. Merge Distance, under Seams and Cuts, joins {them} in the UVs"),
     "not_mapped": ("faces", "{count} could not be mapped, and {are} at one point in the UVs. Repair the mesh there"),
 }  # fmt: skip
 # Of a surface that was cut open: there the mesh is not at fault.
@@ -48,6 +45,11 @@ CUT_WORDS = {
 NOUNS = {"faces": ("face", None), "vertices": ("vertex", "vertices"), "loops": ("boundary", "boundaries")}
 WHOLE = "the whole map"  # what a warning is about that names no elements
 SELECTED = ("faces", "vertices")  # that can be selected by their numbers in the mesh
+
+
+def of_solver(result: Any) -> list[Any]:
+    """The solver's warnings about an island. Vertices at one place are no fault of it: it is cut along its seams."""
+    return [warning for warning in result.warnings if warning.kind != "coincident"]
 
 
 def in_words(warnings: Iterable[dict[str, Any]], is_cut: bool = False) -> list[dict[str, Any]]:
