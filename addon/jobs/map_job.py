@@ -9,6 +9,7 @@ from contextlib import AbstractContextManager
 from typing import Any
 
 import bpy
+import numpy as np
 
 from ..blender import checker, map_writing, mesh_reading, sequence_player, uv_layers
 from ..blender.errors import TransferError
@@ -20,7 +21,8 @@ from ..maps.options import Options
 from ..maps.outcomes import LATER, Outcome, Place, Progress, Task, failure_row
 from ..maps.surface import Surface
 from ..maps.tile_pattern import Pattern
-from ..maps.wording import few
+from ..maps.welding import joined
+from ..maps.wording import counted, few
 from . import native_package
 
 
@@ -44,6 +46,8 @@ class Job:
         """
         self.koebe = native_package.load()
         self.options, self.selected_only = options, selected_only
+        self._first: np.ndarray | None = None  # of the surface that was read last, see `joined`
+        self._loose: dict[str, int] = {}  # by object: vertices at the place of another one
         self.refused = [] if refused is None else refused
         self.targets: list[Target] = []
         self.tasks: list[Task] = []
@@ -93,15 +97,26 @@ class Job:
         self.tasks.append(task)
 
     def _surface(self, obj: MeshObject) -> Surface:
-        return mesh_reading.read_surface(obj, self.selected_only)
+        surface, self._first = mesh_reading.read_surface(obj, self.selected_only), None
+        if self.options.weld > 0.0:
+            surface, self._first = joined(self.koebe, surface, self.options.weld)
+        elif loose := np.count_nonzero(np.diff(np.sort(self.koebe.weld(surface.positions))) == 0):
+            self._loose[obj.name] = loose
+        return surface
+
+    def _named(self, vertex: Any) -> Any:
+        """The vertex that stands for this one in the surface that was read last. Other places stay."""
+        whole = isinstance(vertex, int) and self._first is not None and 0 <= vertex < len(self._first)
+        return int(self._first[vertex]) if whole else vertex  # type: ignore[index]
 
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
         outer = self.options.outer
         if outer == "active":
             vertex = mesh_reading.active_vertex(obj)
             outer = "auto" if vertex is None else vertex
+        outer = self._named(outer)
         mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
-        center, point = (self._place(obj, wanted) for wanted in (self.options.center, self.options.point))
+        center, point = (self._named(self._place(obj, one)) for one in (self.options.center, self.options.point))
         importance = mesh_reading.vertex_weights(obj, self._importance) if self._importance else None
         return Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
 
@@ -216,6 +231,11 @@ class Job:
         hidden = sequence_player.shown_instead(plan.obj, plan.layer)
         if hidden is not None:
             outcome.remarks.append(hidden)
+        if loose := self._loose.get(outcome.name, 0):
+            outcome.remarks.append(
+                f"{counted(loose, 'vertex', 'vertices')} at the place of another one: Merge Distance, under Seams and "
+                "Cuts, joins them in the UVs"
+            )
         self._put_checker(run, outcome, plan.obj, material)
 
     @staticmethod

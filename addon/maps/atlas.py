@@ -14,6 +14,7 @@ from .outcomes import LATER, Progress, Task
 from .parts import OTHERS, Numbers, PartsIsland, PartsOutcome, cut_into_parts
 from .stored import LostAreaError
 from .surface import Surface
+from .warning_words import of_solver
 from .wording import in_mesh
 
 TINY = 1e-5  # of the largest surface's extent: about a hundred steps of UVs in 32 bits
@@ -111,7 +112,7 @@ class AtlasOutcome(PartsOutcome):
 
     def warnings(self, one: PartsIsland) -> list[dict[str, Any]]:
         found = []
-        for warning in one.result.warnings:
+        for warning in of_solver(one.result):
             said = in_mesh(self.whole.numbers, warning)
             if warning.of in ("vertices", "faces") and said["elements"]:
                 own = self._own(warning.of, said["elements"])

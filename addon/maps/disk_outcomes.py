@@ -15,6 +15,7 @@ from .rounding import RESOLUTION, rounded
 from .stored import Stored
 from .surface import Island
 from .triangles import as_complex, as_points, covered, density_ratio, longest_edges, signed_areas
+from .warning_words import of_solver
 from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, density_text, few, in_mesh, own_warning, too_uneven
 
 if TYPE_CHECKING:
@@ -173,7 +174,7 @@ class SurfaceOutcome(Outcome):
     def warnings(self, one: IslandOutcome) -> list[dict[str, Any]]:
         native = [
             in_mesh(one.island, warning)
-            for warning in one.result.warnings
+            for warning in of_solver(one.result)
             if warning.kind != "lost_area" and not (one.unrolled and warning.kind == OF_THE_DISK)
         ]
         lost = own_warning("lost_area", one.lost, one.flipped_faces if one.lost else ())

@@ -19,6 +19,7 @@ from .seams import cut_edges
 from .stored import LostAreaError, Stored, flipped_corners, judge_corners
 from .surface import Island, Surface
 from .triangles import density_ratio, signed_areas
+from .warning_words import of_solver
 from .wording import UNEVEN_TEXELS, counted, density_text, in_mesh, too_uneven
 
 
@@ -123,7 +124,7 @@ class DomainOutcome(Outcome):
     choice: Chosen
 
     def warnings(self, one: Any) -> list[dict[str, Any]]:
-        found = [warning for warning in one.result.warnings if warning.kind != LostAreaError.kind]  # already reported
+        found = [warning for warning in of_solver(one.result) if warning.kind != LostAreaError.kind]  # already reported
         return [*(in_mesh(one.island, warning) for warning in found), *self._own_warnings()]
 
     def figures(self) -> list[str]:

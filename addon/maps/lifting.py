@@ -14,6 +14,7 @@ from .offending_elements import FACES, VERTICES, offending_elements
 from .outcomes import Progress, share_of
 from .places import centers, points
 from .surface import Island, Surface
+from .warning_words import of_solver
 from .wording import counted, explain, in_mesh
 
 SPREAD = ("circles", "voronoi")  # patterns that are even on the surface
@@ -239,7 +240,7 @@ def _joined(surface: Surface, islands: list[Island], results: list[Any], mirrore
     ]
     uv = None if closed else np.concatenate([result.uv for result in results]).reshape(-1, 2).astype(np.float32)
     warnings = [in_mesh(island, warning)["text"] for island, result in zip(islands, results, strict=True)
-                for warning in result.warnings]  # fmt: skip
+                for warning in of_solver(result)]  # fmt: skip
     return Lifted(
         np.concatenate([result.vertices for result in results]), np.concatenate(original),
         triangles.ravel(), uv, np.concatenate([result.patch for result in results]),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from .option_table import ROWS, Row, rows_of
 
-WRITTEN = ("layer", "checker", "checker_size", "checker_even")  # written by all maps beside the UVs
+WRITTEN = ("layer", "checker", "checker_size", "checker_even", "weld")  # read and written alike by all maps
 OF_RUNS = (*WRITTEN, "threads")  # in the `Options` of every run
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).
@@ -63,7 +63,7 @@ class Chosen:
         return {
             row.name: getattr(self, row.name)
             for row in self.rows
-            if row.is_native and row.kind in ("number", "integer", "flag", "choice") and row.name != "cut"
+            if row.is_native and row.kind in ("number", "integer", "flag", "choice") and row.name not in ("cut", "weld")
         }
 
 

@@ -15,6 +15,7 @@ from .outcomes import LATER, Outcome, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
 from .stored import LostAreaError
 from .surface import next_corners
+from .warning_words import of_solver
 from .wording import counted, density_text, in_mesh
 
 # The price of a part: at the dial's default the command's, at its ends ten times as much and a tenth. These ends make
@@ -67,7 +68,8 @@ class PartsOutcome(Outcome):
     islands: list[PartsIsland]
 
     def warnings(self, one: PartsIsland) -> list[dict[str, Any]]:
-        return [in_mesh(one.numbers, warning) for warning in one.result.warnings if warning.kind != LostAreaError.kind]
+        found = [warning for warning in of_solver(one.result) if warning.kind != LostAreaError.kind]
+        return [in_mesh(one.numbers, warning) for warning in found]
 
     def offending(self) -> list[tuple[str, np.ndarray]]:
         """Empty: no single face can be mended."""

@@ -47,6 +47,11 @@ WHOLE = "the whole map"  # what a warning is about that names no elements
 SELECTED = ("faces", "vertices")  # that can be selected by their numbers in the mesh
 
 
+def of_solver(result: Any) -> list[Any]:
+    """The solver's warnings about an island. Vertices at one place are no fault of it: it is cut along its seams."""
+    return [warning for warning in result.warnings if warning.kind != "coincident"]
+
+
 def in_words(warnings: Iterable[dict[str, Any]], is_cut: bool = False) -> list[dict[str, Any]]:
     """Warnings of one map, in the mesh's numbers, as sentences: one for each kind, with all of its elements.
 

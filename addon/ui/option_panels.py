@@ -71,7 +71,7 @@ class PartsPanel(ClosedPanel):
         column.prop(settings, "darts")
         draw_weights(column, settings, "show", context)
         draw_weights(column, settings, "importance", context)
-        for name in ("seams", "write_seams"):
+        for name in ("seams", "write_seams", "weld"):
             column.prop(settings, name)
 
 

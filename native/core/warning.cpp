@@ -7,6 +7,7 @@ const char* to_string(WarningKind kind) noexcept
     switch (kind) {
     case WarningKind::collapsed_faces: return "collapsed_faces";
     case WarningKind::unused_vertices: return "unused_vertices";
+    case WarningKind::coincident: return "coincident";
     case WarningKind::reoriented_faces: return "reoriented_faces";
     case WarningKind::thin_faces: return "thin_faces";
     case WarningKind::coarse_mesh: return "coarse_mesh";
@@ -46,6 +47,7 @@ ElementKind elements_of(WarningKind kind) noexcept
 {
     switch (kind) {
     case WarningKind::unused_vertices:
+    case WarningKind::coincident:
     case WarningKind::off_circle:
     case WarningKind::cut:
     case WarningKind::out_of_place: return ElementKind::vertices;

@@ -43,7 +43,9 @@ enum class WarningKind {
     crossings,         ///< distant places of a lifted pattern meet; elements: the surface's faces there
     thin_bridges,      ///< less material between two openings than was asked for; elements: the surface's faces there
     lost_area,         ///< more area than allowed has no area in the UVs; elements: the faces without area
-    not_mapped,        ///< faces of pieces without a map; elements: these faces. Must stay the last kind
+    not_mapped,        ///< faces of pieces without a map; elements: these faces
+    coincident,  ///< vertices of rims at the place of another one (io/welding.h); elements: vertices. Must stay the
+                 ///< last kind
 };
 
 /// The enumerator's name, as in the JSON report.

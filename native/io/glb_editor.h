@@ -21,6 +21,9 @@ public:
     /// @throws InputError as read_gltf_model
     explicit GlbEditor(std::string_view glb);
 
+    /// The JSON of the file, to be changed where it refers to no data.
+    Json& json() { return file_.json; }
+
     /// Primitive `place` of a mesh, to be changed.
     Json& primitive(std::size_t mesh, std::size_t place) { return file_.json["meshes"][mesh]["primitives"][place]; }
 

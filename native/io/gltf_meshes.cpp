@@ -2,8 +2,8 @@
 
 #include "core/errors.h"
 #include "io/gltf_model.h"
-#include "io/point_numbers.h"
 #include "io/refusals.h"
+#include "io/welding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,17 +39,18 @@ double component(const char* bytes, int type, bool normalized)
     }
 }
 
-std::vector<io::Point> positions_of(const tinygltf::Model& model, int number)
+/// (V, 3)
+Vertices positions_of(const tinygltf::Model& model, int number)
 {
     const std::string bytes = io::accessor_elements(model, number);
     const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(number)];
     if (accessor.type != TINYGLTF_TYPE_VEC3) throw InputError("the GLB file has positions without three coordinates");
     if (accessor.count >= io::most_elements) io::refuse_size();
     const std::size_t size = io::accessor_element_bytes(accessor), width = size / 3;
-    std::vector<io::Point> points(accessor.count);
-    for (std::size_t v = 0; v < points.size(); ++v)
-        for (std::size_t c = 0; c < 3; ++c)
-            points[v][c] = component(bytes.data() + v * size + c * width, accessor.componentType, accessor.normalized);
+    Vertices points(static_cast<Eigen::Index>(accessor.count), 3);
+    for (std::size_t k = 0; k < 3 * accessor.count; ++k)
+        points.data()[k] =
+            component(bytes.data() + k / 3 * size + k % 3 * width, accessor.componentType, accessor.normalized);
     return points;
 }
 
@@ -97,25 +98,19 @@ bool has_triangles(const tinygltf::Primitive& primitive)
 /// Joins the primitives of a mesh at identical positions.
 class MeshBuilder {
 public:
-    void add(const std::vector<io::Point>& points, const std::vector<Index>& corners)
+    void add(const Vertices& points, const std::vector<Index>& corners)
     {
-        const std::size_t first = coordinates_.size() / 3;
-        if (first + points.size() >= io::most_elements || mesh_.corners.size() + corners.size() >= io::most_elements)
+        const Index first = static_cast<Index>(coordinates_.size() / 3);
+        if (coordinates_.size() / 3 + static_cast<std::size_t>(points.rows()) >= io::most_elements ||
+            mesh_.corners.size() + corners.size() >= io::most_elements)
             io::refuse_size();
-        std::vector<Index> joined;
-        for (std::size_t v = 0; v < points.size(); ++v) {
-            coordinates_.insert(coordinates_.end(), points[v].begin(), points[v].end());
-            const bool finite =
-                std::isfinite(points[v][0]) && std::isfinite(points[v][1]) && std::isfinite(points[v][2]);
-            if (!finite) not_finite_.push_back(static_cast<Index>(first + v));
-            joined.push_back(numbers_.try_emplace(points[v], static_cast<Index>(first + v)).first->second);
-        }
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const bool exists = corners[k] >= 0 && static_cast<std::size_t>(corners[k]) < points.size();
+        coordinates_.insert(coordinates_.end(), points.data(), points.data() + points.size());
+        for (const Index corner : corners) {
+            const bool exists = corner >= 0 && corner < points.rows();
             const Index face = static_cast<Index>(mesh_.corners.size() / 3);
             if (!exists && (out_of_range_.empty() || out_of_range_.back() != face)) out_of_range_.push_back(face);
-            mesh_.corners.push_back(exists ? joined[static_cast<std::size_t>(corners[k])] : 0);
-            if (k % 3 == 2) mesh_.face_begin.push_back(static_cast<Index>(mesh_.corners.size()));
+            mesh_.corners.push_back(exists ? first + corner : 0);
+            if (mesh_.corners.size() % 3 == 0) mesh_.face_begin.push_back(static_cast<Index>(mesh_.corners.size()));
         }
     }
 
@@ -124,20 +119,34 @@ public:
         if (!out_of_range_.empty())
             throw InputError(name + ": faces name a vertex that does not exist (faces listed)", ElementKind::faces,
                              out_of_range_);
-        if (!not_finite_.empty())
-            throw InputError(name + ": vertices have a coordinate that is NaN or infinite (vertices listed)",
-                             ElementKind::vertices, not_finite_);
         mesh_.vertices =
             Eigen::Map<const Vertices>(coordinates_.data(), static_cast<Eigen::Index>(coordinates_.size() / 3), 3);
+        std::vector<Index> not_finite;
+        for (Index v = 0; v < static_cast<Index>(mesh_.vertices.rows()); ++v)
+            if (!mesh_.vertices.row(v).allFinite()) not_finite.push_back(v);
+        if (!not_finite.empty())
+            throw InputError(name + ": vertices have a coordinate that is NaN or infinite (vertices listed)",
+                             ElementKind::vertices, not_finite);
+        const std::vector<Index> first = weld(mesh_.vertices, 0.0);
+        for (Index& corner : mesh_.corners) corner = first[static_cast<std::size_t>(corner)];
         return std::move(mesh_);
     }
 
 private:
-    io::PointNumbers numbers_;
     std::vector<double> coordinates_;
-    std::vector<Index> not_finite_, out_of_range_;
+    std::vector<Index> out_of_range_;
     PolygonMesh mesh_;
 };
+
+/// Whether a face has three different vertices.
+bool has_a_triangle(const PolygonMesh& mesh)
+{
+    for (std::size_t k = 0; k + 2 < mesh.corners.size(); k += 3) {
+        const Index *corner = &mesh.corners[k], a = corner[0], b = corner[1], c = corner[2];
+        if (a != b && b != c && c != a) return true;
+    }
+    return false;
+}
 
 GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
 {
@@ -146,12 +155,11 @@ GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
     const auto& primitives = model.meshes[place].primitives;
     for (std::size_t k = 0; k < primitives.size(); ++k) {
         if (!has_triangles(primitives[k])) continue;
-        const std::vector<io::Point> points = positions_of(model, primitives[k].attributes.at("POSITION"));
-        GltfPrimitive primitive{k, static_cast<Index>(points.size()), {}};
-        primitive.corner_vertex =
-            triangle_corners(indices_of(model, primitives[k].indices, points.size()), primitives[k].mode);
+        const Vertices points = positions_of(model, primitives[k].attributes.at("POSITION"));
+        GltfPrimitive primitive{k, static_cast<Index>(points.rows()), {}};
+        primitive.corner_vertex = triangle_corners(
+            indices_of(model, primitives[k].indices, static_cast<std::size_t>(points.rows())), primitives[k].mode);
         if (primitive.corner_vertex.empty()) continue;
-        mesh.has_uvs = mesh.has_uvs || primitives[k].attributes.contains("TEXCOORD_0");
         builder.add(points, primitive.corner_vertex);
         mesh.primitives.push_back(std::move(primitive));
     }
@@ -171,8 +179,8 @@ std::vector<GltfMesh> read_gltf_meshes(std::string_view glb)
     const tinygltf::Model model = io::read_gltf_model(glb);
     std::vector<GltfMesh> meshes;
     for (std::size_t m = 0; m < model.meshes.size(); ++m)
-        if (GltfMesh mesh = mesh_of(model, m); !mesh.primitives.empty()) meshes.push_back(std::move(mesh));
-    if (meshes.empty()) throw InputError("the GLB file has no triangles");
+        if (GltfMesh mesh = mesh_of(model, m); has_a_triangle(mesh.polygons)) meshes.push_back(std::move(mesh));
+    if (meshes.empty()) throw InputError("the GLB file has no triangles with three different vertices");
     return meshes;
 }
 

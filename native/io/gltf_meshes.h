@@ -20,7 +20,6 @@ struct GltfPrimitive {
 struct GltfMesh {
     std::size_t place = 0;  ///< among the meshes of the file
     std::string name;       ///< may be empty
-    bool has_uvs = false;   ///< whether one of its primitives has TEXCOORD_0
     /// Vertices are those of all primitives, one primitive after the other. Corners at identical positions have the
     /// first vertex there, as files cut a surface at its creases and old UVs; the others are in no face.
     PolygonMesh polygons;
@@ -29,7 +28,7 @@ struct GltfMesh {
 
 /// Reads the triangles of a GLB file (glTF 2.0): lists, strips and fans. Lines and points are left out. Positions are
 /// those of the mesh, without the nodes' transforms and without morph targets.
-/// @return the meshes that have triangles, at least one
+/// @return the meshes that have a triangle with three different vertices, at least one
 /// @throws InputError the file is damaged, compressed, or has its data in other files; an index names a vertex that
 /// does not exist (elements: faces); a coordinate is NaN or infinite (elements: vertices)
 std::vector<GltfMesh> read_gltf_meshes(std::string_view glb);

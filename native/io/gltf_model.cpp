@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "io/glb_container.h"
+#include "io/refusals.h"
 
 #include <algorithm>
 #include <cstring>
@@ -137,8 +138,14 @@ std::string accessor_elements(const tinygltf::Model& model, int number, std::ptr
     if (count >= 0 && accessor.count != static_cast<std::size_t>(count))
         throw InputError("accessor " + std::to_string(number) + " of the GLB file has " +
                          std::to_string(accessor.count) + " elements instead of " + std::to_string(count));
-    if (count < 0 && accessor.bufferView < 0)
-        throw InputError("accessor " + std::to_string(number) + " of the GLB file has no data");
+    if (count < 0 && accessor.bufferView < 0) {
+        // Zeros, of which the sparse elements are others. A header could ask for any amount of memory.
+        if (!accessor.sparse.isSparse)
+            throw InputError("accessor " + std::to_string(number) + " of the GLB file has no data");
+        std::size_t bytes = 0;
+        for (const tinygltf::Buffer& buffer : model.buffers) bytes += buffer.data.size();
+        require_count_fits(accessor.count, "accessor", bytes);
+    }
     std::string elements;
     if (accessor.bufferView >= 0) {
         const std::size_t stride = item_at(model.bufferViews, accessor.bufferView, "buffer view").byteStride;

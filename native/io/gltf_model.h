@@ -20,7 +20,7 @@ tinygltf::Model read_gltf_model(std::string_view glb);
 std::size_t accessor_element_bytes(const tinygltf::Accessor& accessor);
 
 /// The elements of an accessor without gaps, sparse ones put in.
-/// @param count how many there must be; -1: as many as there are, in a buffer
+/// @param count how many there must be; -1: as many as there are, in a buffer or sparse
 /// @throws InputError the accessor does not exist, has another count, or leaves its buffer
 std::string accessor_elements(const tinygltf::Model& model, int accessor, std::ptrdiff_t count = -1);
 

@@ -1,12 +1,17 @@
 #include "io/gltf_writer.h"
 
+#include "core/counted.h"
 #include "core/errors.h"
 #include "io/glb_editor.h"
+#include "io/gltf_materials.h"
 #include "io/refusals.h"
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace koebe {
@@ -15,7 +20,7 @@ namespace {
 using io::GlbEditor;
 using Json = GlbEditor::Json;
 
-constexpr const char* uv_name = "TEXCOORD_0";
+constexpr const char* tangents = "TANGENT";
 
 /// Vertices of primitives that share them, with the UVs that they got so far.
 class SharedVertices {
@@ -88,39 +93,111 @@ struct VertexSet {
     std::vector<std::vector<Index>> indices = {};  ///< of each primitive, after splitting
 };
 
-/// Replaces the accessors of attributes by those with copies.
-void extend(GlbEditor& editor, Json& attributes, const SharedVertices& vertices)
-{
-    for (auto& [name, accessor] : attributes.items())
-        if (name != uv_name) accessor = editor.with_copies(accessor.get<int>(), vertices.sources(), vertices.count());
-}
+/// Writes the UVs of one set into the file.
+class UvWriter {
+public:
+    UvWriter(std::string_view glb, int set) : editor_(glb), set_(set), name_("TEXCOORD_" + std::to_string(set)) {}
 
-void write_set(GlbEditor& editor, std::size_t mesh, const VertexSet& set)
-{
-    Json& first = editor.primitive(mesh, set.primitives.front()->place);
-    Json attributes = first["attributes"], targets = first.value("targets", Json::array());
-    const bool split = !set.vertices.sources().empty();
-    if (split) {
-        extend(editor, attributes, set.vertices);
-        for (Json& target : targets) extend(editor, target, set.vertices);
+    void add_mesh(const GltfMesh& mesh, const std::vector<GltfPoint>& uvs)
+    {
+        std::map<std::string, VertexSet> sets;  // by the attributes in JSON, and whether tangents go
+        std::size_t corner = 0;
+        for (const GltfPrimitive& primitive : mesh.primitives) {
+            const Json& json = editor_.primitive(mesh.place, primitive.place);
+            require_lower_sets(mesh, json["attributes"]);
+            const std::string key =
+                Json::array({json["attributes"], json.value("targets", Json::array()), loses_tangents(json)}).dump();
+            VertexSet& set = sets.try_emplace(key, VertexSet{SharedVertices(primitive.vertex_count), {}}).first->second;
+            set.primitives.push_back(&primitive);
+            places_.insert({mesh.place, primitive.place});
+            std::vector<Index>& indices = set.indices.emplace_back();
+            for (const Index vertex : primitive.corner_vertex)
+                indices.push_back(set.vertices.with_uv(vertex, uvs[corner++]));
+        }
+        for (const auto& [key, set] : sets) write_set(mesh.place, set);
     }
-    for (Json& target : targets) target.erase(uv_name);  // it moves the old ones
-    const std::size_t count = set.vertices.count() + set.vertices.sources().size();
-    attributes[uv_name] =
-        editor.add(set.vertices.uv_data(), sizeof(GltfPoint),
-                   {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", count}, {"type", "VEC2"}},
-                   attributes.value(uv_name, GlbEditor::no_accessor));
-    for (std::size_t k = 0; k < set.primitives.size(); ++k) {
-        const GltfPrimitive& primitive = *set.primitives[k];
-        Json& json = editor.primitive(mesh, primitive.place);
-        json["attributes"] = attributes;
-        if (json.contains("extensions")) json["extensions"].erase("KHR_draco_mesh_compression");  // of the old vertices
-        if (!targets.empty()) json["targets"] = targets;
-        if (set.indices[k] == primitive.corner_vertex) continue;
-        json["indices"] = add_indices(editor, set.indices[k], count, json.value("indices", GlbEditor::no_accessor));
-        json.erase("mode");  // triangles
+
+    GlbWithUvs finish()
+    {
+        std::vector<Warning> warnings;
+        if (replaced_)
+            warnings.push_back({WarningKind::replaced_uvs,
+                                "the file's texture coordinates (" + name_ + ") are replaced by the map's"});
+        if (without_tangents_ > 0)
+            warnings.push_back({WarningKind::not_kept,
+                                counted(without_tangents_, "primitive") +
+                                    " had tangents of the old texture coordinates: they are left out, and programs "
+                                    "compute new ones (MikkTSpace)"});
+        std::ranges::move(io::take_transforms_off(editor_.json(), places_, set_), std::back_inserter(warnings));
+        return {editor_.bytes(), std::move(warnings)};
     }
-}
+
+private:
+    /// Sets of UVs are numbered without gaps (glTF 2.0, section 3.7.2.1).
+    void require_lower_sets(const GltfMesh& mesh, const Json& attributes) const
+    {
+        for (int lower = 0; lower < set_; ++lower)
+            if (const std::string name = "TEXCOORD_" + std::to_string(lower); !attributes.contains(name))
+                throw InputError(mesh_name(mesh) + " has no " + name + ", so that it cannot have " + name_);
+    }
+
+    bool loses_tangents(const Json& primitive)
+    {
+        return primitive["attributes"].contains(tangents) && io::tangent_set(editor_.json(), primitive) == set_;
+    }
+
+    /// Replaces the accessors of attributes by those with copies.
+    void extend(Json& attributes, const SharedVertices& vertices)
+    {
+        for (auto& [name, accessor] : attributes.items())
+            if (name != name_)
+                accessor = editor_.with_copies(accessor.get<int>(), vertices.sources(), vertices.count());
+    }
+
+    void write_set(std::size_t mesh, const VertexSet& set)
+    {
+        Json& first = editor_.primitive(mesh, set.primitives.front()->place);
+        Json attributes = first["attributes"], targets = first.value("targets", Json::array());
+        const int old = attributes.value(name_, GlbEditor::no_accessor);
+        replaced_ |= old != GlbEditor::no_accessor;
+        // What the new UVs leave without meaning.
+        const bool tangents_go = loses_tangents(first);
+        if (tangents_go) without_tangents_ += set.primitives.size();
+        if (tangents_go) attributes.erase(tangents);
+        for (Json& target : targets) {
+            target.erase(name_);  // it moves the old ones
+            if (tangents_go) target.erase(tangents);
+        }
+        // Vertices with several UVs.
+        if (!set.vertices.sources().empty()) {
+            extend(attributes, set.vertices);
+            for (Json& target : targets) extend(target, set.vertices);
+        }
+        const std::size_t count = set.vertices.count() + set.vertices.sources().size();
+        attributes[name_] =
+            editor_.add(set.vertices.uv_data(), sizeof(GltfPoint),
+                        {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", count}, {"type", "VEC2"}}, old);
+        for (std::size_t k = 0; k < set.primitives.size(); ++k) {
+            const GltfPrimitive& primitive = *set.primitives[k];
+            Json& json = editor_.primitive(mesh, primitive.place);
+            json["attributes"] = attributes;
+            if (json.contains("extensions"))
+                json["extensions"].erase("KHR_draco_mesh_compression");  // of the old vertices
+            if (!targets.empty()) json["targets"] = targets;
+            if (set.indices[k] == primitive.corner_vertex) continue;
+            json["indices"] =
+                add_indices(editor_, set.indices[k], count, json.value("indices", GlbEditor::no_accessor));
+            json.erase("mode");  // triangles
+        }
+    }
+
+    GlbEditor editor_;
+    int set_;
+    std::string name_;
+    io::GltfPlaces places_;  // of the primitives with new UVs
+    bool replaced_ = false;
+    std::size_t without_tangents_ = 0;
+};
 
 }  // namespace
 
@@ -132,25 +209,12 @@ std::vector<GltfPoint> gltf_points(const PlanarPoints& uv)
     return points;
 }
 
-std::string glb_with_corner_uvs(std::string_view glb, const std::vector<GltfMesh>& meshes,
-                                const std::vector<std::vector<GltfPoint>>& uvs)
+GlbWithUvs glb_with_corner_uvs(std::string_view glb, const std::vector<GltfMesh>& meshes,
+                               const std::vector<std::vector<GltfPoint>>& uvs, int set)
 try {
-    GlbEditor editor(glb);
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        std::map<std::string, VertexSet> sets;  // by the attributes in JSON
-        std::size_t corner = 0;
-        for (const GltfPrimitive& primitive : meshes[m].primitives) {
-            const Json& json = editor.primitive(meshes[m].place, primitive.place);
-            const std::string key = Json::array({json["attributes"], json.value("targets", Json::array())}).dump();
-            VertexSet& set = sets.try_emplace(key, VertexSet{SharedVertices(primitive.vertex_count), {}}).first->second;
-            set.primitives.push_back(&primitive);
-            std::vector<Index>& indices = set.indices.emplace_back();
-            for (const Index vertex : primitive.corner_vertex)
-                indices.push_back(set.vertices.with_uv(vertex, uvs[m][corner++]));
-        }
-        for (const auto& [key, set] : sets) write_set(editor, meshes[m].place, set);
-    }
-    return editor.bytes();
+    UvWriter writer(glb, set);
+    for (std::size_t m = 0; m < meshes.size(); ++m) writer.add_mesh(meshes[m], uvs[m]);
+    return writer.finish();
 } catch (const nlohmann::json::exception& error) {
     throw InputError(std::string("the JSON of the GLB file is damaged: ") + error.what());
 }

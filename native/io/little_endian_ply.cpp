@@ -81,6 +81,7 @@ bool read_faces(const PlyElement& element, std::string_view data, PolygonMesh& m
     const std::size_t list = place_of(element, "vertex_indices"), offset = layout.offsets[list];
     const std::size_t length_bytes = bytes_of(*element.properties[list].length);
     const auto length_at = [&](const char* item) -> std::size_t {
+        if (length_bytes == 4) return number_at<std::uint32_t>(item + offset);
         return length_bytes == 1 ? number_at<std::uint8_t>(item + offset) : number_at<std::uint16_t>(item + offset);
     };
     mesh.face_begin.resize(element.count + 1);

@@ -3,6 +3,7 @@
 #include "io/extension.h"
 #include "io/file_identity.h"
 #include "io/obj_writer.h"
+#include "io/ply_file.h"
 #include "io/ply_writer.h"
 
 #include <algorithm>
@@ -21,8 +22,11 @@ std::optional<WrittenFormat> written_format(const std::filesystem::path& target)
 
 namespace {
 
+/// Triangle strips of PLY have no format here: the mesh has their triangles.
 bool has_format(const FiledMesh& filed, WrittenFormat format)
 {
+    if (format == WrittenFormat::ply && filed.file.extension == ".ply" && io::has_ply_strips(filed.file.bytes))
+        return false;
     return filed.file.extension == (format == WrittenFormat::ply ? ".ply" : ".obj");
 }
 

@@ -36,8 +36,8 @@ std::optional<PlyType> type_of(const std::string& word)
 
 bool is_whole(PlyType type) { return type < PlyType::float32; }
 
-/// Returns nothing without a property, or for a list with 32-bit lengths, which could ask for any amount of memory.
-std::optional<PlyProperty> property_of(const Words& words, bool is_text)
+/// Returns nothing without a property.
+std::optional<PlyProperty> property_of(const Words& words)
 {
     const bool is_list = words.size() == 5 && words[1] == "list";
     if (!is_list && words.size() != 3) return {};
@@ -47,7 +47,6 @@ std::optional<PlyProperty> property_of(const Words& words, bool is_text)
     if (is_list) {
         property.length = type_of(words[2]);
         if (!property.length || !is_whole(*property.length)) return {};
-        if (!is_text && bytes_of(*property.length) > 2) return {};
         if (*property.length == PlyType::int8) property.length = PlyType::uint8;
         if (*property.length == PlyType::int16) property.length = PlyType::uint16;
     }
@@ -85,7 +84,7 @@ bool take(PlyFile& file, const std::string& line, int number, bool& has_format, 
         return true;
     }
     if (words[0] == "property" && !file.elements.empty()) {
-        auto property = property_of(words, file.encoding == PlyEncoding::text);
+        auto property = property_of(words);
         if (property) file.elements.back().properties.push_back(std::move(*property));
         return property.has_value();
     }
@@ -129,7 +128,7 @@ PlyRole PlyElement::role(const PlyProperty& property) const
 {
     for (const auto& [axis, role] : {std::pair{"x", PlyRole::x}, {"y", PlyRole::y}, {"z", PlyRole::z}})
         if (is_vertex() && &property == find(axis)) return role;
-    return is_face() && &property == find("vertex_indices") ? PlyRole::corners : PlyRole::other;
+    return has_corners() && &property == find("vertex_indices") ? PlyRole::corners : PlyRole::other;
 }
 
 bool is_ply_uv(const PlyElement& element, const PlyProperty& property)
@@ -164,6 +163,11 @@ PlyFile parse_ply(std::string_view bytes)
             throw InputError("line " + std::to_string(number) + " of the header is not supported");
     if (!has_format) throw InputError("the header's format or a count is not one of PLY");
     return file;
+}
+
+bool has_ply_strips(std::string_view bytes)
+{
+    return std::ranges::any_of(parse_ply(bytes).elements, &PlyElement::is_strips);
 }
 
 /// Calls use(number) with the next number of a binary file.

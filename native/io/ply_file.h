@@ -39,6 +39,9 @@ struct PlyElement {
     const PlyProperty* find(std::string_view wanted) const;
     bool is_vertex() const { return name == "vertex"; }
     bool is_face() const { return name == "face"; }
+    /// Strips of triangles, in a row with -1 after each.
+    bool is_strips() const { return name == "tristrips"; }
+    bool has_corners() const { return is_face() || is_strips(); }
     PlyRole role(const PlyProperty& property) const;
 };
 
@@ -52,9 +55,12 @@ struct PlyFile {
 };
 
 /// @return the header of the bytes, which must outlive it; the name vertex_index is changed to vertex_indices
-/// @throws InputError a line that does not belong to a PLY header; an unknown type or encoding; a list of a binary file
-/// with 32-bit lengths; a count that does not fit the file
+/// @throws InputError a line that does not belong to a PLY header; an unknown type or encoding; a count that does not
+/// fit the file
 PlyFile parse_ply(std::string_view bytes);
+
+/// Whether a PLY file has triangle strips. @throws InputError as parse_ply
+bool has_ply_strips(std::string_view bytes);
 
 /// Whether the property holds texture coordinates: for vertices under the names that programs use, for faces
 /// `texcoord`.

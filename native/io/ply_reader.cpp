@@ -20,12 +20,11 @@ void require_ply_properties(const PlyElement& element, bool is_text)
             element.is_vertex() && !(found && (is_text ? !found->is_list() : found->is_real())))
             throw InputError(std::string("the header gives element vertex no float or double ") + axis);
     const PlyProperty* corners = element.find("vertex_indices");
-    const auto is_index = [&](PlyType type) {
-        return type == PlyType::int32 || type == PlyType::uint32 || (is_text && type < PlyType::float32);
-    };
-    if (element.is_face() && !(corners && corners->is_list() && is_index(corners->type)))
-        throw InputError("the header gives element face no list of int or uint vertex_indices");
+    if (element.has_corners() && !(corners && corners->is_list() && corners->type < PlyType::float32))
+        throw InputError("the header gives element " + element.name + " no list of int or uint vertex_indices");
 }
+
+constexpr Index strip_end = -1;
 
 class PlyReader {
 public:
@@ -55,9 +54,28 @@ private:
         for (std::size_t p = 0; p < roles.size(); ++p)
             if (!read_value(element.properties[p], roles[p])) return false;
         if (element.is_face()) mesh_.face_begin.push_back(static_cast<Index>(mesh_.corners.size()));
+        if (element.is_strips()) add_triangles();
         if (std::max({coordinates_.size() / 3, mesh_.face_begin.size(), mesh_.corners.size()}) >= most_elements)
             refuse_size();
         return true;
+    }
+
+    /// Makes triangles of the strips whose vertices were read, every second one turned round.
+    void add_triangles()
+    {
+        std::vector<Index>& corners = mesh_.corners;
+        const auto begin = corners.begin() + mesh_.face_begin.back();
+        const std::vector<Index> strips(begin, corners.end());
+        corners.erase(begin, corners.end());
+        std::size_t place = 0;  // in its strip
+        for (std::size_t k = 0; k < strips.size(); ++k, ++place) {
+            if (strips[k] == strip_end) place = static_cast<std::size_t>(-1);
+            if (strips[k] == strip_end || place < 2) continue;
+            const std::size_t turned = place % 2;
+            corners.insert(corners.end(), {strips[k - 2 + turned], strips[k - 1 - turned], strips[k]});
+            mesh_.face_begin.push_back(static_cast<Index>(corners.size()));
+            if (corners.size() >= most_elements) refuse_size();
+        }
     }
 
     bool read_value(const PlyProperty& property, PlyRole role)
@@ -102,7 +120,7 @@ FileLosses ply_contents(std::string_view bytes)
         if (std::ranges::find(losses.others, word) == losses.others.end()) losses.others.push_back(word);
     };
     for (const PlyElement& element : parse_ply(bytes).elements) {
-        if (!element.is_vertex() && !element.is_face()) {
+        if (!element.is_vertex() && !element.has_corners()) {
             if (element.count > 0) add("element " + element.name);
             continue;
         }

@@ -10,6 +10,7 @@
 #include "holes/fan_filling.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
+#include "io/welding.h"
 #include "linear/dense_spd.h"
 #include "mesh/topology.h"
 #include "quality/distortion.h"
@@ -79,6 +80,18 @@ void bind_steps(py::module_& m)
         const Triangulation cut = detached([mesh = std::move(mesh)] { return triangulate(mesh); }, small);
         return std::make_tuple(cut.triangles, py::array_t<Index>(cut.face.size(), cut.face.data()));
     });
+    m.def("weld", [](const Eigen::Ref<const Vertices>& vertices, double distance) {
+        return array_of(detached([points = Vertices(vertices), distance] { return weld(points, distance); },
+                                 vertices.rows() < small_mesh));
+    });
+    m.def("coincident_vertices",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
+              const auto find = [points = Vertices(vertices), faces = Triangles(triangles)] {
+                  const auto found = coincident_vertices(points, faces);
+                  return found ? std::vector<Warning>{*found} : std::vector<Warning>();
+              };
+              return to_object(to_json(detached(find, triangles.rows() < small_mesh)));
+          });
     m.def("parse_mesh", [](const std::string& bytes, const std::string& extension) {
         const PolygonMesh mesh = detached([bytes, extension] { return parse_mesh(bytes, extension); });
         return std::make_tuple(mesh.vertices, array_of(mesh.corners), array_of(mesh.face_begin));

@@ -47,7 +47,7 @@ PAGES = {
     },
     "Steps of the method": {
         "disk_map": ["disk_map", "annulus_map", "harmonic_map"],
-        "boundary_loops": ["boundary_loops", "fill_holes"],
+        "boundary_loops": ["boundary_loops", "fill_holes", "weld"],
         "open_surface": ["open_surface", "OpenedSurface", "SurfacePiece", "SurfaceCut", "LeftOutFace"],
         "distortion": ["distortion"],
         "disk_to_uv": ["disk_to_uv", "uv_to_disk", "fit_circle", "pack_disks", "mirror_image"],

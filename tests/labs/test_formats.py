@@ -294,3 +294,23 @@ def test_the_example_of_the_docstring_runs(name, monkeypatch):
     monkeypatch.chdir(Path(__file__).resolve().parents[2])
     (found,) = doctest.DocTestFinder(recurse=False).find(getattr(koebe, name), name, module=False, globs={})
     assert found.examples and doctest.DocTestRunner().run(found).failed == 0
+
+
+@pytest.mark.parametrize("magic", [b"\xff\xff\xff", b"\xff\xff\xfd"])
+def test_freesurfers_old_quadrilaterals_are_a_surface(tmp_path, magic):
+    """The first kind has coordinates in hundredths, and begins like values at vertices."""
+    n = 9
+    grid = np.arange(n * n).reshape(n, n)
+    quads = np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]], axis=-1).reshape(-1, 4)
+    x, y = np.meshgrid(np.arange(n), np.arange(n))
+    points = np.stack([x.ravel(), y.ravel(), (x * y).ravel() % 3], axis=1) / 4
+    three = lambda numbers: b"".join(int(k).to_bytes(3, "big") for k in numbers)  # noqa: E731
+    places = (100 * points).astype(">i2") if magic[2] == 0xFF else points.astype(">f4")
+    data = magic + three([len(points), len(quads)]) + places.tobytes() + three(quads.ravel())
+    (tmp_path / "lh.orig").write_bytes(data)
+    result = koebe.uniformize(tmp_path / "lh.orig")
+    assert np.allclose(result.vertices, points) and result.face_count == 2 * len(quads)
+    assert [len(loop) for loop in result.loops] == [4 * (n - 1)]
+    (tmp_path / "lh.short").write_bytes(data[:-5])
+    with pytest.raises(koebe.KoebeError, match="values at vertices|cannot be read"):
+        koebe.uniformize(tmp_path / "lh.short")

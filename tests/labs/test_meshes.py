@@ -1,5 +1,8 @@
 """Meshes of PyVista, trimesh, meshio and nibabel in and back, in an environment that has them."""
 
+import importlib
+from types import SimpleNamespace
+
 import koebe
 import meshio
 import nibabel
@@ -128,7 +131,6 @@ def test_a_gifti_surface_is_mapped_and_comes_back_with_its_fields(tmp_path):
         (meshio.Mesh(VERTICES, [("line", [[0, 1]])]), koebe.InputError, "no faces"),
         (meshio.Mesh(VERTICES, [("triangle", [[0, 1, 9999]])]), koebe.InputError, "does not exist"),
         (pyvista.UnstructuredGrid({10: np.array([[0, 1, 2, 3]])}, VERTICES), koebe.InputError, "extract_surface"),
-        (pyvista.PolyData(VERTICES, strips=[4, 0, 1, 2, 3]), koebe.InputError, "triangulate"),
         (pyvista.Sphere(), koebe.TopologyError, "closed"),
         (pyvista.ImageData(dimensions=(3, 3, 3)), koebe.InputError, "PyVista"),
         (42, koebe.InputError, "PyVista"),
@@ -163,3 +165,112 @@ def test_a_surface_refuses_a_mesh_with_other_faces():
     surface = koebe.Surface(MESHES["trimesh"]())
     with pytest.raises(koebe.InputError, match="other faces"):
         surface.uniformize(trimesh.Trimesh(VERTICES, TRIANGLES[::-1], process=False))
+
+
+def test_a_scene_is_all_of_its_meshes():
+    one = trimesh.Trimesh(VERTICES, TRIANGLES, process=False)
+    scene = trimesh.Scene([one])
+    assert np.array_equal(koebe.uniformize(scene).uv, koebe.uniformize(one).uv)
+    scene.add_geometry(one.copy(), transform=trimesh.transformations.translation_matrix([3, 0, 0]))
+    two = koebe.parts(scene)
+    assert two.face_count == 2 * len(TRIANGLES) and np.ptp(two.vertices[:, 0]) > 3
+    assert isinstance(two.to_mesh(), trimesh.Trimesh)
+    with pytest.raises(koebe.InputError, match="no triangles"):
+        koebe.parts(trimesh.Scene())
+
+
+@pytest.mark.parametrize("name", ["vertices", "points", "coordinates"])
+def test_any_object_with_points_and_faces_is_a_surface(name):
+    for faces in (TRIANGLES, QUADS, [list(map(int, face)) for face in QUADS]):
+        thing = SimpleNamespace(**{name: VERTICES, "faces": faces})
+        result = koebe.uniformize(thing)
+        assert result.vertex_count == len(VERTICES) and result.flipped == 0
+    with pytest.raises(koebe.InputError, match="no mesh to give back"):
+        result.to_mesh()
+    with pytest.raises(koebe.InputError, match="does not exist"):
+        koebe.uniformize(SimpleNamespace(**{name: VERTICES, "faces": TRIANGLES + 10_000}))
+    with pytest.raises(koebe.InputError, match="faces must be"):
+        koebe.uniformize(SimpleNamespace(**{name: VERTICES, "faces": TRIANGLES.ravel()}))
+
+
+def test_meshes_of_nilearn_and_vtk_are_surfaces():
+    surface = pytest.importorskip("nilearn.surface")
+    plain = koebe.uniformize(VERTICES, TRIANGLES)
+    left = surface.InMemoryMesh(VERTICES, TRIANGLES)
+    for mesh in (left, surface.PolyMesh(left=left)):
+        assert np.array_equal(koebe.uniformize(mesh).uv, plain.uv)
+    with pytest.raises(koebe.InputError, match="the parts left, right"):
+        koebe.uniformize(surface.PolyMesh(left=left, right=left))
+    poly = importlib.import_module("vtkmodules.vtkCommonDataModel").vtkPolyData()
+    poly.DeepCopy(MESHES["PolyData"]())
+    wrapped = SimpleNamespace(VTKObject=poly)  # as BrainSpace's
+    for mesh in (poly, wrapped):
+        result = koebe.uniformize(mesh)
+        assert np.array_equal(result.uv, plain.uv) and isinstance(result.to_mesh(), pyvista.PolyData)
+
+
+def test_strips_are_triangles_and_carry_their_data(tmp_path):
+    grid = np.arange(6 * 7).reshape(6, 7)
+    strips = [np.stack([grid[k], grid[k + 1]], axis=1).ravel() for k in range(5)]
+    x, y = np.meshgrid(np.arange(7.0), np.arange(6.0))
+    points = np.stack([x.ravel(), y.ravel(), np.sin(x.ravel())], axis=1)
+    mesh = pyvista.PolyData(points, strips=np.concatenate([[len(one), *one] for one in strips]))
+    mesh.cell_data["row"] = np.arange(5)
+    mesh.point_data["height"] = points[:, 2]
+    mesh.save(tmp_path / "strips.vtp")
+    for given in (mesh, tmp_path / "strips.vtp"):
+        result = koebe.uniformize(given)
+        back = result.to_mesh()
+        assert back.n_cells == 5 * 12 and result.flipped == 0
+        assert np.array_equal(back.cell_data["row"], np.repeat(np.arange(5), 12))
+        assert np.array_equal(back.point_data["height"], points[:, 2])
+        assert not [one for one in result.warnings if one.kind == "reoriented_faces"]
+
+
+@pytest.mark.parametrize("function", [koebe.uniformize, koebe.parts])
+def test_colours_materials_and_data_stay(function):
+    colours = np.arange(4 * len(VERTICES), dtype=np.uint8).reshape(-1, 4)
+    back = function(trimesh.Trimesh(VERTICES, TRIANGLES, process=False, vertex_colors=colours)).to_mesh()
+    old = back.vertex_attributes.get("koebe_vertex", np.arange(len(VERTICES)))
+    assert np.array_equal(back.vertex_attributes["color"], colours[old])
+    assert np.array_equal(back.visual.vertex_attributes["color"], colours[old])
+    shades = np.arange(4 * len(TRIANGLES), dtype=np.uint8).reshape(-1, 4)
+    back = function(trimesh.Trimesh(VERTICES, TRIANGLES, process=False, face_colors=shades)).to_mesh()
+    assert np.array_equal(back.face_attributes["color"], shades)
+    material = trimesh.visual.material.SimpleMaterial(diffuse=[9, 8, 7, 255])
+    textured = trimesh.Trimesh(VERTICES, TRIANGLES, process=False)
+    textured.visual = trimesh.visual.TextureVisuals(uv=VERTICES[:, :2], material=material)
+    back = function(textured).to_mesh()
+    assert back.visual.material.diffuse.tolist() == [9, 8, 7, 255] and len(back.visual.uv) == len(back.vertices)
+    grid = MESHES["PolyData"]()
+    grid.point_data["RGB"], grid.field_data["note"] = colours[:, :3], ["kept"]
+    back = function(grid).to_mesh()
+    old = back.point_data["koebe_vertex"] if "koebe_vertex" in back.point_data else np.arange(len(VERTICES))
+    assert np.array_equal(back.point_data["RGB"], colours[old][:, :3]) and back.field_data["note"][0] == "kept"
+
+
+@pytest.mark.parametrize("kind", ["trimesh", "PolyData", "meshio"])
+def test_a_welded_mesh_comes_back_with_its_own_vertices(kind):
+    whole, faces = MESHES[kind](), TRIANGLES
+    apart, own = VERTICES[faces.ravel()], np.arange(faces.size).reshape(-1, 3)
+    mesh = {
+        "trimesh": lambda: trimesh.Trimesh(apart, own, process=False),
+        "PolyData": lambda: pyvista.PolyData.from_regular_faces(apart, own),
+        "meshio": lambda: meshio.Mesh(apart, [("triangle", own)]),
+    }[kind]()
+    result = koebe.uniformize(mesh, weld=0)
+    assert [len(loop) for loop in result.loops] == [len(loop) for loop in koebe.uniformize(whole).loops]
+    back = result.to_mesh()
+    assert len(back.vertices if kind == "trimesh" else back.points) == faces.size
+    assert np.isfinite(koebe.uniformize(back, weld=0).uv).all()
+
+
+def test_objects_that_only_look_like_surfaces_are_told_so():
+    for thing in (
+        SimpleNamespace(vertices=VERTICES, faces=[[[0, 1, 2]], [[0, 1, 2]]]),
+        SimpleNamespace(vertices=VERTICES, faces=[None]),
+        SimpleNamespace(vertices=np.ma.masked_greater(VERTICES, 0.5), faces=TRIANGLES),
+        SimpleNamespace(VTKObject=5),
+    ):
+        with pytest.raises(koebe.InputError):
+            koebe.parts(thing)

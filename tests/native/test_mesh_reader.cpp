@@ -417,8 +417,8 @@ TEST(MeshReader, RefusesWhatIsNoMeshAndSaysWhere)
         {"a.ply",
          binary_ply(float_xyz, "property list int int vertex_indices\n") + raw(std::array<float, 9>{}) +
              raw<std::int32_t>(0x7fffffff),
-         "line 9 of the header is not supported",
-         {}},
+         "face 0 is missing",
+         {0}},
         {"a.ply", huge + float_xyz + list, "count of vertex elements does not fit", {}},
         {"a.ply",
          "ply\nformat ascii 1.0\nelement nothing 1000000000000\nend_header\n",

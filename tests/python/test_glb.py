@@ -419,3 +419,115 @@ def test_a_batch_maps_each_scene_to_a_scene(tmp_path):
     assert (tmp_path / "out" / "scene.glb").read_bytes() == (tmp_path / "alone.glb").read_bytes()
     assert rows["scene.glb"]["exit_code"] == 0
     assert rows["scene.glb"]["faces"] == len(plate(10)[1]) + len(plate(12)[1])
+
+
+def lit_scene(transform=None, texcoord=0, tangents=True, second=False):
+    """A plate with normals, tangents and a normal map; with `second` another mesh of lines has the material too."""
+    scene = GlbBuilder()
+    vertices, faces = plate()
+    one = indexed(scene, vertices, faces, material=0)
+    count = len(vertices)
+    one["attributes"]["NORMAL"] = scene.accessor(np.tile(np.array([0, 0, 1], "<f4"), (count, 1)), "VEC3")
+    if tangents:
+        one["attributes"]["TANGENT"] = scene.accessor(np.tile(np.array([1, 0, 0, 1], "<f4"), (count, 1)), "VEC4")
+    one["attributes"]["TEXCOORD_0"] = scene.accessor(vertices[:, :2], "VEC2")
+    scene.mesh(one, name="Plate")
+    if second:
+        scene.mesh({"attributes": {"POSITION": one["attributes"]["POSITION"]}, "mode": 1, "material": 0})
+    texture = {"index": 0, **({"texCoord": texcoord} if texcoord else {})}
+    if transform:
+        texture["extensions"] = {"KHR_texture_transform": transform}
+    scene.json |= {
+        "materials": [{"normalTexture": texture, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "textures": [{}],
+        "extensionsUsed": ["KHR_texture_transform"],
+    }
+    return scene
+
+
+def test_tangents_go_with_the_uvs_that_they_follow(tmp_path):
+    data = lit_scene().bytes()
+    new, report = mapped(tmp_path, data, "parts")
+    attributes = new.json["meshes"][0]["primitives"][0]["attributes"]
+    assert {*attributes} == {"POSITION", "NORMAL", "TEXCOORD_0"}
+    assert any("tangents" in warning["text"] for warning in report["warnings"])
+    # As a second set they leave the first set and its tangents alone.
+    second, report = mapped(tmp_path, data, "parts", "--uv-channel", 1)
+    attributes = second.json["meshes"][0]["primitives"][0]["attributes"]
+    assert {*attributes} == {"POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1"}
+    assert not kinds_in(report) & {"not_kept", "replaced_uvs"}
+    assert np.array_equal(second.array(attributes["TEXCOORD_1"]),
+                          new.array(new.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"]))  # fmt: skip
+    old = GlbReader(data)
+    before = old.json["meshes"][0]["primitives"][0]["attributes"]
+    count = len(old.array(before["POSITION"]))
+    for name in ("TANGENT", "TEXCOORD_0"):
+        assert np.array_equal(second.array(attributes[name])[:count], old.array(before[name]))
+    # A normal map on the second set: the tangents follow that one.
+    third, _ = mapped(tmp_path, lit_scene(texcoord=1).bytes(), "parts")
+    assert "TANGENT" in third.json["meshes"][0]["primitives"][0]["attributes"]
+
+
+def test_textures_that_were_moved_show_in_whole_on_new_uvs(tmp_path):
+    eighth = {"scale": [0.125, 0.125], "offset": [0.5, 0]}
+    new, report = mapped(tmp_path, lit_scene(eighth).bytes(), "parts")
+    assert "extensions" not in new.json["materials"][0]["normalTexture"]
+    assert any("moved" in warning["text"] for warning in report["warnings"])
+    # The transform may choose the set.
+    chosen, _ = mapped(tmp_path, lit_scene(eighth | {"texCoord": 0}, texcoord=1).bytes(), "parts")
+    assert chosen.json["materials"][0]["normalTexture"] == {"index": 0}
+    other = lit_scene(eighth | {"texCoord": 1})
+    kept, report = mapped(tmp_path, other.bytes(), "parts")
+    assert kept.json["materials"] == other.json["materials"]
+    # Lines have the material too, or an animation moves it: it stays, with a warning.
+    shared, moved = lit_scene(eighth, second=True), lit_scene(eighth)
+    pointer = "/materials/0/normalTexture/extensions/KHR_texture_transform/offset"
+    target = {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}}
+    moved.json["animations"] = [{"channels": [{"sampler": 0, "target": target}], "samplers": []}]
+    for scene in (shared, moved):
+        left, report = mapped(tmp_path, scene.bytes(), "parts")
+        assert left.json["materials"] == scene.json["materials"]
+        assert any("still move" in warning["text"] for warning in report["warnings"])
+
+
+def test_a_further_set_of_uvs_needs_those_before_it_and_a_glb_file(tmp_path):
+    (tmp_path / "in.glb").write_bytes(lit_scene().bytes())
+    run = koebe("parts", "in.glb", "out.glb", "--uv-channel", 3, cwd=tmp_path)
+    assert run.returncode == CANNOT_BE_MAPPED and "has no TEXCOORD_1" in run.stderr
+    (tmp_path / "in.obj").write_text(obj_text(*plate()))
+    run = koebe("parts", "in.obj", "out.obj", "--uv-channel", 1, cwd=tmp_path)
+    assert run.returncode == USAGE and "--uv-channel" in run.stderr
+    assert not (tmp_path / "out.glb").exists() and not (tmp_path / "out.obj").exists()
+
+
+def test_positions_may_be_sparse_alone(tmp_path):
+    vertices, faces = plate()
+    scene = GlbBuilder()
+    scene.mesh(indexed(scene, vertices, faces))
+    whole, _ = mapped(tmp_path, scene.bytes(), "parts")
+    accessor = scene.json["accessors"][scene.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"]]
+    numbers = scene.view(np.arange(len(vertices), dtype="<u2").tobytes())
+    values = {"bufferView": accessor.pop("bufferView"), "byteOffset": accessor.pop("byteOffset")}
+    indices = {"bufferView": numbers, "componentType": 5123}
+    accessor["sparse"] = {"count": len(vertices), "indices": indices, "values": values}
+    sparse, _ = mapped(tmp_path, scene.bytes(), "parts")
+    uvs = [file.array(file.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"]) for file in (whole, sparse)]
+    assert np.array_equal(*uvs)
+    accessor["count"] = 2**40
+    (tmp_path / "in.glb").write_bytes(scene.bytes())
+    assert koebe("parts", "in.glb", "out.glb", cwd=tmp_path).returncode == CANNOT_BE_MAPPED
+
+
+def test_meshes_without_a_triangle_do_not_stop_a_scene(tmp_path):
+    scene = GlbBuilder()
+    vertices, faces = plate()
+    point = scene.positions(np.zeros((3, 3)))
+    empty = {"attributes": {"POSITION": point}}
+    scene.mesh(empty, name="Point")
+    scene.mesh(indexed(scene, vertices, faces), name="Plate")
+    scene.mesh({**empty, "mode": 0}, name="Points")
+    scene.mesh({**empty, "indices": scene.accessor(np.zeros((6, 1), "<u2"), "SCALAR")}, name="Degenerate")
+    scene.mesh({"attributes": {}}, name="Nothing")
+    new, _ = mapped(tmp_path, scene.bytes(), "parts")
+    for before, after in zip(scene.json["meshes"], new.json["meshes"], strict=True):
+        assert (before == after) == (before["name"] != "Plate")

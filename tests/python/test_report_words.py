@@ -7,7 +7,7 @@ import pytest
 
 OF_THE_COMMAND = {  # kinds that no map in Blender has
     "packing", "closing_gap", "flow_flips", "no_hole", "not_fitted", "replaced_uvs", "not_kept", "cut", "pieces",
-    "crossings", "not_enclosed", "thin_bridges",
+    "crossings", "not_enclosed", "thin_bridges", "coincident",
 }  # fmt: skip
 
 

@@ -20,7 +20,7 @@ template <typename Result>
 void write_corners(MapKind<Result>& kind, WrittenFormat format)
 {
     kind.corner_uvs = [](const MeshInput& input, const Result& result) {
-        return polygon_corner_uvs(input.polygons, input.triangulation, result.uv);
+        return polygon_corner_uvs(input.mapped_polygons(), input.triangulation, result.uv);
     };
     kind.write_mesh = [format, uvs = kind.corner_uvs](AtomicFile& file, const MeshInput& input, const Result& result) {
         return write_with_corner_uvs(file, format, input.polygons, uvs(input, result), {input.file});
@@ -36,6 +36,7 @@ MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen
     kind.compute = [&chosen, map](const MeshInput& input, ExecutionContext& context) {
         Options options = chosen;
         options.polygon = input.triangulation.face;
+        name_mapped_vertices(input, options);
         Result result = with_filed_faces(
             input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, options, context); });
         result.turned = filed_faces(input.triangulation, result.turned);
@@ -97,6 +98,7 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
         add_output(*options, request->output, help.output);
     }
     add_options(*options, help.name, request->chosen);
+    add_options(*options, help.name, request->of_files);
     request->show.add(*options, help.name, "show");
     request->importance.add(*options, help.name, "importance");
     if (help.sphere != nullptr) options->add_option("--sphere", request->sphere, help.sphere)->type_name("FILE");
@@ -106,6 +108,7 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
         check(*request);
         if (!request->sphere.empty()) required_format(request->sphere);
         request->entries["options"] = option_report(name, request->chosen);
+        request->entries["options"].update(option_report(name, request->of_files));
         request->show.check(*request);
         request->importance.check(*request);
     });

@@ -42,9 +42,11 @@ int run_cut_map(const MapRequest& request)
     kind.any_polygon = true;
     kind.many_pieces = true;
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        require_fitting_vertices(input, request.options);
+        UniformizeOptions options = request.options;
+        name_mapped_vertices(input, options);
+        require_fitting_vertices(input, options);
         CutUniformizeResult result = uniformize_with_cuts(input.polygons.vertices, input.triangulation.triangles,
-                                                          input.triangulation.face, request.options, context);
+                                                          input.triangulation.face, options, context);
         name_filed_faces(input, result);
         return result;
     };

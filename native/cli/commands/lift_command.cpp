@@ -47,6 +47,7 @@ int run_lift(const LiftRequest& request)
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
         LiftOptions chosen = request.chosen;
         chosen.graded = request.graded.read("a share of the size");
+        name_mapped_vertices(input, chosen);
         LiftResult result = with_filed_faces(input, [&] {
             return lift(input.polygons.vertices, input.triangulation.triangles, request.pattern, chosen, context);
         });
@@ -95,6 +96,7 @@ Subcommand add_lift(CLI::App& app)
     add_output(*options, request->output,
                "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL or 3MF");
     add_options(*options, "lift", request->chosen);
+    add_options(*options, "lift", request->of_files);
     request->graded.add(*options, "lift", "graded");
     add_report_options(*options, *request, "");
     options->callback([request] {
@@ -105,6 +107,7 @@ Subcommand add_lift(CLI::App& app)
         if (is_pattern_file(request->pattern)) inputs.push_back(request->pattern);
         require_different_files(map_files(*request), inputs, !request->quiet);
         request->entries["options"] = option_report("lift", request->chosen);
+        request->entries["options"].update(option_report("lift", request->of_files));
         request->graded.check(*request);
     });
     return {options, [request] { return run_lift(*request); }};

@@ -56,10 +56,13 @@ int run_map(const MapRequest& request, const MapFunction& compute)
 {
     MapKind<UniformizeResult> kind = disk_map(request);
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        UniformizeOptions options = request.options;
+        name_mapped_vertices(input, options);
         UniformizeResult result = with_filed_faces(input, [&] {
-            require_fitting_vertices(input, request.options);
-            return compute(input.polygons.vertices, input.triangulation.triangles, context);
+            require_fitting_vertices(input, options);
+            return compute(input.polygons.vertices, input.triangulation.triangles, options, context);
         });
+        input.give_to_joined(result.uv);
         add_input_warnings(input, result.warnings);
         return result;
     };

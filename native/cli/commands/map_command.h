@@ -9,7 +9,8 @@
 
 namespace koebe::cli {
 
-using MapFunction = std::function<UniformizeResult(const Vertices&, const Triangles&, ExecutionContext&)>;
+using MapFunction =
+    std::function<UniformizeResult(const Vertices&, const Triangles&, const UniformizeOptions&, ExecutionContext&)>;
 
 /// Reads, computes, writes all files or none, and prints the result line.
 /// @return an ExitCode

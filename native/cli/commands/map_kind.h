@@ -43,7 +43,10 @@ ReadOptions begin_run(const MapRequest& request, const MapKind<Result>& kind)
 {
     if (!kind.many_pieces) take_roomy_heap();
     require_writable_files(map_files(request), !request.quiet);
-    return {.any_polygon = kind.any_polygon, .hash = !request.json.empty(), .threads = request.options.threads};
+    return {.any_polygon = kind.any_polygon,
+            .hash = !request.json.empty(),
+            .weld = request.of_files.weld,
+            .threads = request.options.threads};
 }
 
 /// The kind of a map to the disk, without its computation.

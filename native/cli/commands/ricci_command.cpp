@@ -16,9 +16,9 @@ struct RicciRequest : MapRequest {
     std::string packing = "inversive", target = "inscribed", triangulation = "delaunay";
 };
 
-RicciOptions ricci_options(const RicciRequest& request)
+RicciOptions ricci_options(const RicciRequest& request, const UniformizeOptions& chosen)
 {
-    return {.common = request.options,
+    return {.common = chosen,
             .packing = request.packing == "acute" ? Packing::acute : Packing::inversive,
             .target = request.target == "inscribed" ? BoundaryTarget::inscribed : BoundaryTarget::proportional,
             .delaunay = request.triangulation == "delaunay"};
@@ -48,17 +48,20 @@ Subcommand add_ricci(CLI::App& app)
         ->check(CLI::IsMember({"delaunay", "given"}))
         ->capture_default_str();
     add_options(*options, "ricci", request->options);
+    add_options(*options, "ricci", request->of_files);
     add_report_options(*options, *request);
     options->callback([request] {
         check_map_files(*request);
         nlohmann::ordered_json words = option_report("ricci", request->options);
+        words.update(option_report("ricci", request->of_files));
         words.update(
             {{"packing", request->packing}, {"target", request->target}, {"triangulation", request->triangulation}});
         request->entries["options"] = std::move(words);
     });
     return {options, [request] {
-                return run_map(*request, [&](const auto& vertices, const auto& triangles, ExecutionContext& context) {
-                    return ricci_uniformize(vertices, triangles, ricci_options(*request), context);
+                return run_map(*request, [&](const auto& vertices, const auto& triangles, const auto& chosen,
+                                             ExecutionContext& context) {
+                    return ricci_uniformize(vertices, triangles, ricci_options(*request, chosen), context);
                 });
             }};
 }

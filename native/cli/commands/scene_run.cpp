@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 
 namespace koebe::cli {
@@ -69,7 +70,7 @@ Json scene_report(const SceneInput& scene, const std::vector<MappedMesh>& mapped
             {"seconds", {{"read", scene.seconds}, {"write", written}, {"total", total}}}};
 }
 
-/// The warnings of all meshes, with their names where there are several, and that old UVs were replaced.
+/// The warnings of all meshes, with their names where there are several.
 std::vector<Warning> scene_warnings(const SceneInput& scene, const std::vector<MappedMesh>& mapped)
 {
     std::vector<Warning> warnings;
@@ -141,11 +142,10 @@ int finish_scene(const MapRequest& request, const SceneInput& scene, std::vector
     std::vector<std::vector<GltfPoint>> uvs;
     for (MappedMesh& mesh : mapped) uvs.push_back(std::move(mesh.uvs));
     std::vector<Warning> warnings = scene_warnings(scene, mapped);
-    if (std::ranges::any_of(scene.meshes, &GltfMesh::has_uvs))
-        warnings.push_back(
-            {WarningKind::replaced_uvs, "the file's texture coordinates (TEXCOORD_0) are replaced by the map's"});
+    GlbWithUvs made = glb_with_corner_uvs(scene.file.bytes, scene.meshes, uvs, request.of_files.uv_channel);
+    std::ranges::move(made.warnings, std::back_inserter(warnings));
     std::vector<AtomicFile> files;
-    files.emplace_back(request.output).write(glb_with_corner_uvs(scene.file.bytes, scene.meshes, uvs));
+    files.emplace_back(request.output).write(made.bytes);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(mapped.front().picture);
     const double written = writing.elapsed(), total = run.elapsed();
     if (!request.json.empty()) {

@@ -23,6 +23,7 @@ int run_sphere(const CornerMapRequest<SphereOptions>& request)
     auto kind = corner_map_kind<SphereResult, SphereOptions>(request, request.chosen, sphere_map);
     kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
         SphereResult result = compute(input, context);
+        input.give_to_joined(result.points);
         for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::torn, &SphereLayoutReport::flipped,
                            &SphereLayoutReport::below_resolution})
             result.layout.*faces = filed_faces(input.triangulation, result.layout.*faces);
@@ -30,7 +31,7 @@ int run_sphere(const CornerMapRequest<SphereOptions>& request)
     };
     kind.write_sphere = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
         return write_with_corner_uvs(file, required_format(request.sphere), on_unit_sphere(input, result),
-                                     polygon_corner_uvs(input.polygons, input.triangulation, result.uv),
+                                     polygon_corner_uvs(input.mapped_polygons(), input.triangulation, result.uv),
                                      {input.file, true});
     };
     kind.draw = [](const MeshInput& input, const SphereResult& result) {

@@ -3,6 +3,7 @@
 #include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
 #include "cli/commands/weights_option.h"
+#include "cli/options/option_table.h"
 #include "cli/options/uniformize_options.h"
 #include "cli/process/end_with_input.h"
 
@@ -28,6 +29,7 @@ Subcommand add_uniformize(CLI::App& app)
     CLI::App* options = app.add_subcommand("uniformize", "map a surface with holes to a circle domain");
     add_mesh_arguments(*options, *request);
     add_uniformize_options(*options, request->options, request->cut);
+    add_options(*options, "uniformize", request->of_files);
     request->importance.add(*options, "uniformize", "importance");
     add_report_options(*options, *request);
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
@@ -38,15 +40,17 @@ Subcommand add_uniformize(CLI::App& app)
             !(request->options.even > 0.0))
             throw CLI::ValidationError("--importance", "needs --balance area, or --even above 0");
         request->entries["options"] = uniformize_report(request->options, request->cut);
+        request->entries["options"].update(option_report("uniformize", request->of_files));
         request->importance.check(*request);
     });
     return {options, [request] {
                 if (request->ends_with_input) end_with_input();
                 request->options.importance = request->importance.read("an importance");
                 if (request->cut) return run_cut_map(*request);
-                return run_map(*request, [&](const auto& vertices, const auto& triangles, ExecutionContext& context) {
-                    require_schedule_of_loops(triangles, static_cast<Index>(vertices.rows()), request->options);
-                    return uniformize(vertices, triangles, request->options, context);
+                return run_map(*request, [](const auto& vertices, const auto& triangles, const auto& chosen,
+                                            ExecutionContext& context) {
+                    require_schedule_of_loops(triangles, static_cast<Index>(vertices.rows()), chosen);
+                    return uniformize(vertices, triangles, chosen, context);
                 });
             }};
 }

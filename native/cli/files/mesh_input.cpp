@@ -7,9 +7,11 @@
 #include "execution/detachable_run.h"
 #include "execution/stopwatch.h"
 #include "execution/thread_share.h"
+#include "io/welding.h"
 #include "quality/take_verdict.h"
 
 #include <system_error>
+#include <utility>
 
 namespace koebe::cli {
 
@@ -24,9 +26,22 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     input.file = read_mesh_file(path);
     input.polygons = parse_mesh(input.file.bytes, input.file.extension);
     if (!options.keep_file) input.file = {};
-    triangulate_input(input, options.any_polygon);
+    triangulate_input(input, options);
     input.seconds = reading.elapsed();
     return input;
+}
+
+void join_vertices(MeshInput& input, double distance)
+{
+    input.first = weld(input.polygons.vertices, distance);
+    input.joined = input.polygons;
+    for (Index& corner : input.joined->corners) corner = input.mapped(corner);
+    std::vector<Index> joined;
+    for (Index v = 0; v < static_cast<Index>(input.first.size()); ++v)
+        if (input.mapped(v) != v) joined.push_back(v);
+    if (!joined.empty())
+        input.warnings.push_back(
+            {WarningKind::coincident, counted(joined.size(), "vertex") + " joined to earlier ones in the map", joined});
 }
 
 }  // namespace
@@ -39,9 +54,10 @@ std::string input_hash(const std::filesystem::path& path)
     return std::filesystem::is_regular_file(path, error) ? batch::sha256_of_file(path) : "";
 }
 
-void triangulate_input(MeshInput& input, bool any_polygon)
+void triangulate_input(MeshInput& input, const ReadOptions& options)
 {
-    input.triangulation = triangulate(input.polygons, !any_polygon);
+    if (options.weld) join_vertices(input, *options.weld);
+    input.triangulation = triangulate(input.mapped_polygons(), !options.any_polygon);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;
     if (!collapsed.empty())
         input.warnings.push_back(
@@ -55,6 +71,9 @@ void triangulate_input(MeshInput& input, bool any_polygon)
                                   uncut});
     if (input.triangulation.triangles.rows() == 0)
         throw InputError("no face has three different vertices", ElementKind::faces, collapsed);
+    if (options.weld) return;
+    if (auto warning = coincident_vertices(input.polygons.vertices, input.triangulation.triangles))
+        input.warnings.push_back(*std::move(warning));
 }
 
 MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options)
@@ -69,6 +88,14 @@ void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)
     for (Warning& warning : warnings)
         if (elements_of(warning.kind) == ElementKind::faces)
             warning.elements = filed_faces(input.triangulation, warning.elements);
+    for (Warning& warning : warnings) {
+        if (warning.kind != WarningKind::unused_vertices || input.first.empty()) continue;
+        std::erase_if(warning.elements, [&](Index v) { return input.mapped(v) != v; });
+        warning.sentence = counted(warning.elements.size(), "vertex") + " in no face";
+    }
+    std::erase_if(warnings, [](const Warning& warning) {
+        return warning.kind == WarningKind::unused_vertices && warning.elements.empty();
+    });
     warnings.insert(warnings.begin(), input.warnings.begin(), input.warnings.end());
     put_loss_first(warnings);
 }

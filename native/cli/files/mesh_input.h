@@ -8,25 +8,60 @@
 #include "io/polygon_triangulation.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace koebe::cli {
 
 struct MeshInput {
-    MeshFile file;  ///< kept if the file is to be written again
-    PolygonMesh polygons;
-    Triangulation triangulation;
+    MeshFile file;                      ///< kept if the file is to be written again
+    PolygonMesh polygons;               ///< as they are written again
+    std::vector<Index> first;           ///< (V) with --weld: the vertex that each one is joined to; else empty
+    std::optional<PolygonMesh> joined;  ///< with --weld: the polygons with joined corners
+    Triangulation triangulation;        ///< of the joined polygons
     std::vector<Warning> warnings;
     std::string sha256;    ///< hash of the file, if requested; empty for a pipe or a device
     double seconds = 0.0;  ///< time to read and triangulate
+
+    const PolygonMesh& mapped_polygons() const { return joined ? *joined : polygons; }
+    /// The vertex that stands for a vertex in the map; also -1 for none.
+    Index mapped(Index vertex) const
+    {
+        const bool is_joined = vertex >= 0 && vertex < static_cast<Index>(first.size());
+        return is_joined ? first[static_cast<std::size_t>(vertex)] : vertex;
+    }
+    /// Gives joined vertices the row of the vertex that they are joined to.
+    template <typename Rows>
+    void give_to_joined(Rows& rows) const
+    {
+        for (Index v = 0; v < static_cast<Index>(first.size()); ++v)
+            if (mapped(v) != v) rows.row(v) = rows.row(mapped(v)).eval();
+    }
 };
+
+/// Changes the vertices that options name to the vertices that stand for them in the map.
+template <typename Options>
+void name_mapped_vertices(const MeshInput& input, Options& options)
+{
+    if constexpr (requires { options.outer_vertex; }) {
+        options.outer_vertex = input.mapped(options.outer_vertex);
+        options.center = input.mapped(options.center);
+        options.point = input.mapped(options.point);
+    }
+    if constexpr (requires { options.inner; }) {
+        options.outer = input.mapped(options.outer);
+        options.inner = input.mapped(options.inner);
+    }
+    if constexpr (requires { options.around; }) options.around = input.mapped(options.around);
+}
 
 struct ReadOptions {
     bool keep_file = true;     ///< needed to write the file's other contents again
     bool any_polygon = false;  ///< polygons that cannot be cut into triangles are a warning, not an error
     bool hash = false;         ///< computes sha256: takes as long as reading
-    int threads = 1;           ///< at most; 0: all cores
+    std::optional<double> weld = {};
+    int threads = 1;  ///< at most; 0: all cores
 };
 
 /// @throws FileError, InputError, Cancelled
@@ -35,13 +70,15 @@ MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& 
 /// The hash of a file before it is read; empty for a pipe or a device.
 std::string input_hash(const std::filesystem::path& path);
 
-/// Triangulates the polygons, and adds warnings about left out ones. @throws InputError
-void triangulate_input(MeshInput& input, bool any_polygon);
+/// Joins vertices, triangulates the polygons, and adds warnings about left out ones, and about coincident vertices.
+/// @throws InputError
+void triangulate_input(MeshInput& input, const ReadOptions& options);
 
 /// The faces of the file that contain these triangles, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);
 
-/// Changes the warnings' faces to the file's, and puts the warnings from reading first.
+/// Changes the warnings' faces to the file's, takes joined vertices out of those that no face has, and puts the
+/// warnings from reading first.
 void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings);
 
 /// Calls compute(), and changes an error's faces to the file's.

@@ -19,7 +19,7 @@ SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
         with_mesh_name(scene, scene.inputs.size(), [&] {
             MeshInput input;
             input.polygons = std::move(mesh.polygons);
-            triangulate_input(input, options.any_polygon);
+            triangulate_input(input, options);
             scene.inputs.push_back(std::move(input));
         });
     scene.seconds = reading.elapsed();

@@ -54,6 +54,8 @@ void check_map_files(MapRequest& request)
         require_glb_files(request);
     else
         request.format = required_format(request.output);
+    if (request.of_files.uv_channel > 0 && io::lower_extension(request.output) != glb_extension)
+        throw CLI::ValidationError("--uv-channel", "only GLB files have a second set of texture coordinates");
     require_different_files(map_files(request), {request.input}, !request.quiet);
 }
 

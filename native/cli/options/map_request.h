@@ -1,6 +1,7 @@
 // The files and options of a sub-command that maps a surface to a circle domain.
 #pragma once
 
+#include "cli/files/file_options.h"
 #include "cli/files/output_files.h"
 #include "io/mesh_writer.h"
 #include "pipeline/options.h"
@@ -18,6 +19,7 @@ struct MapRequest {
     std::string sphere;                         ///< for `koebe sphere`: the sphere as a mesh
     WrittenFormat format = WrittenFormat::obj;  ///< of OUT
     UniformizeOptions options;
+    FileOptions of_files;
     bool quiet = false;
     nlohmann::ordered_json entries = nlohmann::ordered_json::object();  ///< additional entries of the report
 };

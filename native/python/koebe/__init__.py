@@ -12,6 +12,7 @@ from ._api import (
     fill_holes,
     harmonic_map,
     uniformize,
+    weld,
 )
 from ._batch import batch
 from ._certified import CertifiedModuli, certified_moduli
@@ -142,5 +143,6 @@ __all__ = [
     "uniformize",
     "uv_to_disk",
     "vertex_noise",
+    "weld",
     "write_field",
 ]

@@ -10,7 +10,7 @@ from ._cut_result import CutResult
 from ._input import is_surface, points_at_vertices, polygons_of, surface_of
 from ._native import _koebe
 from ._option_table import rows
-from ._options import callback, choice, filled, flag, takes, token, vertex_weights, whole
+from ._options import callback, choice, filled, flag, number, takes, token, vertex_weights, whole
 from ._result import Source, UniformizeResult, with_origin
 from ._signatures import UniformizeOptions
 from .errors import InputError, OptionError, SolverError, TopologyError
@@ -105,7 +105,8 @@ def uniformize(
         cut = False
     elif options.mesh.schedule or options.mesh.record_steps:
         raise OptionError("cut excludes schedule and record_steps: both name the loops of one surface")
-    source = surface_of(vertices, triangles, degenerate=cut, mask=given["mask"])
+    source = surface_of(vertices, triangles, degenerate=cut, mask=given["mask"], weld=chosen["weld"])
+    source.name_mapped_vertices(options)
     options.importance = importance_of(given["importance"], chosen, len(source.vertices))
     if cut:
         polygon = polygons_of(None, source)
@@ -258,6 +259,20 @@ def harmonic_map(
         raise InputError("at least one vertex must be fixed")
     points = as_points(values, "values", 2, len(chosen))
     return source.outside_nan(source.call(_koebe.harmonic_map, chosen, points, flag(uniform, "uniform")))
+
+
+def weld(vertices: Any, distance: float = 0.0) -> np.ndarray:
+    """Find vertices that lie close together, as the option `weld` joins them.
+
+    distance   in the vertices' unit, at least 0. 0: vertices at the same place
+    Returns (V,) int32: for each vertex the vertex that it is joined to, an earlier one or itself. In their order, each
+    joins the nearest one that was kept before it within the distance, or is kept.
+
+    >>> import koebe
+    >>> koebe.weld([[0, 0, 0], [1, 0, 0], [0, 0, 0.01]], 0.1).tolist()
+    [0, 1, 0]
+    """
+    return _koebe.weld(as_points(vertices, "vertices", 3), number(distance, rows("parts")["weld"]))
 
 
 def distortion(vertices: Any, triangles: Any = None, uv: Any = None, *, mask: Any = None) -> dict[str, Any]:

@@ -38,7 +38,7 @@ def mesh_with_corner_uv(
     if source.mesh is None or source.polygons is None or source.polygon is None:
         raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
     count = len(source.vertices)
-    old, triangles, uv_of = doubled(source.triangles, uv, count)
+    old, triangles, uv_of = doubled(source.given_triangles, uv, count)
     points = source.vertices[old]
     error = face_angle_error_deg(points, triangles, uv_of)
     known = mapped & np.isfinite(error)
@@ -55,7 +55,7 @@ def mesh_with_corner_uv(
     corners[source.polygon[mapped]] = uv.reshape(-1, 6)[mapped]
     one = np.bincount(old, minlength=count) == 1
     of_points = {name: values[:count] for name, values in of_points.items()}
-    scale = log_scale_of_corners(source.vertices, source.triangles[mapped], uv[mapped])
+    scale = log_scale_of_corners(source.vertices, source.given_triangles[mapped], uv[mapped])
     fields = Fields(
         np.where(one[:, None], uv_of[:count], np.nan), {LOG_SCALE: scale, **of_points}, {**of_faces, CORNER_UV: corners}
     )
@@ -81,9 +81,9 @@ def _polygon_corners(source: "Source", triangles: np.ndarray) -> np.ndarray:
     polygons, polygon = source.polygons, source.polygon
     assert polygons is not None and polygon is not None
     count = np.int64(len(source.vertices))
-    key, index = np.unique(np.repeat(polygon, 3) * count + source.triangles.ravel(), return_index=True)
+    key, index = np.unique(np.repeat(polygon, 3) * count + source.given_triangles.ravel(), return_index=True)
     new = triangles.ravel()
-    again = index[np.searchsorted(key, np.repeat(polygon, 3) * count + source.triangles.ravel())]
+    again = index[np.searchsorted(key, np.repeat(polygon, 3) * count + source.given_triangles.ravel())]
     torn = np.unique(np.repeat(polygon, 3)[new != new[again]])
     if len(torn):
         text = f"{len(torn)} polygons are cut apart in the UVs: give the mesh as triangles"

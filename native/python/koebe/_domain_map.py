@@ -87,7 +87,8 @@ def domain_map(
     """
     options, said = filled(of, options, given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(*surface, degenerate=degenerate, mask=given["mask"])
+    source = surface_of(*surface, degenerate=degenerate, mask=given["mask"], weld=said["weld"])
+    source.name_mapped_vertices(options)
     if given.get("importance") is not None:
         if not said["even"]:
             raise OptionError("importance needs even above 0: it weighs the sizes of faces")

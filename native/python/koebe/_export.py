@@ -48,7 +48,7 @@ def export(result: Any, path: str | os.PathLike[str]) -> None:
     elif low.endswith(PYVISTA):
         content = saved_bytes(low, lambda place: _as(result, "pyvista").to_mesh().save(place))
     elif low.endswith(".obj"):
-        vertices, triangles = result.surface
+        vertices, triangles = result._source.vertices, result._source.given_triangles
         content = obj_of(vertices, triangles, result.corner_uv).encode()
     elif is_patch_name(path):
         content = _patch(result)
@@ -77,7 +77,7 @@ def flat_surface(result: Any) -> tuple[np.ndarray, np.ndarray]:
     """The map as a surface, (V, 3) and its triangles: in the plane z = 0 with the area of the surface, or the sphere of
     radius 100; or the surface itself, if the result is no map. Vertices without a face are at 0. Raises InputError for
     a map with cuts."""
-    vertices, triangles = result.surface
+    vertices, triangles = result._source.vertices, result._source.given_triangles
     if getattr(result, "is_surface", False):
         return vertices, triangles
     on_sphere = getattr(result, "points", None)
@@ -130,7 +130,7 @@ def _as(result: Any, kind: str) -> Any:
     source = result._source
     if source.mesh is not None and kind_of(source.mesh) == kind:
         return result
-    vertices, triangles = source.vertices, source.triangles
+    vertices, triangles = source.vertices, source.given_triangles
     if kind == "gifti":
         mesh = gifti_of(vertices, triangles, {})
     elif kind == "meshio":

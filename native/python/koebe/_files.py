@@ -53,4 +53,5 @@ class Saved:
 
 
 def _kept(source: Any) -> dict[str, Any]:
-    return {} if source.kept is None else {"kept": source.kept}
+    arrays = {name: getattr(source, name) for name in ("kept", "first", "filed")}
+    return {name: array for name, array in arrays.items() if array is not None}

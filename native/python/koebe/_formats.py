@@ -73,6 +73,17 @@ def head_of(path: str | os.PathLike[str]) -> bytes:
         return file.read(4)
 
 
+def is_old_quads(path: str | os.PathLike[str]) -> bool:
+    """Whether the file is FreeSurfer's first kind of surface: quadrilaterals, and coordinates in hundredths. It begins
+    like a file of values at vertices: only the length tells."""
+    with open(path, "rb") as file:
+        head = file.read(9)
+    if len(head) < 9 or head[:3] != _CURV:
+        return False
+    vertices, quads = (int.from_bytes(head[at : at + 3], "big") for at in (3, 6))
+    return bool(quads) and os.path.getsize(path) == len(head) + 6 * vertices + 12 * quads
+
+
 def is_foreign_surface(path: str | os.PathLike[str]) -> bool:
     """Whether another package reads the surface in this file."""
     name = Path(path).name.lower()
@@ -127,7 +138,7 @@ def _freesurfer(path: str | os.PathLike[str]) -> Any:
             f"{os.fspath(path)} is a patch, which has no faces: give the surface that it was cut from, with "
             "mask=~koebe.read_region(patch, vertices)"
         )
-    if head[:3] == _CURV:
+    if head[:3] == _CURV and not is_old_quads(path):
         raise InputError(f"{os.fspath(path)} has values at vertices, no surface: koebe.read_field reads it")
     with read_by("nibabel.freesurfer", path) as freesurfer, warnings.catch_warnings():
         warnings.simplefilter("ignore")  # most surfaces of other programs know no volume

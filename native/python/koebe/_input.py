@@ -9,32 +9,58 @@ import numpy as np
 
 from ._arrays import as_points, as_surface
 from ._formats import is_foreign_surface, read_surface
-from ._meshes import Polygons, is_mesh, read_mesh
+from ._meshes import Polygons, can_give_back, is_mesh, plain, read_mesh
 from ._native import _koebe
 from ._result import Source
 from .errors import InputError
 
 
-def surface_of(vertices: Any, triangles: Any = None, degenerate: bool = False, mask: Any = None) -> Source:
+def surface_of(
+    vertices: Any, triangles: Any = None, degenerate: bool = False, mask: Any = None, weld: float | None = None
+) -> Source:
     """The surface as arrays. In place of vertices and triangles: a pair of both, a mesh file, another package's mesh.
 
     degenerate   faces may name a vertex twice
     mask         (V,) bool: faces with a vertex where it is True are left out; the vertices keep their numbers
+    weld         distance of vertices that are joined: triangles name the first of them
     """
     source = _whole_surface(vertices, triangles, degenerate)
+    if weld is not None:
+        source = _welded(source, weld, degenerate)
     return source if mask is None else _masked(source, mask)
+
+
+def _welded(source: Source, distance: float, degenerate: bool) -> Source:
+    """The surface with joined vertices. Unless triangles may be degenerate, those that become so are left out."""
+    first = _koebe.weld(source.vertices, distance)
+    welded = replace(source, triangles=first[source.triangles], first=first, filed=source.triangles)
+    a, b, c = welded.triangles.T
+    kept = np.flatnonzero((a != b) & (b != c) & (c != a)).astype(np.int32)
+    if not len(kept):
+        raise InputError(f"all faces collapse if vertices within {distance:g} are joined")
+    return welded if degenerate or len(kept) == len(a) else _restricted(welded, kept)
+
+
+def _restricted(source: Source, kept: np.ndarray) -> Source:
+    """The surface with only these of its triangles."""
+
+    def rows(array: np.ndarray | None) -> np.ndarray | None:
+        return None if array is None else array[kept]
+
+    return replace(
+        source, triangles=source.triangles[kept], polygon=rows(source.polygon), filed=rows(source.filed),
+        kept=source.source_face[kept],
+    )  # fmt: skip
 
 
 def _masked(source: Source, mask: Any) -> Source:
     out = as_mask(mask, len(source.vertices))
-    dropped = out[source.triangles].any(axis=1)
+    dropped = out[source.given_triangles].any(axis=1)
     if source.polygon is not None:  # a polygon is one face
         dropped = np.isin(source.polygon, source.polygon[dropped])
     if dropped.all():
         raise InputError("the mask leaves out all faces")
-    kept = np.flatnonzero(~dropped).astype(np.int32)
-    polygon = None if source.polygon is None else source.polygon[kept]
-    return replace(source, triangles=source.triangles[kept], polygon=polygon, kept=kept, mask=out)
+    return replace(_restricted(source, np.flatnonzero(~dropped)), mask=out)
 
 
 def as_mask(mask: Any, count: int) -> np.ndarray:
@@ -59,6 +85,8 @@ def points_at_vertices(points: Any, name: str, source: Source) -> np.ndarray:
 def _whole_surface(vertices: Any, triangles: Any, degenerate: bool) -> Source:
     if _is_path(vertices) and is_foreign_surface(vertices):
         vertices = read_surface(vertices)
+    if is_mesh(vertices):
+        vertices = plain(vertices)
     polygons = _polygons_in(vertices)
     if polygons is None:
         if triangles is None:
@@ -71,7 +99,7 @@ def _whole_surface(vertices: Any, triangles: Any, degenerate: bool) -> Source:
     if len(corners) and not 0 <= corners.min() <= corners.max() < len(positions):
         raise InputError("faces of the mesh name a vertex that does not exist")
     faces, polygon = _koebe.triangulate(positions, corners.astype(np.int32), polygons.begin.astype(np.int32))
-    return Source(*as_surface(positions, faces), vertices if is_mesh(vertices) else None, polygons, polygon)
+    return Source(*as_surface(positions, faces), vertices if can_give_back(vertices) else None, polygons, polygon)
 
 
 def is_surface(thing: Any) -> bool:
@@ -93,8 +121,8 @@ def _pair(thing: Any) -> tuple[Any, Any]:
     if _is_pair(thing):
         return thing[0], thing[1]
     raise InputError(
-        "there are no triangles: give them too, or in place of both a pair, a mesh file, or a mesh of PyVista, "
-        "trimesh, meshio or nibabel"
+        "there are no triangles: give them too, or in place of both a pair, a mesh file, a mesh of PyVista, VTK, "
+        "trimesh, meshio, nilearn or nibabel, or any object with vertices and faces"
     )
 
 

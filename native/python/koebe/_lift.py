@@ -124,9 +124,10 @@ def lift(
     """
     options, said = filled("lift", _koebe.LiftOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles, mask=given["mask"])
+    source = surface_of(vertices, triangles, mask=given["mask"], weld=said["weld"])
+    source.name_mapped_vertices(options)
     options.graded = vertex_weights("graded", given["graded"], len(source.vertices))
     if not isinstance(pattern, str | os.PathLike):
         raise TypeError(f"pattern must be a name or a file's path, not {pattern!r}")
     native = source.call(_koebe.lift, os.fspath(pattern), options, progress, cancel)
-    return LiftResult({**native.report(), "options": said}, native)
+    return LiftResult({**source.told(native.report()), "options": said}, native)

@@ -35,7 +35,8 @@ def load(path: str | os.PathLike[str]) -> Any:
             if "kind" in file and str(file["kind"]) == "SphereCorrespondence":
                 return loaded_correspondence(file)
             report = json.loads(str(file["report"]))
-            source = Source(file["vertices"], file["triangles"], kept=file.get("kept"))
+            more = {name: file.get(name) for name in ("kept", "first", "filed")}
+            source = Source(file["vertices"], file["triangles"], **more)
             uv, flipped = file["uv"], file["flipped_faces"]
             before = "CutResult" if report.get("cut") is True else "UniformizeResult"  # 0.1 wrote no kind
             kind = str(file["kind"]) if "kind" in file else before

@@ -1,11 +1,12 @@
-"""Converts meshes of other packages to arrays and back: PyVista, trimesh, meshio, nibabel's GIfTI. The meshes are
-recognized by their classes, so that no package is imported here.
+"""Converts meshes of other packages to arrays and back: PyVista, VTK, trimesh, meshio, nibabel's GIfTI. The meshes are
+recognized by their classes, so that no package is imported here. Any other object with points and faces can be read.
 
 Each holds vertices and cells, some of which are faces. Other cells (points, lines) are kept and carry no values.
 """
 
 import copy
 import importlib
+import importlib.util
 from dataclasses import dataclass
 from typing import Any
 
@@ -44,9 +45,39 @@ def is_mesh(thing: Any) -> bool:
     return kind_of(thing) is not None
 
 
+def plain(mesh: Any) -> Any:
+    """The mesh that is given back: of a scene all of its meshes in one, of VTK a PyVista PolyData, with triangles in
+    place of strips. Raises InputError for a scene without triangles, or a brain in two parts."""
+    kind = kind_of(mesh)
+    if kind == "scene":
+        meshes = [one for one in mesh.dump() if kind_of(one) == "trimesh" and len(one.faces)]
+        if not meshes:
+            raise InputError("the scene has no triangles")
+        mesh = importlib.import_module("trimesh.util").concatenate(meshes)
+    elif kind == "parts":
+        if len(mesh.parts) != 1:
+            raise InputError(f"the mesh has the parts {', '.join(mesh.parts)}: give one of them, mesh.parts['left']")
+        (mesh,) = mesh.parts.values()
+    elif kind == "vtk":
+        try:
+            mesh = importlib.import_module("pyvista").wrap(getattr(mesh, "VTKObject", mesh))
+        except (NotImplementedError, TypeError) as error:
+            raise InputError(f"VTK's object is no surface: {error}") from None
+    if kind_of(mesh) == "pyvista" and getattr(mesh, "n_strips", False):
+        mesh = _without_strips(mesh)
+    return mesh
+
+
+def can_give_back(mesh: Any) -> bool:
+    """Whether a copy of this plain mesh can have fields."""
+    return kind_of(mesh) not in (None, "points")
+
+
 def read_mesh(mesh: Any) -> Polygons:
-    """Raises InputError for a mesh without faces, or with cells that are not faces of a surface."""
-    readers = {"trimesh": _from_trimesh, "pyvista": _from_pyvista, "meshio": _from_meshio, "gifti": _from_gifti}
+    """The faces of a plain mesh. Raises InputError for a mesh without faces, or with cells that are not faces of a
+    surface."""
+    readers = {"trimesh": _from_trimesh, "pyvista": _from_pyvista, "meshio": _from_meshio, "gifti": _from_gifti,
+               "points": _from_points}  # fmt: skip
     polygons = readers[kind_of(mesh) or "meshio"](mesh)
     if not len(polygons.cell):
         raise InputError("the mesh has no faces")
@@ -81,7 +112,7 @@ def mesh_with_fields(mesh: Any, polygons: Polygons, fields: Fields) -> Any:
     kind = kind_of(mesh)
     if kind == "trimesh":
         result = mesh.copy()
-        result.visual = importlib.import_module("trimesh.visual").TextureVisuals(uv=fields.uv)
+        _put_uv(result, fields.uv)
         result.vertex_attributes.update(fields.points)
         result.face_attributes.update(of_cells)
     elif kind == "pyvista":
@@ -127,6 +158,7 @@ def mesh_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: 
             face_attributes={name: np.array(values) for name, values in mesh.face_attributes.items()},
         )
         result.vertex_attributes[VERTEX] = old
+        _copy_visual(mesh.visual, result, old)
     elif kind == "pyvista":
         result = _pyvista_with_vertices(mesh, polygons, old, corners)
         result.point_data[VERTEX] = old
@@ -147,6 +179,34 @@ def mesh_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: 
             else:
                 block.data = part.reshape(len(sizes), -1).astype(np.asarray(block.data).dtype)
     return result
+
+
+def _copy_visual(visual: Any, mesh: Any, old: np.ndarray) -> None:
+    """Give a Trimesh the colours or the material of another one, whose vertices `old` it has."""
+    kind = getattr(visual, "kind", None)
+    if kind == "vertex":
+        mesh.visual.vertex_colors = np.asarray(visual.vertex_colors)[old]
+    elif kind == "face":
+        mesh.visual.face_colors = np.array(visual.face_colors)
+    elif kind == "texture":
+        mesh.visual = type(visual)(material=visual.material)
+        mesh.visual.vertex_attributes.update(
+            {name: np.asarray(one)[old] for name, one in visual.vertex_attributes.items()}
+        )
+
+
+def _put_uv(mesh: Any, uv: np.ndarray) -> None:
+    """Give a Trimesh UVs. Its material stays, and its colours are where trimesh keeps them beside UVs."""
+    old = mesh.visual
+    kind = getattr(old, "kind", None)
+    new = importlib.import_module("trimesh.visual").TextureVisuals(uv=uv, material=getattr(old, "material", None))
+    if kind == "texture":
+        new.vertex_attributes.update({name: one for name, one in old.vertex_attributes.items() if name != "uv"})
+    elif kind == "vertex":
+        mesh.vertex_attributes["color"] = new.vertex_attributes["color"] = np.array(old.vertex_colors)
+    elif kind == "face":
+        mesh.face_attributes["color"] = np.array(old.face_colors)
+    mesh.visual = new
 
 
 def _pyvista_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: np.ndarray) -> Any:
@@ -185,11 +245,29 @@ def kind_of(thing: Any) -> str | None:
     names = {(base.__module__.partition(".")[0], base.__name__) for base in type(thing).__mro__}
     if ("trimesh", "Trimesh") in names:
         return "trimesh"
+    if ("trimesh", "Scene") in names:
+        return "scene"
     if names & {("pyvista", "PolyData"), ("pyvista", "UnstructuredGrid")}:
         return "pyvista"
     if ("nibabel", "GiftiImage") in names:
         return "gifti"
-    return "meshio" if ("meshio", "Mesh") in names else None
+    if ("meshio", "Mesh") in names:
+        return "meshio"
+    if ("nilearn", "PolyMesh") in names:
+        return "parts"
+    has_vtk = hasattr(thing, "VTKObject") or ("vtkmodules", "vtkPolyData") in names  # BrainSpace wraps VTK's objects
+    if has_vtk and importlib.util.find_spec("pyvista"):
+        return "vtk"
+    return "points" if _points_name(thing) and not isinstance(thing, type) else None
+
+
+def _points_name(thing: Any) -> str:
+    """The attribute with the points of any object that also has faces, or empty. BrainSpace's meshes have both, too."""
+    if hasattr(thing, "Points") and hasattr(thing, "GetPolys2D"):
+        return "Points"
+    if not hasattr(thing, "faces"):
+        return ""
+    return next((name for name in ("vertices", "points", "coordinates") if hasattr(thing, name)), "")
 
 
 def _from_trimesh(mesh: Any) -> Polygons:
@@ -214,11 +292,31 @@ def _from_pyvista(mesh: Any) -> Polygons:
         is_face = pixels | np.isin(types, list(_VTK_FACES))
         kept = np.repeat(is_face, sizes)
         return _packed(mesh.points, corners[kept], sizes[is_face], np.flatnonzero(is_face), len(types))
-    if mesh.n_strips:
-        raise InputError("the mesh has triangle strips: give mesh.triangulate()")
     sizes, corners = _unpadded(mesh.faces)
     before = mesh.n_verts + mesh.n_lines  # VTK numbers them first
     return _packed(mesh.points, corners, sizes, before + np.arange(len(sizes)), mesh.n_cells)
+
+
+def _without_strips(mesh: Any) -> Any:
+    """A PolyData with the triangles of the strips behind its other cells, every second one turned round. Each triangle
+    has its strip's data."""
+    sizes, corners = _unpadded(mesh.strips)
+    counts = np.maximum(sizes - 2, 0)
+    first = np.repeat(np.cumsum(sizes) - sizes, counts)
+    place = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    at, turned = first + place, place % 2
+    triangles = np.stack([corners[at + turned], corners[at + 1 - turned], corners[at + 2]], axis=1)
+    old_sizes, old_corners = _unpadded(mesh.faces)
+    faces = _padded(np.append(old_sizes, np.full(len(at), 3)), np.append(old_corners, triangles))
+    parts = {name: np.array(getattr(mesh, name)) for name in ("verts", "lines") if len(getattr(mesh, name))}
+    result = type(mesh)(np.asarray(mesh.points), faces=faces, **parts)
+    before = mesh.n_cells - len(sizes)
+    cell = np.append(np.arange(before), before + np.repeat(np.arange(len(sizes)), counts))
+    result.point_data.update(mesh.point_data)
+    for name, values in mesh.cell_data.items():
+        result.cell_data[name] = np.asarray(values)[cell]
+    result.field_data.update(mesh.field_data)
+    return result
 
 
 def _from_meshio(mesh: Any) -> Polygons:
@@ -231,6 +329,18 @@ def _from_meshio(mesh: Any) -> Polygons:
             raise InputError(f"the mesh has cells of the type {block.type!r}: only triangles, quads and polygons")
         begin += len(block.data)
     return _polygons(mesh.points, blocks, cells, begin)
+
+
+def _from_points(mesh: Any) -> Polygons:
+    name = _points_name(mesh)
+    faces = mesh.GetPolys2D() if name == "Points" else mesh.faces
+    if not isinstance(faces, (list, tuple)):
+        faces = np.asarray(faces)
+        if faces.ndim != 2 and faces.dtype != object:
+            raise InputError(f"faces must be (F, n) whole numbers, or a list of polygons, not {faces.shape}")
+    if np.ma.is_masked(getattr(mesh, name)) or np.ma.is_masked(faces):
+        raise InputError(f"{name} and faces must not be masked")
+    return _polygons(getattr(mesh, name), [faces], [np.arange(len(faces))], len(faces))
 
 
 def _from_gifti(image: Any) -> Polygons:
@@ -246,6 +356,8 @@ def _polygons(vertices: Any, blocks: list[Any], cells: list[np.ndarray], cell_co
     sizes, corners = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
     for block in blocks:
         faces = [np.asarray(face) for face in block] if _is_ragged(block) else np.asarray(block)
+        if isinstance(faces, list) and any(face.ndim != 1 for face in faces):
+            raise InputError("each face of the mesh must be a list of vertices")
         sizes.append(np.array([len(face) for face in faces], dtype=np.int64))
         named = np.concatenate(faces) if isinstance(faces, list) else faces.ravel()
         if named.dtype.kind not in "iu":

@@ -116,12 +116,13 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     """
     options, said = filled("parts", _koebe.PartsOptions(), given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles, degenerate=options.cut, mask=given["mask"])
+    source = surface_of(vertices, triangles, degenerate=options.cut, mask=given["mask"], weld=said["weld"])
     options.polygon = polygons_of(given["polygon"], source)
     options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.show = vertex_weights("show", given["show"], len(source.vertices))
     if given["slits"] is not None:
-        options.slits = _edges(given["slits"], len(source.vertices)).tolist()
+        slits = _edges(given["slits"], len(source.vertices))
+        options.slits = (slits if source.first is None else source.first[slits]).tolist()
     native = source.call(_koebe.parts, options, progress, cancel)
     report = {**native.report(), "options": said}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32), source)

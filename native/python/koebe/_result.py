@@ -112,8 +112,15 @@ class Source:
     mesh: Any = None
     polygons: Polygons | None = None
     polygon: np.ndarray | None = None  # (F,) of each triangle
-    kept: np.ndarray | None = None  # (F,) the numbers of these triangles in the input, if a mask left out others
+    kept: np.ndarray | None = None  # (F,) the numbers of these triangles in the input, if others are left out
     mask: np.ndarray | None = None  # (V,) bool, as given
+    first: np.ndarray | None = None  # (V,) the vertex that each one is joined to, with `weld`
+    filed: np.ndarray | None = None  # (F, 3) the triangles with the vertices that they had before
+
+    @property
+    def given_triangles(self) -> np.ndarray:
+        """(F, 3) int32: the triangles with all vertices of the input, also those that `weld` joined."""
+        return self.triangles if self.filed is None else self.filed
 
     @property
     def source_face(self) -> np.ndarray:
@@ -121,10 +128,28 @@ class Source:
         return np.arange(len(self.triangles), dtype=np.int32) if self.kept is None else self.kept
 
     def told(self, report: dict[str, Any]) -> dict[str, Any]:
-        """The report, without the vertices that only the mask left without a face."""
-        if self.kept is None:
-            return report
-        return {**report, "warnings": [one for one in report["warnings"] if one["kind"] != "unused_vertices"]}
+        """The report, without vertices that have a face in the input, and with a warning of vertices in one place."""
+        warnings = report["warnings"]
+        if self.kept is not None or (self.first is not None and self.used.all()):
+            warnings = [one for one in warnings if one["kind"] != "unused_vertices"]
+        if not any(one["kind"] == "coincident" for one in warnings):  # else it was loaded
+            warnings = [*warnings, *self._coincident()]
+        return {**report, "warnings": warnings}
+
+    def _coincident(self) -> list[dict[str, Any]]:
+        if self.first is None:
+            found: list[dict[str, Any]] = _koebe.coincident_vertices(self.vertices, self.triangles)
+            return found
+        joined = np.flatnonzero(self.first != np.arange(len(self.first))).tolist()
+        text = f"{len(joined)} vertices joined to earlier ones in the map"
+        return [{"kind": "coincident", "elements": joined, "text": text}] if joined else []
+
+    def name_mapped_vertices(self, options: Any) -> None:
+        """Change the vertices that native options name to those that they are joined to."""
+        for name in ("outer_vertex", "center", "point", "outer", "inner", "around"):
+            vertex = getattr(options, name, None)
+            if self.first is not None and isinstance(vertex, int) and 0 <= vertex < len(self.first):
+                setattr(options, name, int(self.first[vertex]))
 
     def call(self, function: Callable[..., Any], *others: Any) -> Any:
         """The native function of vertices, triangles and the others. Faces of errors have the input's numbers."""
@@ -139,11 +164,14 @@ class Source:
     def used(self) -> np.ndarray:
         """(V,) bool: vertices with a triangle."""
         found = np.zeros(len(self.vertices), bool)
-        found[self.triangles] = True
+        found[self.given_triangles] = True
         return found
 
     def outside_nan(self, values: np.ndarray) -> np.ndarray:
-        """The values (V, k) of the vertices, with NaN at those that a mask leaves without a triangle."""
+        """The values (V, k) of the vertices, with NaN at those that are left without a triangle. Joined vertices have
+        one value."""
+        if self.first is not None:
+            values = np.asarray(values)[self.first]
         if self.kept is not None:
             values = np.array(values)
             values[~self.used] = np.nan
@@ -355,7 +383,7 @@ class UniformizeResult(MapReport):
     @cached_property
     def log_scale(self) -> np.ndarray:
         """(V,) log of the map's scale at each vertex, disk lengths per surface length; NaN where there is no scale."""
-        return log_scale(self._source.vertices, self._source.triangles, self.uv)
+        return self._source.outside_nan(log_scale(self._source.vertices, self._source.triangles, self.uv))
 
     @cached_property
     def face_angle_error_deg(self) -> np.ndarray:

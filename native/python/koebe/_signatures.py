@@ -54,6 +54,7 @@ class UniformizeOptions(SequenceOptions, RunOptions, total=False):
     engine: Literal["condensed", "mesh"]
     even: float
     loops: Literal["auto", "round", "free"]
+    weld: float | None
     partners: Literal["fixed", "changing"]
     schedule: Sequence[Sequence[int]] | None
     metric: Literal["first", "planar", "reflected", "reflected-last"]
@@ -64,6 +65,7 @@ class UniformizeOptions(SequenceOptions, RunOptions, total=False):
 class TileOptions(SweepOptions, RunOptions, total=False):
     """Options of all maps but the map to the disk."""
 
+    weld: float | None
     polygon: Any
 
 
@@ -112,6 +114,7 @@ class PartsOptions(MapOptions, RunOptions, total=False):
     price: float | None
     cut: bool
     round_cuts: bool
+    weld: float | None
     polygon: Any
     slits: Any
 
@@ -124,6 +127,7 @@ class FlattenOptions(RunOptions, total=False):
     allowance: float
     price: float | None
     darts: float
+    weld: float | None
     polygon: Any
 
 
@@ -144,6 +148,7 @@ class LiftOptions(RunOptions, total=False):
     perforate: bool
     height: float | None
     thickness: float | None
+    weld: float | None
 
 
 class CertifiedOptions(RunOptions, total=False):

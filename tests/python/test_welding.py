@@ -1,0 +1,146 @@
+"""Vertices in one place: told of, joined in the map by `weld`, and kept in the written mesh."""
+
+import json
+
+import koebe
+import numpy as np
+import pytest
+from cli_support import CANNOT_BE_MAPPED, obj_text, perforated, triangles_of
+from cli_support import koebe as run
+
+VERTICES, QUADS = perforated(12, holes=((0.5, 0.5, 0.2),))
+TRIANGLES = triangles_of(QUADS)
+RANDOM = np.random.default_rng(5)
+CRACK = 1e-5
+
+
+def soup(faces, apart=0.0):
+    """Each face with vertices of its own, each moved by less than `apart`."""
+    moved = VERTICES[np.ravel(faces)] + RANDOM.uniform(-0.5, 0.5, (np.size(faces), 3)) * apart / np.sqrt(3)
+    return moved, np.arange(np.size(faces)).reshape(np.shape(faces))
+
+
+def coincident(report):
+    return [warning for warning in report["warnings"] if warning["kind"] == "coincident"]
+
+
+def written(path):
+    """Vertices, and for each corner of the faces its vertex and its texture coordinates, as they stand in OBJ."""
+    rows = [line.split() for line in path.read_text().splitlines()]
+    uv = np.array([row[1:3] for row in rows if row[:1] == ["vt"]], float)
+    corners = [[word.split("/") for word in row[1:]] for row in rows if row[:1] == ["f"]]
+    vertices = np.array([row[1:] for row in rows if row[:1] == ["v"]], float)
+    return vertices, [[int(v) - 1 for v, _ in face] for face in corners], uv[
+        [[int(t) - 1 for _, t in face] for face in corners]]  # fmt: skip
+
+
+@pytest.mark.parametrize("distance", [0.0, 0.03, 0.2, 5.0])
+def test_no_vertex_moves_farther_than_the_distance_and_kept_ones_are_farther_apart(distance):
+    points = np.concatenate([RANDOM.uniform(-1, 1, (300, 3)), RANDOM.integers(-2, 3, (200, 3)) / 2.0])
+    points[::7] = -0.0
+    first = koebe.weld(points, distance)
+    apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+    kept = np.flatnonzero(first == np.arange(len(points)))
+    assert (first <= np.arange(len(points))).all() and np.isin(first, kept).all()
+    for v, one in enumerate(first):
+        before = kept[kept < v]
+        if one == v:
+            assert not (apart[v, before] <= distance).any()
+        else:
+            assert apart[v, one] <= distance and apart[v, one] <= apart[v, before].min()
+
+
+@pytest.mark.parametrize("faces", [TRIANGLES, QUADS], ids=["triangles", "quads"])
+@pytest.mark.parametrize("apart", [0.0, CRACK])
+@pytest.mark.parametrize("command", ["parts", "ring", "uniformize"])
+def test_the_map_of_a_soup_is_that_of_its_surface(tmp_path, command, apart, faces):
+    points, own = soup(faces, apart)
+    (tmp_path / "soup.obj").write_text(obj_text(points, own))
+    (tmp_path / "whole.obj").write_text(obj_text(VERTICES, faces))
+    for name, words in (("soup", ["--weld", apart]), ("whole", [])):
+        done = run(command, f"{name}.obj", f"{name}_uv.obj", "--json", f"{name}.json", *words, cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+    vertices, corners, uv = written(tmp_path / "soup_uv.obj")
+    assert np.array_equal(vertices, points) and np.array_equal(corners, own)
+    found, wanted = (json.loads((tmp_path / f"{name}.json").read_text()) for name in ("soup", "whole"))
+    assert found["options"]["weld"] == apart and wanted["options"]["weld"] is None
+    assert found["flipped"] == 0
+    assert np.isclose(found["angle_error_deg"]["mean"], wanted["angle_error_deg"]["mean"], rtol=0.02)
+    (said,) = coincident(found)
+    assert len(said["elements"]) == np.size(faces) - len(VERTICES)
+    assert not {"unused_vertices"} & {one["kind"] for one in found["warnings"]}
+    # Joined vertices have the same UVs, but for cuts.
+    places = {}
+    for vertex, place in zip(np.ravel(faces), uv.reshape(-1, 2), strict=True):
+        places.setdefault(vertex, set()).add(tuple(place))
+    cut = {vertex for vertex, found in places.items() if len(found) > 1}
+    assert not cut if command == "uniformize" else len(cut) < len(VERTICES) / 4
+
+
+@pytest.mark.parametrize("apart", [0.0, CRACK])
+def test_a_warning_says_how_many_vertices_lie_in_one_place_and_what_joins_them(tmp_path, apart):
+    points, own = soup(TRIANGLES, apart)
+    (tmp_path / "soup.obj").write_text(obj_text(points, own))
+    done = run("parts", "soup.obj", "out.obj", "--json", "out.json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    (said,) = coincident(json.loads((tmp_path / "out.json").read_text()))
+    shared = np.flatnonzero(np.bincount(TRIANGLES.ravel())[TRIANGLES.ravel()] > 1)
+    assert said["elements"] == shared.tolist()
+    assert f"{len(TRIANGLES)} components, 1 if they were joined" in said["text"]
+    distance = float(said["text"].split()[-1])
+    assert distance == 0.0 if apart == 0.0 else 0.0 < distance <= 1.1 * apart
+    assert len(np.unique(koebe.weld(points, distance))) == len(VERTICES)
+    assert coincident(koebe.parts(points, own).to_dict())[0]["text"] == said["text"]
+
+
+def test_nothing_is_said_of_a_surface_whose_rims_are_apart():
+    assert not coincident(koebe.uniformize(VERTICES, TRIANGLES).to_dict())
+    fine = VERTICES.copy()
+    fine[:, 1] *= 1e-7  # thin everywhere, but no crack
+    assert not coincident(koebe.parts(fine, TRIANGLES).to_dict())
+
+
+def test_in_python_all_vertices_have_values_and_faces_that_collapse_are_left_out():
+    points, own = soup(TRIANGLES)
+    result = koebe.uniformize(points, own, weld=0)
+    whole = koebe.uniformize(VERTICES, TRIANGLES)
+    assert np.isfinite(result.uv).all() and result.uv.shape == (len(points), 2)
+    assert np.allclose(result.uv[own], result.corner_uv * 2 - 1)
+    assert [len(loop) for loop in result.loops] == [len(loop) for loop in whole.loops]
+    assert np.isfinite(result.log_scale).all()
+    middle = points[own[7]].mean(axis=0)
+    spike = np.concatenate([own, [[own[7, 0], len(points), len(points) + 1]]])
+    more = np.concatenate([points, [points[own[7, 0]] + 1e-9, middle]])
+    thin = koebe.parts(more, spike, weld=1e-6)
+    assert thin.uv.shape == (len(spike), 3, 2) and thin.part[-1] == -1
+    with pytest.raises(koebe.InputError, match="collapse"):
+        koebe.uniformize(points, own, weld=1e3)
+
+
+def test_a_vertex_that_was_joined_is_named_by_its_own_number():
+    points, own = soup(TRIANGLES)
+    inner = np.flatnonzero(np.linalg.norm(VERTICES - VERTICES[TRIANGLES[40, 0]], axis=1) == 0)[0]
+    last = np.flatnonzero(TRIANGLES.ravel() == inner)[-1]
+    centred = koebe.uniformize(points, own, weld=0, center=int(last))
+    assert np.allclose(centred.uv[last], 0.0, atol=1e-9)
+
+
+def test_places_where_three_faces_meet_are_refused_or_split(tmp_path):
+    """Three fins on an edge: one surface with a non-manifold edge, once they are joined."""
+    fins = [[0, 0, 0], [0, 0, 1], [1, 0, 0], [0, 0, 0], [0, 0, 1], [-1, 1, 0], [0, 0, 0], [0, 0, 1], [-1, -1, 0]]
+    (tmp_path / "fins.obj").write_text(obj_text(fins, np.arange(9).reshape(3, 3)))
+    done = run("uniformize", "fins.obj", "out.obj", "--weld", 0, cwd=tmp_path)
+    assert done.returncode == CANNOT_BE_MAPPED and done.stderr.startswith("TopologyError(nonmanifold_edge)")
+    done = run("parts", "fins.obj", "out.obj", "--weld", 0, "--json", "out.json", cwd=tmp_path)
+    assert done.returncode == 0 and json.loads((tmp_path / "out.json").read_text())["flipped"] == 0
+
+
+def test_a_saved_result_keeps_the_vertices(tmp_path):
+    points, own = soup(TRIANGLES)
+    result = koebe.parts(points, own, weld=0)
+    result.save(tmp_path / "soup.npz")
+    loaded = koebe.load(tmp_path / "soup.npz")
+    assert np.array_equal(loaded.uv, result.uv) and len(coincident(loaded.to_dict())) == 1
+    loaded.export(tmp_path / "out.obj")
+    vertices, corners, _ = written(tmp_path / "out.obj")
+    assert len(vertices) == len(points) and np.array_equal(corners, own)
