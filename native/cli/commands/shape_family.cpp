@@ -135,6 +135,9 @@ ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::str
             if (request.with_error) row.error = module_error(row.module, conformal_module(shape.refined, own));
             row.known = true;
             if (!shape.converged) row.note = "not converged";
+            for (const Warning& warning : shape.warnings)
+                if (warning.kind == WarningKind::reoriented_faces)
+                    row.note += (row.note.empty() ? "" : "; ") + warning.sentence;
             family.converged = family.converged && shape.converged;
         } catch (const Cancelled&) {
             throw;

@@ -23,8 +23,8 @@ int run_sphere(const CornerMapRequest<SphereOptions>& request)
     auto kind = corner_map_kind<SphereResult, SphereOptions>(request, request.chosen, sphere_map);
     kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
         SphereResult result = compute(input, context);
-        for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::torn, &SphereLayoutReport::flipped,
-                           &SphereLayoutReport::below_resolution})
+        for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::moved, &SphereLayoutReport::torn,
+                           &SphereLayoutReport::flipped, &SphereLayoutReport::below_resolution})
             result.layout.*faces = filed_faces(input.triangulation, result.layout.*faces);
         return result;
     };
