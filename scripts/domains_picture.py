@@ -206,7 +206,7 @@ def layout_panel(faces, sphere):
     corners = sphere.uv.reshape(-1, 2)
     tall = np.array([1.0, 0.5]) if sphere.layout["kind"] == "equirectangular" else np.ones(2)  # 2 : 1, as it is drawn
     points = np.column_stack([corners * tall, np.zeros(len(corners))])
-    whole = np.setdiff1d(np.arange(len(faces)), sphere.layout["torn"])
+    whole = np.setdiff1d(np.arange(len(faces)), sphere.layout["moved"] + sphere.layout["torn"])
     apart = np.arange(len(corners)).reshape(-1, 3)[whole]
     return raster(points, apart, sphere.points[faces][whole], globe, np.ones(len(whole)),
                   (tall / 2 - 0.54, 1.08))  # fmt: skip

@@ -63,7 +63,7 @@ class SphereOutcome(DomainOutcome):
 
     def _adapt(self, one: SphereIsland, result: dict[str, Any]) -> None:
         """`layout` is about the UVs, all else about the sphere."""
-        for key in ("crossing", "torn", "flipped", "below_resolution"):
+        for key in ("crossing", "moved", "torn", "flipped", "below_resolution"):
             result["layout"][key] = one.faces(result["layout"][key])
 
     def _row(self, one: SphereIsland) -> dict[str, Any]:

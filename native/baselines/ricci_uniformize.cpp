@@ -108,6 +108,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     const UntangleReport untangled = flow.curvature_error < flat ? remove_flips(whole, map, context) : UntangleReport{};
     report_map(vertices, triangles, whole, map, result);
 
+    result.warnings = input_warnings(whole);
     if (!result.converged) result.warnings.push_back({WarningKind::not_converged, "not converged: " + flow.reason});
     if (flow.packing_change > worth_a_warning)
         result.warnings.push_back(

@@ -9,6 +9,7 @@
 #include "execution/memory_limit.h"
 #include "execution/thread_share.h"
 #include "linear/dense_spd.h"
+#include "quality/shared_warnings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -166,6 +167,7 @@ public:
     void enclose(Enclosures& enclosures, ExecutionContext& context)
     {
         CapacityReport& report = enclosures.report();
+        warn_reoriented(input.reoriented, report.warnings);
         if (!report.no_module.empty() && report.width > progress_for_circles * tried_) return;
         tried_ = report.width;
         report.no_module.clear();

@@ -6,6 +6,7 @@
 #include "core/api.h"
 #include "core/option_list.h"
 #include "core/types.h"
+#include "core/warning.h"
 #include "execution/execution.h"
 
 #include <optional>
@@ -35,11 +36,12 @@ struct CapacityReport {
     /// three and four as enclose_module (certified/module_enclosure.h), if the condensers are those of loop_condensers.
     std::vector<Interval> module;
     std::vector<int> order;
-    std::string no_module;  ///< why three loops or more have no enclosure of the module, or empty
-    Index faces = 0;        ///< of the finest triangulation
-    int levels = 0;         ///< triangulations that were solved on
-    double width = 0.0;     ///< of the widest enclosure
-    bool converged = true;  ///< false: an enclosure is wider than wanted, but it still holds its number
+    std::string no_module;               ///< why three loops or more have no enclosure of the module, or empty
+    std::vector<Warning> warnings = {};  ///< of faces that were turned
+    Index faces = 0;                     ///< of the finest triangulation
+    int levels = 0;                      ///< triangulations that were solved on
+    double width = 0.0;                  ///< of the widest enclosure
+    bool converged = true;               ///< false: an enclosure is wider than wanted, but it still holds its number
 };
 
 /// The condensers that give a surface's conformal invariants, all loops held: each loop against the others, then each

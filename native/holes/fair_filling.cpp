@@ -204,10 +204,10 @@ FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& tri
         label.resize(mesh.number_of_faces(), k);
     }
 
-    FilledSurface filled{Vertices(mesh.number_of_vertices(), 3), Triangles(mesh.number_of_faces(), 3),
-                         std::move(label)};
+    FilledSurface filled{Vertices(mesh.number_of_vertices(), 3), Triangles(mesh.number_of_faces(), 3), std::move(label),
+                         filling_warnings(surface.reoriented)};
     filled.vertices.topRows(vertices.rows()) = vertices;
-    filled.triangles.topRows(surface.triangles.rows()) = surface.triangles;
+    filled.triangles.topRows(triangles.rows()) = triangles;
     for (Eigen::Index v = vertices.rows(); v < filled.vertices.rows(); ++v)
         filled.vertices.row(v) = cube.outside(mesh.point(Mesh::Vertex_index(v)));
     for (Eigen::Index f = surface.triangles.rows(); f < filled.triangles.rows(); ++f) {

@@ -95,6 +95,15 @@ Index longest_loop(const Vertices& vertices, const Surface& surface)
     return longest;
 }
 
+std::vector<Warning> filling_warnings(const std::vector<Index>& faces)
+{
+    if (faces.empty()) return {};
+    return {
+        {WarningKind::reoriented_faces,
+         counted(faces.size(), "face") + " kept in the other orientation: patches have the orientation of the others",
+         faces}};
+}
+
 FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
                          const std::optional<std::vector<Index>>& loops)
 {
@@ -114,7 +123,9 @@ FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
         label.insert(label.end(), patch.triangles.rows(), k);
     }
     MeshArrays arrays = to_arrays(mesh);
-    return {std::move(arrays.vertices), std::move(arrays.triangles), std::move(label)};
+    arrays.triangles.topRows(triangles.rows()) = triangles;
+    return {std::move(arrays.vertices), std::move(arrays.triangles), std::move(label),
+            filling_warnings(surface.reoriented)};
 }
 
 }  // namespace koebe

@@ -3,6 +3,7 @@
 
 #include "core/api.h"
 #include "core/types.h"
+#include "core/warning.h"
 #include "mesh/topology.h"
 #include "planar/planar_mesh.h"
 
@@ -32,8 +33,9 @@ PlanarMesh planar_patch(const VectorXcd& polygon, const PlanarMeshOptions& optio
 
 struct FilledSurface {
     Vertices vertices;         ///< the input's, then one for each filled loop
-    Triangles triangles;       ///< the input's, turned to one orientation, then the patches'
+    Triangles triangles;       ///< the input's as they are, then the patches', oriented as most of the input's
     std::vector<Index> label;  ///< per face: -1 in the input, k in the patch of the loop of rank k
+    std::vector<Warning> warnings = {};  ///< of faces of the input with the other orientation
 };
 
 /// The ranks of the loops to fill: the given ranks, sorted and without duplicates, or all.
@@ -43,6 +45,9 @@ std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std:
 /// The rank of the longest boundary loop, the first of equal ones: the loop that stays open when only holes are filled.
 /// @param surface with at least one loop
 Index longest_loop(const Vertices& vertices, const Surface& surface);
+
+/// Warns of faces that have another orientation than the patches, if any. @param faces ascending
+std::vector<Warning> filling_warnings(const std::vector<Index>& faces);
 
 /// Fills boundary loops by fans on the surface.
 /// @param loops ranks of the loops to fill, in the order of Surface::loops; all loops if absent

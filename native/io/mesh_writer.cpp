@@ -59,8 +59,7 @@ std::vector<Warning> write_with_corner_uvs(AtomicFile& file, WrittenFormat forma
 }
 
 std::vector<Warning> write_with_patches(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
-                                        const std::vector<Index>& patch, const std::vector<char>& turned,
-                                        const FiledMesh& filed)
+                                        const std::vector<Index>& patch, const FiledMesh& filed)
 {
     const bool kept = format == WrittenFormat::obj && has_format(filed, format);
     if (format == WrittenFormat::ply) {
@@ -71,7 +70,7 @@ std::vector<Warning> write_with_patches(AtomicFile& file, WrittenFormat format, 
         std::vector<std::string> names{"surface"};
         for (Index k = 0; !patch.empty() && k <= std::ranges::max(patch); ++k)
             names.push_back("patch_" + std::to_string(k));
-        write_obj_with_groups(file, mesh, group, names, text_of(filed, format), turned);
+        write_obj_with_groups(file, mesh, group, names, text_of(filed, format));
     }
     return kept ? std::vector<Warning>{} : loss_warnings(io::losses_of_all(filed.file, false));
 }

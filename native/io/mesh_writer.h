@@ -37,10 +37,8 @@ std::vector<Warning> write_with_corner_uvs(AtomicFile& file, WrittenFormat forma
 
 /// Writes the mesh with the numbers of its patches, -1 for no patch: OBJ groups "surface" and "patch_0", "patch_1", …,
 /// or the property `patch` in PLY.
-/// @param turned (F) 1 for faces of the file that the mesh has in the reverse order
 /// @return as write_with_uvs; in OBJ the file's texture coordinates stay
 std::vector<Warning> write_with_patches(AtomicFile& file, WrittenFormat format, const PolygonMesh& mesh,
-                                        const std::vector<Index>& patch, const std::vector<char>& turned,
-                                        const FiledMesh& filed);
+                                        const std::vector<Index>& patch, const FiledMesh& filed);
 
 }  // namespace koebe

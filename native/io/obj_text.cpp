@@ -221,21 +221,14 @@ private:
 
     void add_face(std::size_t f)
     {
-        const bool turned = !change_.turned.empty() && change_.turned[f] != 0;
-        const bool new_texture = !change_.texture.empty();
-        if (!turned && !new_texture) return;
+        if (change_.texture.empty()) return;
         leave_out();
         take_words();
-        if (turned) std::ranges::reverse(words_);
-        const bool with_normals = new_texture && take_normals();
+        const bool with_normals = take_normals();
         out_.add('f');
         std::size_t corner = static_cast<std::size_t>(change_.mesh.face_begin[f]);
         for (std::size_t i = 0; i < words_.size(); ++i, ++corner) {
             out_.add(' ');
-            if (!new_texture) {
-                out_.add(words_[i]);
-                continue;
-            }
             add_obj_corner(out_, change_.mesh.corners[corner], change_.texture[corner]);
             if (!with_normals) continue;
             out_.add('/');

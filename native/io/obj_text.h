@@ -20,7 +20,6 @@ struct ObjChange {
     const PolygonMesh& mesh;         ///< with the text's faces in their order
     std::span<const Index> texture;  ///< (C) number of the new `vt` of each corner; empty: the old ones stay
     bool moved = false;              ///< take the mesh's positions, and leave normals out
-    std::vector<char> turned = {};   ///< (F) 1 to write a face's corners in the reverse order; or empty
 };
 
 /// Recognizes statements as read_obj does. Every other line stays as it is, also comments and unknown ones. Normals of

@@ -129,8 +129,7 @@ io::FileLosses write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& me
 }
 
 void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std::vector<Index>& group,
-                           const std::vector<std::string>& names, const FiledText& filed,
-                           const std::vector<char>& turned)
+                           const std::vector<std::string>& names, const FiledText& filed)
 {
     TextWriter text(file);
     text.add(first_line);
@@ -145,7 +144,7 @@ void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std:
     Index first_vertex = 0, first_face = 0;
     if (!filed.bytes.empty()) {
         const io::ObjText own(filed.bytes);
-        const io::ObjChange change{.mesh = mesh, .texture = {}, .turned = turned};
+        const io::ObjChange change{.mesh = mesh, .texture = {}};
         own.add_head(text, change);
         if (!own.holds("groups")) add_group(0);
         own.add_rest(text, change);

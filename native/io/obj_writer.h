@@ -34,10 +34,8 @@ io::FileLosses write_obj_with_corner_uvs(AtomicFile& file, const PolygonMesh& me
 /// stay in them, and only the other faces get the groups of this call.
 /// @param group (F) of each face, an index into names
 /// @param filed its texture coordinates stay
-/// @param turned (F) 1 for faces of the text that the mesh has in the reverse order
 /// @throws FileError
 void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std::vector<Index>& group,
-                           const std::vector<std::string>& names, const FiledText& filed = {},
-                           const std::vector<char>& turned = {});
+                           const std::vector<std::string>& names, const FiledText& filed = {});
 
 }  // namespace koebe

@@ -14,6 +14,7 @@
 #include "linear/dense_spd.h"
 #include "mesh/topology.h"
 #include "quality/distortion.h"
+#include "quality/shared_warnings.h"
 #include "report/json.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
@@ -65,13 +66,22 @@ void bind_steps(py::module_& m)
             [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; },
             triangles.rows() < small_mesh);
     });
+    m.def("surface_warnings", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
+        std::vector<Warning> warnings;
+        const auto turned = [faces = Triangles(triangles), vertex_count] {
+            return analyze_surface(faces, vertex_count).reoriented;
+        };
+        warn_reoriented(detached(turned, triangles.rows() < small_mesh), warnings);
+        return to_object(to_json(warnings));
+    });
     m.def("fill_holes", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
                            const std::optional<std::vector<Index>>& loops, bool fair) {
         FilledSurface filled = detached([positions = Vertices(vertices), faces = Triangles(triangles), loops, fair] {
             return fair ? fill_and_fair_holes(positions, faces, loops) : fill_holes(positions, faces, loops);
         });
         return std::make_tuple(std::move(filled.vertices), std::move(filled.triangles),
-                               py::array_t<Index>(filled.label.size(), filled.label.data()));
+                               py::array_t<Index>(filled.label.size(), filled.label.data()),
+                               to_object(to_json(filled.warnings)));
     });
     using Indices = Eigen::Ref<const Eigen::VectorX<Index>>;
     m.def("triangulate", [](const Eigen::Ref<const Vertices>& vertices, const Indices& corners, const Indices& begin) {

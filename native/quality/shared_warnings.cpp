@@ -3,7 +3,10 @@
 #include "core/counted.h"
 #include "core/sort_unique.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +17,29 @@ void warn_reoriented(const std::vector<Index>& faces, std::vector<Warning>& warn
     if (!faces.empty())
         warnings.push_back({WarningKind::reoriented_faces,
                             counted(faces.size(), "face") + " turned to the orientation of the others", faces, advice});
+}
+
+void warn_inside_out(const Vertices& vertices, const Surface& surface, std::vector<Warning>& warnings)
+{
+    if (!surface.loops.empty() || surface.triangles.rows() == 0) return;
+    constexpr double least_share = 1e-6;  // of the volume, over that of all tetrahedra: less is rounding
+    const Eigen::RowVector3d middle = vertices.row(surface.triangles(0, 0));
+    double volume = 0.0, whole = 0.0;
+    for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+        const Eigen::RowVector3d a = vertices.row(surface.triangles(f, 0)) - middle;
+        const Eigen::RowVector3d b = vertices.row(surface.triangles(f, 1)) - middle;
+        const Eigen::RowVector3d c = vertices.row(surface.triangles(f, 2)) - middle;
+        const double own = a.dot(b.cross(c));
+        volume += own;
+        whole += std::abs(own);
+    }
+    if (!(volume < -least_share * whole)) return;
+    warnings.push_back(
+        {WarningKind::reoriented_faces,
+         "the surface is inside out: its faces are clockwise seen from outside, so this is the map of its "
+         "mirror image",
+         {},
+         "Reverse all faces"});
 }
 
 void warn_not_even(const std::vector<Index>& faces, std::vector<Warning>& warnings)

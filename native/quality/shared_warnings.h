@@ -1,7 +1,9 @@
 // Warnings that all maps share.
 #pragma once
 
+#include "core/api.h"
 #include "core/warning.h"
+#include "mesh/topology.h"
 
 #include <string>
 #include <vector>
@@ -9,7 +11,12 @@
 namespace koebe {
 
 /// Warns that faces were turned to the orientation of the others, if any. @param faces ascending
-void warn_reoriented(const std::vector<Index>& faces, std::vector<Warning>& warnings, const std::string& advice = "");
+KOEBE_API void warn_reoriented(const std::vector<Index>& faces, std::vector<Warning>& warnings,
+                               const std::string& advice = "");
+
+/// Warns that a closed surface encloses a negative volume: its map is the one of its mirror image.
+/// @param vertices (V, 3) @param surface of these vertices
+void warn_inside_out(const Vertices& vertices, const Surface& surface, std::vector<Warning>& warnings);
 
 /// Warns that the map, or the parts with these faces, could not be made more even. @param faces ascending
 void warn_not_even(const std::vector<Index>& faces, std::vector<Warning>& warnings);

@@ -33,7 +33,7 @@ nlohmann::ordered_json to_json(const CapacityReport& report)
         for (std::size_t i = 0; i < names.size(); ++i) json[names[i]] = enclosure_json(report.module[i]);
         json["loops"] = report.order;
     }
-    std::vector<Warning> warnings;
+    std::vector<Warning> warnings = report.warnings;
     if (!report.no_module.empty())
         warnings.push_back({WarningKind::not_enclosed, "the circles have no proved bounds: " + report.no_module});
     json["warnings"] = to_json(warnings);

@@ -26,6 +26,7 @@ Json to_json(const SphereResult& result)
                                 {"layout",
                                  {{"kind", to_string(result.layout.kind)},
                                   {"crossing", result.layout.crossing},
+                                  {"moved", result.layout.moved},
                                   {"torn", result.layout.torn},
                                   {"flipped", result.layout.flipped},
                                   {"below_resolution", result.layout.below_resolution}}}});

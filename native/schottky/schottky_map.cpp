@@ -59,7 +59,6 @@ bool unequal_circles(const SchottkyHandle& handle)
 void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool iterated,
           SchottkyNormalization normalization, SchottkyResult& result)
 {
-    warn_reoriented(result.turned, result.warnings);
     if (!iterated)
         result.warnings.push_back(
             {WarningKind::not_converged,
@@ -153,6 +152,8 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
     result.changes = best.map.changes;
     result.distortion = {distortion_of(best.tile, cut), judge_corners(vertices, triangles, result.uv, result.turned)};
     result.converged = best.map.converged && !best.faults.any();
+    warn_reoriented(result.turned, result.warnings);
+    warn_inside_out(vertices, surface, result.warnings);
     warn(circles, best.faults, best.map.converged, options.normalization, result);
     clock.finish(result, context);
     return result;

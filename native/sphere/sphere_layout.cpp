@@ -1,185 +1,324 @@
 #include "sphere/sphere_layout.h"
 
+#include "core/sort_unique.h"
 #include "core/tolerances.h"
 #include "execution/each_in_pieces.h"
+#include "sphere/placed_face.h"
 #include "sphere/sphere_polygons.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr double uv_steps = 8388608.0;  // 2^23 per unit: as fine as 32-bit floats between 1 and 2
+// The search for places without flipped faces.
+constexpr double wanted_quality[] = {1e-3, 1e-2, 0.05, 0.15, 0.3};  // of faces near flipped ones, tried in turn
+constexpr int rings_around = 4;                                     // of faces that may move for a flipped one
+constexpr int most_rounds = 10;                                     // over these faces, for each quality
+constexpr int tried_directions = 12;                                // tried around a vertex
+constexpr int step_halvings = 10;                                   // from the longest edge around the vertex
+constexpr double golden_angle = 2.399963;        // radians: turns the directions, so that they never repeat
+constexpr std::size_t most_vertex_moves = 4000;  // of single vertices
+constexpr std::size_t most_ranks = 6;            // ways to bring a vertex to a cone point
+constexpr double dragged_reach = 6.0;  // radius that moves with a vertex, over its way: sides change by at most 1/4
 
-using FaceCorners = std::array<SpherePoint, 3>;
-using CornerUvs = std::array<Eigen::RowVector2d, 3>;
-
-/// Whether the triangle with the shorter arcs as sides contains a point, sides included.
-bool contains(const FaceCorners& p, const SpherePoint& point)
-{
-    int sides = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const int side = orientation(p[k], p[(k + 1) % 3], point);
-        if (side == 0) return (p[0] + p[1] + p[2]).dot(point) > 0.0;
-        sides += side;
-    }
-    return std::abs(sides) == 3 && (p[0] + p[1] + p[2]).dot(point) > 0.0;
-}
-
-bool at_pole(const SpherePoint& p) { return p[0] == 0.0 && p[1] == 0.0; }
-
-struct Placed {
-    CornerUvs uv;
-    bool crossing = false, torn = false;
-};
-
-/// Longitudes of a face round a pole, in turns: each step goes the shorter way, one step is left out, chosen so that
-/// the face is upright.
-std::array<double, 3> once_round(const std::array<double, 3>& turns, const std::array<double, 3>& heights, bool turned)
-{
-    std::array<double, 3> best{};
-    double most = -std::numeric_limits<double>::infinity();
-    for (std::size_t first = 0; first < 3; ++first) {
-        std::array<double, 3> own = turns;
-        for (std::size_t k = 1; k < 3; ++k) {
-            double& next = own[(first + k) % 3];
-            next -= std::round(next - own[(first + k + 2) % 3]);
-        }
-        const double area =
-            (own[1] - own[0]) * (heights[2] - heights[0]) - (own[2] - own[0]) * (heights[1] - heights[0]);
-        if ((turned ? -area : area) <= most) continue;
-        most = turned ? -area : area;
-        best = own;
-    }
-    return best;
-}
-
-Placed equirectangular(const FaceCorners& p, bool turned)
-{
-    Placed placed;
-    std::array<double, 3> turns{};
-    std::size_t known = 3;  // a corner with a longitude
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (at_pole(p[k])) continue;
-        double own = on_uv_steps(std::atan2(p[k][1], p[k][0]) / (2.0 * std::numbers::pi) + 0.5);
-        if (own >= 1.0) own = 0.0;
-        turns[k] = own;
-        if (known == 3) known = k;
-    }
-    for (std::size_t k = 0; k < 3; ++k)
-        if (!at_pole(p[k])) turns[k] -= std::round(turns[k] - turns[known]);
-    int poles = 0;
-    for (std::size_t k = 0; k < 3; ++k) poles += at_pole(p[k]) ? 1 : 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (!at_pole(p[k])) continue;
-        const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-        turns[k] = on_uv_steps(at_pole(p[a]) ? turns[b] : at_pole(p[b]) ? turns[a] : 0.5 * (turns[a] + turns[b]));
-    }
-    placed.torn = poles == 0 && (contains(p, {0.0, 0.0, 1.0}) || contains(p, {0.0, 0.0, -1.0}));
-    std::array<double, 3> heights{};
-    for (std::size_t k = 0; k < 3; ++k)
-        heights[k] = on_uv_steps(std::atan2(p[k][2], std::hypot(p[k][0], p[k][1])) / std::numbers::pi + 0.5);
-    if (placed.torn) turns = once_round(turns, heights, turned);
-    const double back = std::floor(*std::ranges::min_element(turns));
-    for (std::size_t k = 0; k < 3; ++k) {
-        placed.uv[k] << turns[k] - back, heights[k];
-        placed.crossing |= placed.uv[k][0] >= 1.0;
-    }
-    return placed;
-}
-
-/// The place in [-1, 1]^2. @param x, y signs to use where a coordinate is 0
-Eigen::RowVector2d folded_out(const SpherePoint& p, double x, double y)
-{
-    const double sum = std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]);
-    const double a = std::abs(p[0]) / sum, b = std::abs(p[1]) / sum;
-    return p[2] >= 0.0 ? Eigen::RowVector2d(x * a, y * b) : Eigen::RowVector2d(x * (1.0 - b), y * (1.0 - a));
-}
-
-/// u -> sign u + shift, for both coordinates: a product of the pattern's half turns.
-struct FoldedSheet {
-    double sign = 1.0;
-    Eigen::RowVector2d shift = Eigen::RowVector2d::Zero();
-
-    /// Continues over the side of the square with this middle.
-    void cross(const Eigen::RowVector2d& middle)
+class LayoutSearch {
+public:
+    LayoutSearch(const LaidSurface& surface, SphereLayout layout, const ExecutionContext& context)
+        : surface_(surface),
+          triangles_(surface.triangles),
+          layout_(layout),
+          context_(context),
+          places_(surface.points),
+          uv_(surface.triangles.size(), 2),
+          marks_{std::vector<char>(face_count(), 0), std::vector<char>(face_count(), 0)},
+          held_(static_cast<std::size_t>(surface.points.rows()), 0)
     {
-        shift += sign * 2.0 * middle;
-        sign = -sign;
+        gather_polygons();
+        gather_corners();
     }
-    Eigen::RowVector2d operator()(const Eigen::RowVector2d& at) const { return sign * at + shift; }
-};
 
-Placed octahedral(const FaceCorners& p)
-{
-    Placed placed;
-    const SpherePoint middle = p[0] + p[1] + p[2];
-    for (std::size_t k = 0; k < 3; ++k) {
-        // Follow the straight line from the middle to the corner, over the planes x = 0 and y = 0.
-        std::array<double, 2> sign{}, when{};
-        for (std::size_t i = 0; i < 2; ++i) {
-            const Eigen::Index axis = static_cast<Eigen::Index>(i);
-            sign[i] = middle[axis] < 0.0 ? -1.0 : 1.0;
-            const bool over = p[k][axis] != 0.0 && (p[k][axis] < 0.0) != (middle[axis] < 0.0);
-            when[i] = over ? middle[axis] / (middle[axis] - p[k][axis]) : 2.0;
+    PlanarPoints run(SphereLayoutReport& report)
+    {
+        for (std::size_t rank = 0; rank < most_ranks && (rank == 0 || !flipped_faces().empty()); ++rank) {
+            places_ = surface_.points;
+            held_.assign(held_.size(), 0);
+            each_in_pieces(static_cast<Index>(polygon_begin_.size() - 1), [&](Index g) { lay(g); });
+            for (const SpherePoint& point : cone_points(layout_)) put_a_vertex_at(point, rank);
+            // Vertices of loops may move only where the others alone leave flipped faces.
+            for (const bool loops_move : {false, true}) turn_faces_back(loops_move);
         }
-        FoldedSheet sheet;
-        for (const std::size_t i :
-             when[0] <= when[1] ? std::array<std::size_t, 2>{0, 1} : std::array<std::size_t, 2>{1, 0}) {
-            if (when[i] > 1.0) continue;
-            const double height = middle[2] + when[i] * (p[k][2] - middle[2]);
-            if (height < 0.0) {  // the lower half: cross the side given by the other coordinate's sign
-                Eigen::RowVector2d side(0.0, 0.0);
-                side[i == 0 ? 1 : 0] = sign[i == 0 ? 1 : 0];
-                sheet.cross(side);
-                placed.crossing = true;
-            }
-            sign[i] = -sign[i];
+        report = {};
+        report.kind = layout_;
+        for (Index f = 0; f < static_cast<Index>(face_count()); ++f) {
+            if (marks_.crossing[f]) report.crossing.push_back(f);
+            if (marks_.torn[f]) report.torn.push_back(f);
+            if (std::ranges::any_of(triangles_.row(f),
+                                    [&](Index v) { return places_.row(v) != surface_.points.row(v); }))
+                report.moved.push_back(f);
         }
-        const Eigen::RowVector2d at = folded_out(p[k], sign[0], sign[1]);
-        placed.uv[k] = sheet(Eigen::RowVector2d(on_uv_steps(0.5 * at[0]) * 2.0, on_uv_steps(0.5 * at[1]) * 2.0));
-        placed.uv[k] = (0.5 * (placed.uv[k].array() + 1.0)).matrix();
+        return std::move(uv_);
     }
-    for (const SpherePoint& corner :
-         {SpherePoint(1, 0, 0), SpherePoint(-1, 0, 0), SpherePoint(0, 1, 0), SpherePoint(0, -1, 0)})
-        placed.torn |= std::ranges::find(p, corner) == p.end() && contains(p, corner);
-    return placed;
-}
+
+private:
+    std::size_t face_count() const { return static_cast<std::size_t>(triangles_.rows()); }
+
+    /// Faces by polygon.
+    void gather_polygons()
+    {
+        std::vector<Index> number(face_count());
+        std::iota(number.begin(), number.end(), 0);
+        by_polygon_ = number;
+        if (!surface_.polygon.empty()) {
+            std::ranges::stable_sort(by_polygon_, {}, [&](Index f) { return surface_.polygon[f]; });
+            for (std::size_t i = 0, g = 0; i < by_polygon_.size(); ++i) {
+                if (i > 0 && surface_.polygon[by_polygon_[i]] != surface_.polygon[by_polygon_[i - 1]]) ++g;
+                number[by_polygon_[i]] = static_cast<Index>(g);
+            }
+        }
+        polygon_of_ = std::move(number);
+        for (std::size_t i = 0; i < by_polygon_.size(); ++i)
+            if (i == 0 || polygon_of_[by_polygon_[i]] != polygon_of_[by_polygon_[i - 1]])
+                polygon_begin_.push_back(static_cast<Index>(i));
+        polygon_begin_.push_back(static_cast<Index>(by_polygon_.size()));
+    }
+
+    /// Faces by vertex.
+    void gather_corners()
+    {
+        faces_begin_.assign(static_cast<std::size_t>(surface_.points.rows()) + 1, 0);
+        for (Eigen::Index h = 0; h < triangles_.size(); ++h) ++faces_begin_[triangles_.data()[h] + 1];
+        std::partial_sum(faces_begin_.begin(), faces_begin_.end(), faces_begin_.begin());
+        faces_of_.resize(static_cast<std::size_t>(triangles_.size()));
+        std::vector<Index> next(faces_begin_.begin(), faces_begin_.end() - 1);
+        for (Eigen::Index h = 0; h < triangles_.size(); ++h)
+            faces_of_[next[triangles_.data()[h]]++] = static_cast<Index>(h / 3);
+    }
+
+    auto faces_around(Index v) const
+    {
+        return std::ranges::subrange(faces_of_.begin() + faces_begin_[v], faces_of_.begin() + faces_begin_[v + 1]);
+    }
+
+    SphereCorners corners(Index f) const
+    {
+        return {places_.row(triangles_(f, 0)), places_.row(triangles_(f, 1)), places_.row(triangles_(f, 2))};
+    }
+
+    /// Lays a polygon out.
+    void lay(Index polygon)
+    {
+        const std::vector<Index> faces(by_polygon_.begin() + polygon_begin_[polygon],
+                                       by_polygon_.begin() + polygon_begin_[polygon + 1]);
+        for (const Index f : faces) {
+            const PlacedFace placed = place_face(corners(f), layout_, surface_.turned[f] != 0);
+            for (int k = 0; k < 3; ++k) uv_.row(3 * f + k) = placed.uv[static_cast<std::size_t>(k)];
+            marks_.crossing[f] = placed.crossing ? 1 : 0;
+            marks_.torn[f] = placed.torn ? 1 : 0;
+        }
+        if (faces.size() > 1) join_polygon(faces, triangles_, places_, layout_, uv_, marks_);
+    }
+
+    /// 4 sqrt(3) area / sum of squared sides: 1 for an equilateral face as wide as on the sphere, negative if flipped.
+    /// Torn faces count as -1, faces that 32-bit UVs cannot hold as 1.
+    double quality(Index f) const
+    {
+        if (marks_.torn[f]) return -1.0;
+        Eigen::RowVector2d a = uv_.row(3 * f + 1) - uv_.row(3 * f), b = uv_.row(3 * f + 2) - uv_.row(3 * f);
+        if (std::max({a.norm(), b.norm(), (b - a).norm()}) < uv_resolution) return 1.0;
+        if (layout_ == SphereLayout::equirectangular) {
+            const double width = 2.0 * std::sin(std::numbers::pi * uv_.middleRows(3 * f, 3).col(1).mean());
+            a[0] *= width;
+            b[0] *= width;
+        }
+        const double area = 0.5 * (a[0] * b[1] - a[1] * b[0]);
+        return 4.0 * std::numbers::sqrt3 * (surface_.turned[f] ? -area : area) /
+               (a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm());
+    }
+
+    /// Lays the faces around a vertex out. @return the least quality
+    double lay_around(Index v)
+    {
+        std::vector<Index> polygons;
+        for (const Index f : faces_around(v)) polygons.push_back(polygon_of_[f]);
+        sort_unique(polygons);
+        double least = 1.0;
+        for (const Index g : polygons) {
+            lay(g);
+            for (Index i = polygon_begin_[g]; i < polygon_begin_[g + 1]; ++i)
+                least = std::min(least, quality(by_polygon_[i]));
+        }
+        return least;
+    }
+
+    double lay_around(Index v, const SpherePoint& place)
+    {
+        places_.row(v) = place.transpose();
+        return lay_around(v);
+    }
+
+    /// Moves a vertex of the face round a cone point there, alone or with its neighbourhood: takes the way of this rank
+    /// among those that leave the worst face best.
+    void put_a_vertex_at(const SpherePoint& point, std::size_t rank)
+    {
+        const std::vector<Index> around = found_in_pieces(static_cast<Index>(face_count()), [&](Index f) {
+            const SphereCorners p = corners(f);
+            return (p[0] + p[1] + p[2]).dot(point) > 0.0 && face_contains(p, point);
+        });
+        std::vector<Index> vertices;
+        for (const Index f : around)
+            for (const Index v : triangles_.row(f)) vertices.push_back(v);
+        sort_unique(vertices);
+        struct Way {
+            std::pair<bool, double> rank;
+            Index vertex;
+            double reach;
+        };
+        std::vector<Way> ways;
+        for (const Index v : vertices) {
+            const double distance = (places_.row(v).transpose() - point).norm();
+            if (distance == 0.0) {
+                held_[v] = 1;
+                return;
+            }
+            if (held_[v]) continue;
+            for (const double reach : {0.0, dragged_reach * distance}) {
+                const std::vector<Index> moved = movable_within(v, reach);
+                const Vertices home = places_(moved, Eigen::all);
+                const double least = drag(v, point, moved, reach);
+                ways.push_back({{least > 0.0 && !surface_.on_loop[v], least}, v, reach});
+                places_(moved, Eigen::all) = home;
+                for (const Index u : moved) lay_around(u);
+            }
+        }
+        if (ways.empty()) return;
+        std::ranges::stable_sort(ways, std::greater(), &Way::rank);
+        const Way& way = ways[std::min(rank, ways.size() - 1)];
+        drag(way.vertex, point, movable_within(way.vertex, way.reach), way.reach);
+        held_[way.vertex] = 1;
+    }
+
+    /// A vertex, and those near it that may move with it.
+    std::vector<Index> movable_within(Index vertex, double reach) const
+    {
+        return found_in_pieces(static_cast<Index>(places_.rows()), [&](Index u) {
+            return u == vertex ||
+                   (!held_[u] && !surface_.on_loop[u] && (places_.row(u) - places_.row(vertex)).norm() < reach);
+        });
+    }
+
+    /// Turns the sphere so that the vertex comes to a point, the others the less the farther they are from it.
+    /// @return the least quality around
+    double drag(Index vertex, const SpherePoint& point, const std::vector<Index>& moved, double reach)
+    {
+        const SpherePoint home = places_.row(vertex), axis = home.cross(point).normalized();
+        const double angle = std::atan2(home.cross(point).norm(), home.dot(point));
+        for (const Index u : moved) {
+            if (u == vertex) continue;
+            const double far = (places_.row(u).transpose() - home).norm() / reach, share = 1.0 - far * far;
+            const SpherePoint from = places_.row(u);
+            places_.row(u) = (Eigen::AngleAxisd(share * share * angle, axis) * from).normalized().transpose();
+        }
+        places_.row(vertex) = point.transpose();
+        double least = 1.0;
+        for (const Index u : moved) least = std::min(least, lay_around(u));
+        return least;
+    }
+
+    /// Faces within so many rings of some faces, ascending.
+    std::vector<Index> near(const std::vector<Index>& faces) const
+    {
+        std::vector<Index> result = faces;
+        for (int ring = 0; ring < rings_around; ++ring) {
+            std::vector<Index> next = result;
+            for (const Index f : result)
+                for (const Index v : triangles_.row(f))
+                    next.insert(next.end(), faces_around(v).begin(), faces_around(v).end());
+            sort_unique(next);
+            result = std::move(next);
+        }
+        return result;
+    }
+
+    bool flipped(Index f) const { return !(quality(f) > 0.0); }
+
+    std::vector<Index> flipped_faces() const
+    {
+        return found_in_pieces(static_cast<Index>(face_count()), [&](Index f) { return flipped(f); });
+    }
+
+    void turn_faces_back(bool loops_move)
+    {
+        const std::vector<Index> seeds = flipped_faces();
+        if (seeds.empty()) return;
+        const std::vector<Index> faces = near(seeds);
+        for (const double wanted : wanted_quality)
+            for (int pass = 0; pass < most_rounds; ++pass) {
+                if (std::ranges::none_of(faces, [&](Index f) { return flipped(f); })) return;
+                std::vector<Index> vertices;
+                for (const Index f : faces)
+                    if (quality(f) < wanted)
+                        for (const Index v : triangles_.row(f))
+                            if (!held_[v] && (loops_move || !surface_.on_loop[v])) vertices.push_back(v);
+                sort_unique(vertices);
+                bool moved = false;
+                for (const Index v : vertices) moved |= improve(v, wanted);
+                if (!moved || moves_ >= most_vertex_moves) break;
+            }
+    }
+
+    /// Moves a vertex to where the worst face around it is better, by a pattern search. @return whether it moved
+    bool improve(Index v, double wanted)
+    {
+        context_.checkpoint();
+        double most = lay_around(v);
+        if (most >= wanted || ++moves_ > most_vertex_moves) return false;
+        const SpherePoint home = places_.row(v);
+        SpherePoint best = home;
+        double step = 0.0;
+        for (const Index f : faces_around(v))
+            for (const SpherePoint& p : corners(f)) step = std::max(step, (p - home).norm());
+        for (int halving = 0; halving < step_halvings && most < wanted; ++halving, step *= 0.5) {
+            const SpherePoint middle = best, x = middle.unitOrthogonal(), y = middle.cross(x);
+            for (int k = 0; k < tried_directions; ++k) {
+                const double angle = 2.0 * std::numbers::pi * k / tried_directions +
+                                     golden_angle * static_cast<double>(moves_ + halving);
+                const SpherePoint place = (middle + step * (std::cos(angle) * x + std::sin(angle) * y)).normalized();
+                const double least = lay_around(v, place);
+                if (!(least > most)) continue;
+                most = least;
+                best = place;
+            }
+        }
+        lay_around(v, best);
+        return best != home;
+    }
+
+    const LaidSurface& surface_;
+    const Triangles& triangles_;
+    const SphereLayout layout_;
+    const ExecutionContext& context_;
+    Vertices places_;  // (V, 3) of the layout
+    PlanarPoints uv_;
+    LayoutMarks marks_;
+    std::vector<char> held_;  // (V) 1 for vertices at cone points
+    std::vector<Index> by_polygon_, polygon_of_, polygon_begin_, faces_of_, faces_begin_;
+    std::size_t moves_ = 0;
+};
 
 }  // namespace
 
-double on_uv_steps(double t) { return std::round(t * uv_steps) / uv_steps; }
-
-PlanarPoints sphere_layout(const Triangles& triangles, const Vertices& points, const std::vector<char>& turned,
-                           const std::vector<Index>& polygon, SphereLayout layout, SphereLayoutReport& report)
+PlanarPoints sphere_layout(const LaidSurface& surface, SphereLayout layout, SphereLayoutReport& report,
+                           const ExecutionContext& context)
 {
-    PlanarPoints uv(triangles.size(), 2);
-    const auto face_count = static_cast<Index>(triangles.rows());
-    const auto count = static_cast<std::size_t>(face_count);
-    LayoutMarks marks{std::vector<char>(count, 0), std::vector<char>(count, 0)};
-    each_in_pieces(face_count, [&](Index f) {
-        FaceCorners p;
-        for (int k = 0; k < 3; ++k) p[static_cast<std::size_t>(k)] = points.row(triangles(f, k)).transpose();
-        const Placed placed = layout == SphereLayout::octahedral
-                                  ? octahedral(p)
-                                  : equirectangular(p, turned[static_cast<std::size_t>(f)] != 0);
-        for (int k = 0; k < 3; ++k) uv.row(3 * f + k) = placed.uv[static_cast<std::size_t>(k)];
-        marks.crossing[static_cast<std::size_t>(f)] = placed.crossing ? 1 : 0;
-        marks.torn[static_cast<std::size_t>(f)] = placed.torn ? 1 : 0;
-    });
-    join_polygons(triangles, points, polygon, layout, uv, marks);
-    report = {};
-    for (Index f = 0; f < face_count; ++f) {
-        if (marks.crossing[static_cast<std::size_t>(f)]) report.crossing.push_back(f);
-        if (marks.torn[static_cast<std::size_t>(f)]) report.torn.push_back(f);
-    }
-    return uv;
+    return LayoutSearch(surface, layout, context).run(report);
 }
 
 }  // namespace koebe

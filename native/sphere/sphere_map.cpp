@@ -3,6 +3,7 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/enum_words.h"
+#include "core/sort_unique.h"
 #include "even/even_map.h"
 #include "execution/each_in_pieces.h"
 #include "linear/dense_spd.h"
@@ -79,11 +80,22 @@ std::vector<SphereLoop> loops_on_sphere(const PeriodicSurface& domain, const Pla
     return loops;
 }
 
+/// Faces whose UVs are not one to one, except those below the resolution of 32-bit UVs.
+std::vector<Index> misplaced_faces(const SphereLayoutReport& layout)
+{
+    std::vector<Index> all = layout.torn, result;
+    all.insert(all.end(), layout.flipped.begin(), layout.flipped.end());
+    sort_unique(all);
+    std::ranges::set_difference(all, layout.below_resolution, std::back_inserter(result));
+    return result;
+}
+
 void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const SphericalMap& sphere,
                     const SphereFaults& faults, bool balanced, bool drawn, bool opened, SphereResult& result)
 {
     result.warnings = map.warnings;
     warn_reoriented(domain.surface.reoriented, result.warnings);
+    warn_inside_out(domain.vertices, domain.surface, result.warnings);
     std::vector<Index> unused(static_cast<std::size_t>(result.vertex_count));
     std::iota(unused.begin(), unused.end(), 0);
     std::erase_if(unused, [&](Index v) { return std::ranges::binary_search(domain.original, v); });
@@ -112,14 +124,15 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
             {WarningKind::below_resolution,
              counted(faults.below_resolution.size(), "face") + " on the sphere too small for 64-bit coordinates",
              faults.below_resolution});
-    std::vector<Index> turned_over, tiny;
-    std::ranges::set_difference(result.layout.flipped, result.layout.torn, std::back_inserter(turned_over));
-    std::ranges::set_intersection(turned_over, result.layout.below_resolution, std::back_inserter(tiny));
-    if (!turned_over.empty())
-        result.warnings.push_back({WarningKind::flipped,
-                                   counted(turned_over.size(), "face") + " flipped in the UVs, " +
-                                       std::to_string(tiny.size()) + " of them too small for 32-bit UVs",
-                                   turned_over});
+    const auto& tiny = result.layout.below_resolution;
+    if (!tiny.empty())
+        result.warnings.push_back(
+            {WarningKind::below_resolution, counted(tiny.size(), "face") + " flipped, too small for 32-bit UVs", tiny});
+    if (const std::vector<Index> misplaced = misplaced_faces(result.layout); !misplaced.empty())
+        result.warnings.push_back(
+            {WarningKind::flipped,
+             counted(misplaced.size(), "face") + " flipped or torn in the UVs, upright on the sphere", misplaced,
+             "The other layout, or finer faces, may have room for them"});
     if (!faults.any()) return;
     warn_not_one_to_one(faults.flipped, faults.below_resolution,
                         {faults.holes.empty() ? "" : counted(faults.holes.size(), "loop") + " out of shape",
@@ -177,16 +190,20 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     result.turned = domain.surface.reoriented;
     std::vector<char> turned(static_cast<std::size_t>(triangles.rows()), 0);
     for (const Index f : result.turned) turned[f] = 1;
-    result.uv = sphere_layout(triangles, result.points, turned, options.polygon, options.layout, result.layout);
+    std::vector<char> on_loop(static_cast<std::size_t>(vertices.rows()), 0);
+    for (const VertexLoop& loop : domain.loops)
+        for (const Index v : loop) on_loop[domain.original[v]] = 1;
+    result.uv = sphere_layout({triangles, result.points, turned, on_loop, options.polygon}, options.layout,
+                              result.layout, context);
     result.loops = loops_on_sphere(domain, map, sphere);
     result.distortion = {distortion_on_sphere(domain, sphere.points),
                          judge_corners(vertices, triangles, result.uv, result.turned)};
-    result.layout.kind = options.layout;
     result.layout.flipped = result.distortion.flipped;
     result.layout.below_resolution = result.distortion.below_resolution;
     result.flipped_on_sphere = faults.flipped;
     result.below_sphere_resolution = faults.below_resolution;
-    result.converged = map.converged && !faults.any() && (balance.balanced || drawn || opened);
+    result.converged = map.converged && !faults.any() && (balance.balanced || drawn || opened) &&
+                       misplaced_faces(result.layout).empty();
     result.sweeps = map.sweeps;
     result.changes = map.changes;
     warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, opened, result);
@@ -207,8 +224,9 @@ void name_sphere(const CanonicalMesh& mesh, SphereResult& result)
         mesh.name_loop(loop.vertices);
         mesh.name_vertices(loop.off_circle);
     }
-    for (auto* faces : {&result.flipped_on_sphere, &result.below_sphere_resolution, &result.layout.crossing,
-                        &result.layout.torn, &result.layout.flipped, &result.layout.below_resolution})
+    for (auto* faces :
+         {&result.flipped_on_sphere, &result.below_sphere_resolution, &result.layout.crossing, &result.layout.moved,
+          &result.layout.torn, &result.layout.flipped, &result.layout.below_resolution})
         mesh.name_faces(*faces);
 }
 

@@ -1,12 +1,11 @@
 #include "sphere/sphere_polygons.h"
 
 #include "quality/stored_uv.h"
-#include "sphere/sphere_layout.h"
+#include "sphere/placed_face.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -199,20 +198,10 @@ private:
 
 }  // namespace
 
-void join_polygons(const Triangles& triangles, const Vertices& points, const std::vector<Index>& polygon,
-                   SphereLayout layout, PlanarPoints& uv, LayoutMarks& marks)
+void join_polygon(const std::vector<Index>& faces, const Triangles& triangles, const Vertices& points,
+                  SphereLayout layout, PlanarPoints& uv, LayoutMarks& marks)
 {
-    if (polygon.empty()) return;
-    std::vector<Index> order(polygon.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto number = [&](Index f) { return polygon[static_cast<std::size_t>(f)]; };
-    std::ranges::stable_sort(order, {}, number);
-    PolygonJoiner joiner(triangles, points, layout, uv, marks);
-    for (auto begin = order.begin(); begin != order.end();) {
-        const auto end = std::find_if(begin, order.end(), [&](Index f) { return number(f) != number(*begin); });
-        if (end - begin > 1) joiner.join({begin, end});
-        begin = end;
-    }
+    PolygonJoiner(triangles, points, layout, uv, marks).join(faces);
 }
 
 }  // namespace koebe

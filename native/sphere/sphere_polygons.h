@@ -12,13 +12,12 @@ struct LayoutMarks {
     std::vector<char> crossing, torn;  ///< (F)
 };
 
-/// Puts the triangles of each polygon side by side. Starts at the largest. Each next one goes over an inner edge to
+/// Puts the triangles of a polygon side by side. Starts at the largest. Each next one goes over an inner edge to
 /// where the pattern continues its neighbour, by whole turns (equirectangular) or half turns and shifts (octahedral).
-/// So each corner of a polygon has one place. Triangles are torn where the pattern does not close inside a polygon, as
-/// round a pole, or where it is too long for 32-bit floats with steps of 2^-23.
-/// @param polygon (F) faces of one number are one polygon; empty: each face by itself
-/// @param uv (3F, 2) of single faces, in and out @param marks in and out
-void join_polygons(const Triangles& triangles, const Vertices& points, const std::vector<Index>& polygon,
-                   SphereLayout layout, PlanarPoints& uv, LayoutMarks& marks);
+/// So each corner of the polygon has one place. Triangles are torn where the pattern does not close inside the polygon,
+/// as round a pole, or where it is too long for 32-bit floats with steps of 2^-23.
+/// @param faces of the polygon @param uv (3F, 2) of single faces, in and out @param marks in and out
+void join_polygon(const std::vector<Index>& faces, const Triangles& triangles, const Vertices& points,
+                  SphereLayout layout, PlanarPoints& uv, LayoutMarks& marks);
 
 }  // namespace koebe

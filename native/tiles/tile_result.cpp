@@ -95,6 +95,7 @@ double cut_length(const PeriodicSurface& domain, const Tile& tile)
 void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& faults, TileResult& result)
 {
     warn_reoriented(domain.surface.reoriented, result.warnings);
+    warn_inside_out(domain.vertices, domain.surface, result.warnings);
     if (!map.converged)
         result.warnings.push_back({WarningKind::not_converged, "the iteration ended before it reached its tolerance"});
     if (!map.apart)

@@ -82,12 +82,16 @@ TEST(HoleFilling, only_the_loops_asked_for_are_filled)
     EXPECT_THROW(fill_holes(sample.vertices, sample.domain.triangles, std::vector<Index>{-1}), InputError);
 }
 
-TEST(HoleFilling, faces_against_the_others_are_turned_first)
+TEST(HoleFilling, faces_against_the_others_stay_and_are_named)
 {
     FilledSample sample;
     sample.domain.triangles.row(7).reverseInPlace();
     const FilledSurface filled = fill_holes(sample.vertices, sample.domain.triangles);
-    EXPECT_TRUE(analyze_surface(filled.triangles, static_cast<Index>(filled.vertices.rows())).reoriented.empty());
+    EXPECT_EQ(filled.triangles.topRows(sample.domain.triangles.rows()), sample.domain.triangles);
+    const std::vector<Index> turned{7};
+    EXPECT_EQ(analyze_surface(filled.triangles, static_cast<Index>(filled.vertices.rows())).reoriented, turned);
+    ASSERT_EQ(filled.warnings.size(), 1U);
+    EXPECT_EQ(filled.warnings[0].elements, turned);
 }
 
 TEST(HoleFilling, a_planar_hole_is_filled_by_its_own_area)

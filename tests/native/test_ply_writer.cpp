@@ -202,7 +202,7 @@ TEST(MeshWriter, ObjPatchesAreGroupsByNumber)
     mesh.corners = {0, 1, 2, 1, 2, 0, 2, 0, 1};
     mesh.face_begin = {0, 3, 6, 9};
     const std::string text = written(folder, [&](AtomicFile& file) {
-        write_with_patches(file, WrittenFormat::obj, mesh, {-1, 1, 1}, {}, {MeshFile{}});
+        write_with_patches(file, WrittenFormat::obj, mesh, {-1, 1, 1}, {MeshFile{}});
     });
     EXPECT_TRUE(text.ends_with("\ng surface\nf 1 2 3\ng patch_1\nf 2 3 1\nf 3 1 2\n")) << text;
 }

@@ -67,13 +67,18 @@ def test_fill_of_chosen_loops_leaves_the_others_open(mesh):
     assert outside.stderr == said
 
 
-def test_fill_turns_polygons_that_lie_the_wrong_way_round(mesh):
+def test_fill_keeps_polygons_that_lie_the_wrong_way_round_and_names_them(mesh):
+    """The patches fit the other faces: with the polygon turned by hand the filled surface is closed."""
     vertices, quads = perforated()
-    (mesh / "in.obj").write_text(obj_text(vertices, [q[::-1] if i == 7 else q for i, q in enumerate(quads)]))
-    assert koebe("fill", mesh / "in.obj", mesh / "out.obj", "--all").returncode == 0
-    out = Obj(mesh / "out.obj")
-    assert border_of(out.faces) == set()
-    assert set(out.faces[7]) == set(quads[7])
+    text = obj_text(vertices, [q[::-1] if i == 7 else q for i, q in enumerate(quads)])
+    (mesh / "in.obj").write_text(text)
+    run = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--all")
+    assert run.returncode == 0 and "1 face kept in the other orientation" in run.stderr and "is 7" in run.stderr
+    kept = [line for line in (mesh / "out.obj").read_text().splitlines() if line.startswith("f ")]
+    assert kept[: len(quads)] == [line for line in text.splitlines() if line.startswith("f ")]
+    faces = Obj(mesh / "out.obj").faces
+    faces[7] = faces[7][::-1]
+    assert border_of(faces) == set()
 
 
 @pytest.mark.parametrize("scale", [1e308, 1.7e308, 1e-300, 5e-324])

@@ -1,4 +1,5 @@
 // koebe compare A B, koebe compare FOLDER --csv FILE
+#include "cli/commands/map_kind.h"
 #include "cli/commands/shape_family.h"
 #include "cli/commands/shape_input.h"
 #include "cli/commands/subcommand.h"
@@ -8,6 +9,7 @@
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
+#include "cli/process/result_line.h"
 #include "cli/process/standard_streams.h"
 
 #include "core/errors.h"
@@ -99,6 +101,9 @@ int run_compare(const CompareRequest& request)
     const LoopMatch match = run_detachable<LoopMatch>(context, [request, a, b](ExecutionContext& own) {
         return request.loops == "length" ? by_length(a, b) : match_loops(a.circles, b.circles, request.any_outer, own);
     });
+    std::vector<Warning> warnings;
+    for (const ShapeInput* shape : {&a, &b}) add_losses(shape->name + ": ", shape->warnings, warnings);
+    show_warnings(warnings);
     double distance = match.distance;
     nlohmann::ordered_json extremal;
     if (request.teichmueller) {

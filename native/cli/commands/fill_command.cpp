@@ -18,7 +18,7 @@
 
 #include <memory>
 #include <set>
-#include <span>
+#include <utility>
 
 namespace koebe::cli {
 namespace {
@@ -36,33 +36,23 @@ struct FillRequest {
 struct PatchedPolygons {
     PolygonMesh mesh;
     std::vector<Index> patch;
-    std::vector<char> turned;  ///< (F) of the filed faces
+    std::vector<Warning> warnings;
 };
 
-void add_polygon(PatchedPolygons& result, std::span<const Index> polygon, bool turned, Index patch)
+/// Joins the polygons as filed and the patches.
+PatchedPolygons join(const MeshInput& input, FilledSurface filled)
 {
-    auto& corners = result.mesh.corners;
-    if (turned)
-        corners.insert(corners.end(), polygon.rbegin(), polygon.rend());
-    else
-        corners.insert(corners.end(), polygon.begin(), polygon.end());
-    result.mesh.face_begin.push_back(static_cast<Index>(corners.size()));
-    result.patch.push_back(patch);
-}
-
-/// Joins the polygons as filed, turned where their triangles were, and the patches.
-PatchedPolygons join(const MeshInput& input, const FilledSurface& filled)
-{
-    const Triangles& triangles = input.triangulation.triangles;
-    PatchedPolygons result;
-    std::vector<char>& turned = result.turned;
-    turned.resize(static_cast<std::size_t>(input.polygons.face_count()), 0);
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        turned[input.triangulation.face[t]] = !(triangles.row(t).array() == filled.triangles.row(t).array()).all();
-    result.mesh.vertices = filled.vertices;
-    for (Index f = 0; f < input.polygons.face_count(); ++f) add_polygon(result, input.polygons.face(f), turned[f], -1);
-    for (Eigen::Index t = triangles.rows(); t < filled.triangles.rows(); ++t)
-        add_polygon(result, {filled.triangles.row(t).data(), 3}, false, filled.label[t]);
+    const Eigen::Index first = input.triangulation.triangles.rows();
+    PatchedPolygons result{input.polygons, {}, std::move(filled.warnings)};
+    result.mesh.vertices = std::move(filled.vertices);
+    result.patch.assign(static_cast<std::size_t>(input.polygons.face_count()), -1);
+    std::vector<Index>& corners = result.mesh.corners;
+    for (Eigen::Index t = first; t < filled.triangles.rows(); ++t) {
+        for (const Index v : filled.triangles.row(t)) corners.push_back(v);
+        result.mesh.face_begin.push_back(static_cast<Index>(corners.size()));
+        result.patch.push_back(filled.label[t]);
+    }
+    add_input_warnings(input, result.warnings);
     return result;
 }
 
@@ -109,11 +99,11 @@ int run_fill(const FillRequest& request)
     const PatchedPolygons filled =
         run_detachable<PatchedPolygons>(context, [request, input](ExecutionContext&) { return fill(request, *input); });
     AtomicFile file(request.output);
-    std::vector<Warning> warnings = input->warnings;
+    std::vector<Warning> warnings = filled.warnings;
     if (filled.mesh.face_count() == input->polygons.face_count())
         warnings.push_back({WarningKind::no_hole, "there is no hole: the only boundary is the outer one"});
     const std::vector<Warning> losses =
-        write_with_patches(file, request.format, filled.mesh, filled.patch, filled.turned, {input->file});
+        write_with_patches(file, request.format, filled.mesh, filled.patch, {input->file});
     warnings.insert(warnings.end(), losses.begin(), losses.end());
     context.checkpoint();
     file.commit();

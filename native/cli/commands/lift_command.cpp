@@ -37,8 +37,7 @@ std::vector<Warning> write_lifted(AtomicFile& file, const LiftRequest& request, 
     for (Index f = 1; f <= static_cast<Index>(result.triangles.rows()); ++f) mesh.face_begin.push_back(3 * f);
     const MeshFile no_file;
     if (result.uv.rows() > 0) return write_with_corner_uvs(file, request.format, mesh, result.uv, {no_file});
-    return write_with_patches(file, request.format, mesh, result.patch, std::vector<char>(result.patch.size(), 0),
-                              {no_file});
+    return write_with_patches(file, request.format, mesh, result.patch, {no_file});
 }
 
 int run_lift(const LiftRequest& request)

@@ -99,17 +99,13 @@ int run_certified(const ModuleRequest& request, const CancelToken& token)
     for (const std::string& words : request.between) condensers.push_back(condenser_of(words));
     CapacityOptions bounds = request.bounds;
     bounds.threads = request.options.map.threads;
-    const CapacityReport report = with_filed_faces(input, [&] {
+    CapacityReport report = with_filed_faces(input, [&] {
         return certified_capacities(input.polygons.vertices, input.triangulation.triangles, condensers, bounds,
                                     context);
     });
+    add_input_warnings(input, report.warnings);
     nlohmann::ordered_json json = to_json(report);
     json["input"] = std::filesystem::path(request.input).filename().string();
-    std::vector<Warning> warnings;
-    add_input_warnings(input, warnings);
-    nlohmann::ordered_json all = to_json(warnings);
-    for (const nlohmann::ordered_json& warning : json["warnings"]) all.push_back(warning);
-    json["warnings"] = all;
     print(json_text(json));
     return report.converged ? done : not_converged;
 }

@@ -136,6 +136,9 @@ ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::str
             row.known = true;
             if (request.options.rims == Rims::polygonal) row.note = "polygonal rims";
             if (!shape.converged) row.note = "not converged";
+            for (const Warning& warning : shape.warnings)
+                if (warning.kind == WarningKind::reoriented_faces)
+                    row.note += (row.note.empty() ? "" : "; ") + warning.sentence;
             family.converged = family.converged && shape.converged;
         } catch (const Cancelled&) {
             throw;

@@ -24,8 +24,8 @@ int run_sphere(const CornerMapRequest<SphereOptions>& request)
     kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
         SphereResult result = compute(input, context);
         input.give_to_joined(result.points);
-        for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::torn, &SphereLayoutReport::flipped,
-                           &SphereLayoutReport::below_resolution})
+        for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::moved, &SphereLayoutReport::torn,
+                           &SphereLayoutReport::flipped, &SphereLayoutReport::below_resolution})
             result.layout.*faces = filed_faces(input.triangulation, result.layout.*faces);
         return result;
     };

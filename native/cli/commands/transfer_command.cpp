@@ -1,4 +1,5 @@
 // koebe transfer A B OUT
+#include "cli/commands/map_kind.h"
 #include "cli/commands/subcommand.h"
 #include "cli/files/landmark_file.h"
 #include "cli/files/mesh_input.h"
@@ -41,11 +42,12 @@ struct MappedInput {
     MeshInput mesh;
     MappedSurface surface;
     bool converged = false;
+    std::vector<Warning> warnings;  ///< of turned faces
 };
 
 MappedInput read_and_map(const std::string& path, const TransferRequest& request, const CancelToken& token)
 {
-    MappedInput input{read_mesh_input(path, token), {}, false};
+    MappedInput input{read_mesh_input(path, token), {}, false, {}};
     ProgressLine progress(request.quiet);
     ExecutionContext context(progress.callback(), token);
     const Vertices& vertices = input.mesh.polygons.vertices;
@@ -54,6 +56,9 @@ MappedInput read_and_map(const std::string& path, const TransferRequest& request
         with_filed_faces(input.mesh, [&] { return uniformize(vertices, triangles, request.options, context); });
     input.surface = {vertices, triangles, std::move(result.uv), std::move(result.loops)};
     input.converged = result.converged;
+    std::ranges::copy_if(result.warnings, std::back_inserter(input.warnings),
+                         [](const Warning& warning) { return warning.kind == WarningKind::reoriented_faces; });
+    add_input_warnings(input.mesh, input.warnings);
     return input;
 }
 
@@ -132,6 +137,8 @@ int run_transfer(const TransferRequest& request)
     PolygonMesh moved = a->mesh.polygons;
     moved.vertices = found.points;
     std::vector<Warning> warnings = found.warnings;
+    add_losses("A: ", a->warnings, warnings);
+    add_losses("B: ", b->warnings, warnings);
     std::ranges::move(
         write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv, {a->mesh.file, true}),
         std::back_inserter(warnings));

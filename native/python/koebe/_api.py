@@ -1,5 +1,6 @@
 """The public functions: they check arrays, make options native and wrap results."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -11,6 +12,7 @@ from ._input import is_surface, points_at_vertices, polygons_of, surface_of
 from ._native import _koebe
 from ._option_table import rows
 from ._options import callback, choice, filled, flag, number, takes, token, vertex_weights, whole
+from ._report_entries import Warning
 from ._result import Source, UniformizeResult, with_origin
 from ._signatures import UniformizeOptions
 from .errors import InputError, OptionError, SolverError, TopologyError
@@ -131,6 +133,7 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any
     triangles       (F, 3), or a whole surface as for `uniformize`
     vertex_count    of the mesh; without it any number is a vertex
     mask            (V,) bool: faces with a vertex where it is True are left out
+    Faces that do not have the orientation of the others give a koebe.Warning.
     Raises InputError, and TopologyError for a mesh that is not manifold, orientable and connected.
 
     >>> import koebe
@@ -159,7 +162,19 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any
 
 
 def _loops_of(_: np.ndarray, __: np.ndarray, faces: np.ndarray, count: int) -> Any:
-    return _koebe.boundary_loops(faces, count)
+    loops = _koebe.boundary_loops(faces, count)
+    _tell(_koebe.surface_warnings(faces, count), 4)
+    return loops
+
+
+def _tell(entries: list[dict[str, Any]], level: int = 2) -> None:
+    """Python warnings of a function without a report. level: how far up its caller is."""
+    for entry in entries:
+        warnings.warn(Warning(entry), stacklevel=level + 1)
+
+
+def _tell_turned(source: Source) -> None:
+    _tell(_koebe.surface_warnings(source.triangles, len(source.vertices)), 3)
 
 
 def disk_map(vertices: Any, triangles: Any = None, *, mask: Any = None) -> np.ndarray:
@@ -175,7 +190,9 @@ def disk_map(vertices: Any, triangles: Any = None, *, mask: Any = None) -> np.nd
     True
     """
     source = surface_of(vertices, triangles, mask=mask)
-    return source.outside_nan(source.call(_koebe.disk_map))
+    points = source.outside_nan(source.call(_koebe.disk_map))
+    _tell_turned(source)
+    return points
 
 
 def annulus_map(
@@ -197,6 +214,7 @@ def annulus_map(
     chosen = choice(backend, "backend", _koebe.AnnulusBackend)
     source = surface_of(vertices, triangles, mask=mask)
     points, radius = source.call(_koebe.annulus_map, chosen)
+    _tell_turned(source)
     return source.outside_nan(points), radius
 
 
@@ -214,7 +232,8 @@ def fill_holes(
     fair    False: fans around the means of the loops' vertices (paper, section 4.4). True: triangles as long as those
             around the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
     Returns vertices (V + K, 3), triangles (F', 3) and a label per face: -1 in the input, k in the patch of loop k.
-    Lengths are in the input's unit.
+    Faces of the input stay as they are. Patches have the orientation of most faces; the other faces give a
+    koebe.Warning. Lengths are in the input's unit.
 
     >>> import koebe
     >>> vertices, triangles, label = koebe.fill_holes("blend_samples/face.obj", loops=[1, 2, 3])
@@ -223,7 +242,9 @@ def fill_holes(
     """
     source = surface_of(vertices, triangles, mask=mask)
     ranks = None if loops is None else as_indices(loops, "loops", source.triangles.size, "loops")
-    return source.call(_koebe.fill_holes, ranks, flag(fair, "fair"))
+    *filled, told = source.call(_koebe.fill_holes, ranks, flag(fair, "fair"))
+    _tell(told)
+    return tuple(filled)
 
 
 def harmonic_map(

@@ -25,9 +25,10 @@ class SphereMap(DomainMap):
                      only. Across the cut the pattern continues: equirectangular with the period 1 along u, u in
                      [0, 2); octahedral with half turns round the middles of the square's sides, u and v in [-1, 2].
                      Triangles of a polygon lie side by side, if necessary farther out, up to 2 from 0
-    layout           dict: kind; crossing, the faces that go beyond the layout's edge; torn, the faces round a pole or
-                     round the middle of a side of the square, which no UVs fit; flipped, the faces without a positive
-                     area in 32-bit UVs; below_resolution, the flipped faces that are too small for 32-bit UVs
+    layout           dict: kind; crossing, the faces that go beyond the layout's edge; moved, the faces with corners that
+                     were moved in the UVs so that no face is flipped, most of them at a pole or at the middle of a side
+                     of the square; torn, the faces whose UVs do not fit all neighbours; flipped, the faces without a
+                     positive area in 32-bit UVs; below_resolution, the flipped faces that are too small for 32-bit UVs
     loops            list of Loop, by falling length: vertices, center, radius (of the cap), roundness,
                      roundness_least_squares, off_circle
     mean_point       length of the mean of the surface's points by area, 0 if the map is balanced and conformal
