@@ -1,36 +1,18 @@
 #include "planar/boundary_crossings.h"
 
+#include "planar/meeting_boxes.h"
 #include "planar/planar_predicates.h"
-
-#include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
 
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_swept = 4096;  // boxes: with more of them CGAL's search is faster, however they lie
-
 struct LoopEdge {
     Index from, to;
 };
 
 using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, LoopEdge>;
-
-/// Visits all pairs of boxes that share a point. Few boxes are swept from left to right.
-template <typename Visit>
-void visit_meeting_boxes(std::vector<EdgeBox>& boxes, const Visit& visit)
-{
-    if (boxes.size() > most_swept) {
-        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), visit);
-        return;
-    }
-    std::ranges::sort(boxes, {}, [](const EdgeBox& box) { return box.min_coord(0); });
-    for (auto first = boxes.begin(); first != boxes.end(); ++first)
-        for (auto second = first + 1; second != boxes.end() && second->min_coord(0) <= first->max_coord(0); ++second)
-            if (second->min_coord(1) <= first->max_coord(1) && first->min_coord(1) <= second->max_coord(1))
-                visit(*first, *second);
-}
 
 }  // namespace
 
@@ -49,7 +31,7 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
             boxes.emplace_back(low, high, edge);
         }
     std::vector<std::pair<Index, Index>> crossings;
-    visit_meeting_boxes(boxes, [&](const EdgeBox& first, const EdgeBox& second) {
+    detail::visit_meeting_boxes(boxes, [&](const EdgeBox& first, const EdgeBox& second) {
         const LoopEdge e = first.info(), f = second.info();
         if (e.from == f.from || e.from == f.to || e.to == f.from || e.to == f.to) return;
         if (segments_meet(at(e.from), at(e.to), at(f.from), at(f.to)))

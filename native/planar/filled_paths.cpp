@@ -1,15 +1,12 @@
 #include "planar/filled_paths.h"
 
 #include "core/silent_cgal.h"
+#include "planar/divided_segments.h"
 #include "planar/planar_predicates.h"
-
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Constrained_triangulation_plus_2.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include "planar/planar_region.h"
 
 #include <array>
-#include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace koebe {
@@ -17,16 +14,18 @@ namespace {
 
 struct FillState {
     int windings = 0;
+    std::array<int, 3> fall{};  // what the number of windings falls by over each edge
+    std::array<bool, 3> done{};
     bool seen = false, inside = false;
     Index area = -1;
 };
 
-using FillKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using FillKernel = detail::PlanarRegion::Kernel;
 using FillFace = CGAL::Triangulation_face_base_with_info_2<FillState, FillKernel,
                                                            CGAL::Constrained_triangulation_face_base_2<FillKernel>>;
-using FillTriangulation = CGAL::Constrained_triangulation_plus_2<CGAL::Constrained_Delaunay_triangulation_2<
+using FillTriangulation = CGAL::Constrained_Delaunay_triangulation_2<
     FillKernel, CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<FillKernel>, FillFace>,
-    CGAL::Exact_intersections_tag>>;
+    CGAL::No_constraint_intersection_tag>;
 using FaceHandle = FillTriangulation::Face_handle;
 using VertexHandle = FillTriangulation::Vertex_handle;
 
@@ -37,7 +36,11 @@ class Filling {
 public:
     Filling(const std::vector<std::vector<Complex>>& rings, bool even_odd) : even_odd_(even_odd)
     {
-        insert(rings);
+        std::vector<CountedSegment> segments;
+        for (const std::vector<Complex>& ring : rings)
+            for (std::size_t i = 0; i < ring.size(); ++i) segments.push_back({ring[i], ring[(i + 1) % ring.size()], 1});
+        segments = divided_segments(std::move(segments));
+        insert(segments);
         if (triangulation_.dimension() < 2) return;
         wind();
         number_areas();
@@ -46,49 +49,45 @@ public:
     std::vector<FilledBoundary> boundaries()
     {
         std::vector<FilledBoundary> result;
-        std::map<FaceEdge, bool> done;
         for (const FaceEdge& edge : border_)
-            if (!done[edge]) result.push_back(boundary_from(edge, done));
+            if (!edge.first->info().done[edge.second]) result.push_back(boundary_from(edge));
         return result;
     }
 
 private:
-    using Place = std::pair<double, double>;
-
-    /// Inserts each segment once, with the number of times that it is run through from its lower end.
-    void insert(const std::vector<std::vector<Complex>>& rings)
+    void insert(const std::vector<CountedSegment>& segments)
     {
-        std::map<std::pair<Place, Place>, int> segments;
-        for (const std::vector<Complex>& ring : rings)
-            for (std::size_t i = 0; i < ring.size(); ++i) {
-                const Complex z = ring[i], w = ring[(i + 1) % ring.size()];
-                const Place a{z.real(), z.imag()}, b{w.real(), w.imag()};
-                if (a < b) ++segments[{a, b}];
-                if (b < a) --segments[{b, a}];
-            }
-        std::map<Place, VertexHandle> vertices;
-        const auto vertex = [&](const Place& place) {
-            const auto [at, added] = vertices.try_emplace(place);
-            if (added) at->second = triangulation_.insert({place.first, place.second});
-            return at->second;
-        };
-        for (const auto& [ends, times] : segments) {
-            if (times == 0) continue;
-            const VertexHandle a = vertex(ends.first), b = vertex(ends.second);
-            times_.emplace(triangulation_.insert_constraint(a, b), times);
+        // the ends, numbered along x; each is inserted once, near the one before
+        std::vector<Complex> places;
+        for (const CountedSegment& one : segments) places.insert(places.end(), {one.lower, one.upper});
+        const auto key = [](Complex z) { return std::pair(z.real(), z.imag()); };
+        std::ranges::sort(places, {}, key);
+        places.erase(std::ranges::unique(places).begin(), places.end());
+        std::vector<VertexHandle> vertices(places.size());
+        FaceHandle near;
+        for (const std::size_t i : detail::to_and_fro(places)) {
+            vertices[i] = triangulation_.insert(detail::to_point(places[i]), near);
+            near = vertices[i]->face();
         }
-    }
+        const auto vertex = [&](Complex z) {
+            return vertices[static_cast<std::size_t>(std::ranges::lower_bound(places, key(z), {}, key) -
+                                                     places.begin())];
+        };
+        for (const CountedSegment& one : segments)
+            triangulation_.insert_constraint(vertex(one.lower), vertex(one.upper));
+        if (triangulation_.dimension() < 2) return;
 
-    /// What the number of windings falls by from a face over one of its edges.
-    int fall(const FaceHandle& face, int edge)
-    {
-        if (!face->is_constrained(edge)) return 0;
-        const VertexHandle a = face->vertex(FillTriangulation::ccw(edge));
-        const VertexHandle b = face->vertex(FillTriangulation::cw(edge));
-        int total = 0;
-        for (auto c = triangulation_.contexts_begin(a, b); c != triangulation_.contexts_end(a, b); ++c)
-            total += *c->current() == a ? times_.at(c->id()) : -times_.at(c->id());
-        return total;
+        // each edge gets its windings once no edge is flipped any more
+        for (const CountedSegment& one : segments) {
+            FaceHandle face;
+            int edge = 0;
+            if (!triangulation_.is_edge(vertex(one.lower), vertex(one.upper), face, edge))
+                throw std::logic_error("a divided segment is no edge");
+            const bool ahead = face->vertex(FillTriangulation::ccw(edge)) == vertex(one.lower);
+            const FaceEdge twin = triangulation_.mirror_edge({face, edge});
+            face->info().fall[edge] = ahead ? one.times : -one.times;
+            twin.first->info().fall[twin.second] = -face->info().fall[edge];
+        }
     }
 
     void wind()
@@ -104,7 +103,7 @@ private:
                 const FaceHandle next = face->neighbor(edge);
                 if (next->info().seen) continue;
                 next->info().seen = true;
-                next->info().windings = windings - fall(face, edge);
+                next->info().windings = windings - face->info().fall[edge];
                 front.push_back(next);
             }
         }
@@ -149,15 +148,15 @@ private:
         return {face, i};
     }
 
-    static FilledBoundary boundary_from(const FaceEdge& first, std::map<FaceEdge, bool>& done)
+    static FilledBoundary boundary_from(const FaceEdge& first)
     {
         FilledBoundary boundary;
         boundary.area = first.first->info().area;
         FaceEdge edge = first;
         do {
-            done[edge] = true;
-            const auto& point = edge.first->vertex(FillTriangulation::ccw(edge.second))->point();
-            boundary.points.emplace_back(CGAL::to_double(point.x()), CGAL::to_double(point.y()));
+            edge.first->info().done[edge.second] = true;
+            boundary.points.push_back(
+                detail::to_complex(edge.first->vertex(FillTriangulation::ccw(edge.second))->point()));
             edge = next_on_border(edge);
         } while (edge != first);
         double twice = 0.0;
@@ -170,7 +169,6 @@ private:
 
     bool even_odd_;
     FillTriangulation triangulation_;
-    std::map<FillTriangulation::Constraint_id, int> times_;
     std::vector<FaceEdge> border_;
 };
 
@@ -179,6 +177,7 @@ private:
 std::vector<FilledBoundary> united_paths(const std::vector<FilledPath>& paths)
 {
     const SilentCgal silent;
+    if (paths.size() == 1) return Filling(paths.front().rings, paths.front().even_odd).boundaries();
     std::vector<std::vector<Complex>> rings;
     for (const FilledPath& path : paths)
         for (FilledBoundary& boundary : Filling(path.rings, path.even_odd).boundaries())

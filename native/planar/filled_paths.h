@@ -20,9 +20,9 @@ struct FilledBoundary {
     Index area = -1;  ///< connected areas are numbered; each has one boundary that is no hole
 };
 
-/// The union of filled paths. Polygons may cross themselves and each other: crossings are computed exactly, in a
-/// constrained triangulation (CGAL), and rounded to floats at the end.
-/// @param paths finite
+/// The union of filled paths. Polygons may cross themselves and each other: crossings are found by a sweep and rounded to
+/// floats (divided_segments.h), so that boundaries meet at common points only.
+/// @param paths finite @throws InputError over a million crossings
 std::vector<FilledBoundary> united_paths(const std::vector<FilledPath>& paths);
 
 }  // namespace koebe

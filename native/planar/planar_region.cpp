@@ -8,11 +8,6 @@
 #include <tuple>
 
 namespace koebe::detail {
-namespace {
-
-/// Orders interior points in rows of cells, to and fro, so that the walk from each to the next is short. CGAL's own
-/// order (spatial_sort) differs between C++ libraries. Four points on a circle may be joined in two ways, so the mesh
-/// would depend on the library.
 std::vector<std::size_t> to_and_fro(const std::vector<Complex>& points)
 {
     const double rows = std::max(1.0, std::floor(std::sqrt(0.5 * static_cast<double>(points.size()))));
@@ -34,8 +29,6 @@ std::vector<std::size_t> to_and_fro(const std::vector<Complex>& points)
     for (const auto& key : keys) order.push_back(std::get<2>(key));
     return order;
 }
-
-}  // namespace
 
 PlanarRegion::PlanarRegion(const std::vector<VectorXcd>& polygons, const std::vector<Complex>& interior)
 {

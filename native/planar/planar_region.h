@@ -40,6 +40,11 @@ private:
     Cdt cdt_;
 };
 
+/// Orders points in rows of cells, to and fro, so that the walk from each to the next is short. CGAL's own order
+/// (spatial_sort) differs between C++ libraries. Four points on a circle may be joined in two ways, so the mesh would
+/// depend on the library.
+std::vector<std::size_t> to_and_fro(const std::vector<Complex>& points);
+
 inline Complex to_complex(const PlanarRegion::Cdt::Point& p) { return {p.x(), p.y()}; }
 inline PlanarRegion::Cdt::Point to_point(Complex z) { return {z.real(), z.imag()}; }
 
