@@ -3,6 +3,7 @@
 #include "cli/commands/map_run.h"
 #include "cli/options/loop_options.h"
 #include "core/counted.h"
+#include "pipeline/convex_disk.h"
 #include "report/svg.h"
 
 #include <algorithm>
@@ -58,7 +59,10 @@ int run_map(const MapRequest& request, const MapFunction& compute)
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
         UniformizeResult result = with_filed_faces(input, [&] {
             require_fitting_vertices(input, request.options);
-            return compute(input.polygons.vertices, input.triangulation.triangles, context);
+            UniformizeResult made = compute(input.polygons.vertices, input.triangulation.triangles, context);
+            make_polygons_convex(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, made,
+                                 context);
+            return made;
         });
         add_input_warnings(input, result.warnings);
         return result;
