@@ -251,6 +251,7 @@ def _map_island(
         one.result = koebe.uniformize(
             island.vertices,
             island.triangles,
+            polygon=island.triangle_face,
             progress=progress,
             cancel=cancel,
             **vertices,

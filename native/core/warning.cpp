@@ -38,6 +38,7 @@ const char* to_string(WarningKind kind) noexcept
     case WarningKind::crossings: return "crossings";
     case WarningKind::thin_bridges: return "thin_bridges";
     case WarningKind::lost_area: return "lost_area";
+    case WarningKind::concave_polygons: return "concave_polygons";
     case WarningKind::not_mapped: return "not_mapped";
     }
     return "unknown";
@@ -61,6 +62,7 @@ ElementKind elements_of(WarningKind kind) noexcept
     case WarningKind::crossings:
     case WarningKind::thin_bridges:
     case WarningKind::lost_area:
+    case WarningKind::concave_polygons:
     case WarningKind::not_mapped:
     case WarningKind::not_one_to_one: return ElementKind::faces;
     case WarningKind::lost_circles:

@@ -43,6 +43,7 @@ enum class WarningKind {
     crossings,         ///< distant places of a lifted pattern meet; elements: the surface's faces there
     thin_bridges,      ///< less material between two openings than was asked for; elements: the surface's faces there
     lost_area,         ///< more area than allowed has no area in the UVs; elements: the faces without area
+    concave_polygons,  ///< convex on the surface, but not in the UVs; elements: faces
     not_mapped,        ///< faces of pieces without a map; elements: these faces
     coincident,  ///< vertices of rims at the place of another one (io/welding.h); elements: vertices. Must stay the
                  ///< last kind

@@ -1,5 +1,6 @@
 #include "opened/cut_sheet.h"
 
+#include "foldover/convex_polygons.h"
 #include "foldover/untangle.h"
 #include "mesh/topology.h"
 #include "quality/shared_warnings.h"
@@ -82,6 +83,24 @@ void Sheet::turn_back(std::size_t piece, const Circle& place, MappedPiece& mappe
     std::vector<Index> freed;
     for (const Index v : report.freed) freed.push_back(own.source_vertex[static_cast<std::size_t>(v)]);
     warn_off_circle(std::move(freed), mapped.map.warnings);
+}
+
+void Sheet::mend(const std::vector<Index>& polygon, std::vector<MappedPiece>& mapped, const std::vector<Circle>& places,
+                 const ExecutionContext& context)
+{
+    if (polygon.empty()) return;
+    std::vector<Index> own, held;
+    for (const Index f : faces_) own.push_back(polygon[f]);
+    for (std::size_t i = 0; i < mapped.size(); ++i)
+        for (const Index v : {mapped[i].map.center, mapped[i].map.point})
+            if (v >= 0) held.push_back(static_cast<Index>(first_vertex_[i]) + v);
+    const std::vector<Index> turned;
+    if (!mend_disk_polygons({vertices_, triangles_, own, turned, held}, points_, context)) return;
+    for (std::size_t i = 0; i < mapped.size(); ++i) {
+        PlanarPoints points = points_.middleRows(first_vertex_[i], pieces_[i].vertices.rows());
+        points.rowwise() -= Eigen::RowVector2d(places[i].center.real(), places[i].center.imag());
+        mapped[i].map.uv = points / places[i].radius;
+    }
 }
 
 PlanarPoints Sheet::corners(Index face_count) const

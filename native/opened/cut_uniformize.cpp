@@ -5,6 +5,7 @@
 #include "execution/peak_memory.h"
 #include "execution/side_by_side.h"
 #include "execution/stopwatch.h"
+#include "foldover/convex_polygons.h"
 #include "mesh/topology.h"
 #include "opened/cut_sheet.h"
 #include "opened/cut_warnings.h"
@@ -283,6 +284,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
         if (flipped.empty()) break;
         for (const std::size_t i : flipped) radii[i] *= 2.0;
     }
+    sheet.mend(polygon, result.pieces, places, context);
     for (std::size_t i = 0; i < places.size(); ++i) {
         result.pieces[i].place = places[i];
         PieceMapper::rename(opened.pieces[i], result.pieces[i].map);
@@ -298,6 +300,8 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
     result.converged =
         result.converged && result.distortion.flipped.size() == result.distortion.below_resolution.size();
     result.warnings = cut_warnings(result);
+    warn_concave_polygons({vertices, triangles, polygon, result.turned, {}, false, left_out}, result.uv,
+                          result.warnings);
     take_verdict({.most_lost = options.most_lost, .done = true}, result);
     result.seconds.topology += opening;
     result.seconds.total = run.elapsed();

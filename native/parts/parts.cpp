@@ -7,6 +7,7 @@
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
+#include "foldover/convex_polygons.h"
 #include "linear/dense_spd.h"
 #include "part_maps/part_mesh.h"
 #include "parts/flat_mesh.h"
@@ -183,6 +184,9 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
             {static_cast<Index>(k), static_cast<Index>(packed.twins[k]->of), packed.twins[k]->mirrored});
     }
     PartsLayout layout = layout_at(std::move(mesh), packed.places, mirrored);
+    const std::vector<Index> none;
+    const SurfacePolygons polygons{layout.vertices, layout.triangles, options.polygon, none};
+    mend_polygons(polygons, layout.uv, context);
     const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report describes it
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
@@ -218,6 +222,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
              counted(anew.size(), "face") +
                  " in parts that were drawn anew, less even: they overlapped themselves as stored",
              anew});
+    warn_concave_polygons(polygons, uv, result.warnings);
     take_verdict({.most_lost = options.most_lost, .advice = lower_price}, result);
     result.part = std::move(layout.part);
     result.peak_memory_mb = peak_memory_mb();

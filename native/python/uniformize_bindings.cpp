@@ -7,6 +7,7 @@
 
 #include "opened/cut_uniformize.h"
 #include "opened/cut_warnings.h"
+#include "pipeline/convex_disk.h"
 #include "pipeline/uniformize.h"
 #include "report/cut_json.h"
 #include "report/json.h"
@@ -107,6 +108,13 @@ koebe.errors.Cancelled: ...
             return uniformize(vertices, triangles, options, context);
         });
     });
+    m.def("make_polygons_convex",
+          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+             UniformizeResult& result, const std::vector<Index>& polygon, bool mend, const CancelToken& cancel) {
+              without_gil(py::none(), cancel, [&](ExecutionContext& context) {
+                  make_polygons_convex(vertices, triangles, polygon, result, context, mend);
+              });
+          });
     m.def("uniformize_with_cuts",
           [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
              const std::vector<Index>& polygon, const UniformizeOptions& options, const py::object& progress,

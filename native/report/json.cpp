@@ -91,6 +91,10 @@ Json report_json(const MapReport& map, const Json& own)
     report["converged"] = map.converged;
     if (map.even) report.update({{"even", *map.even}, {"overlaps", map.overlaps}});
     report.update(to_json(map.distortion));
+    std::size_t concave = 0;
+    for (const Warning& warning : map.warnings)
+        if (warning.kind == WarningKind::concave_polygons) concave += warning.elements.size();
+    report["concave_polygons"] = concave;
     report.update({{"seconds", to_json(map.seconds)},
                    {"peak_memory_mb", map.peak_memory_mb},
                    {"warnings", to_json(map.warnings)}});

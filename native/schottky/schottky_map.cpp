@@ -5,6 +5,7 @@
 #include "core/enum_words.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"
+#include "foldover/convex_polygons.h"
 #include "linear/dense_spd.h"
 #include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
@@ -155,6 +156,7 @@ SchottkyResult map_split(const Vertices& vertices, const Triangles& triangles, c
     warn_reoriented(result.turned, result.warnings);
     warn_inside_out(vertices, surface, result.warnings);
     warn(circles, best.faults, best.map.converged, options.normalization, result);
+    warn_concave_polygons({vertices, triangles, options.polygon, result.turned}, result.uv, result.warnings);
     clock.finish(result, context);
     return result;
 }

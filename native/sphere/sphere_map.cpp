@@ -6,6 +6,7 @@
 #include "core/sort_unique.h"
 #include "even/even_map.h"
 #include "execution/each_in_pieces.h"
+#include "foldover/convex_polygons.h"
 #include "linear/dense_spd.h"
 #include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
@@ -208,6 +209,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
     result.changes = map.changes;
     warn_of_sphere(domain, map, sphere, faults, balance.balanced, drawn, opened, result);
     if (*result.even < options.even) warn_not_even({}, result.warnings);
+    warn_concave_polygons({vertices, triangles, options.polygon, result.turned}, result.uv, result.warnings);
     take_verdict(
         {.most_lost = options.most_lost, .advice = "Finer faces, the other layout or parts (koebe parts) lose less"},
         result);

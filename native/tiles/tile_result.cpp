@@ -4,6 +4,7 @@
 #include "core/counted.h"
 #include "core/vertex_weights.h"
 #include "even/even_map.h"
+#include "foldover/convex_polygons.h"
 #include "mesh/connectivity.h"
 #include "mesh/corner_order.h"
 #include "quality/shared_warnings.h"
@@ -30,17 +31,23 @@ PlanarPoints tile_uv(const Tile& tile)
     return uv;
 }
 
+/// The domain's faces by the input's vertices.
+Triangles named_triangles(const PeriodicSurface& domain)
+{
+    return domain.surface.triangles.unaryExpr([&](Index v) { return domain.original[v]; });
+}
+
 /// (3F, 2) by the corners of the input's faces.
 PlanarPoints corner_uvs(const Triangles& triangles, const PeriodicSurface& domain, const Tile& tile)
 {
-    const Triangles named = domain.surface.triangles.unaryExpr([&](Index v) { return domain.original[v]; });
-    return in_corner_order(tile_uv(tile), named, triangles);
+    return in_corner_order(tile_uv(tile), named_triangles(domain), triangles);
 }
 
-/// Measures the tile with corners of its own for every face.
-ComputedDistortion distortion_of(const PeriodicSurface& domain, const Tile& tile)
+/// Measures the tile with corners of its own for every face. @param uv (3F, 2) of the input's corners
+ComputedDistortion distortion_of(const Triangles& triangles, const PeriodicSurface& domain, const PlanarPoints& uv)
 {
-    return measure_corner_distortion(domain.vertices, domain.surface.triangles, 2.0 * tile_uv(tile).array() - 1.0);
+    const PlanarPoints own = in_corner_order(uv, triangles, named_triangles(domain));
+    return measure_corner_distortion(domain.vertices, domain.surface.triangles, 2.0 * own.array() - 1.0);
 }
 
 TileLoop loop_report(const PeriodicSurface& domain, const FlatMap& map, std::size_t k)
@@ -142,7 +149,7 @@ struct CheckedTile {
 };
 
 TileResult reported(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain, double even,
-                    HoleShape holes, const FlatMap& map, const CheckedTile& checked)
+                    HoleShape holes, const FlatMap& map, const CheckedTile& checked, const ExecutionContext& context)
 {
     const auto& [tile, faults] = checked;
     TileResult result;
@@ -162,8 +169,12 @@ TileResult reported(const Vertices& vertices, const Triangles& triangles, const 
     result.converged = map.converged && map.apart && !faults.any();
     result.sweeps = static_cast<int>(map.changes.size());
     result.changes = map.changes;
-    result.distortion = {distortion_of(domain, tile), judge_corners(vertices, triangles, result.uv, result.turned)};
+    const SurfacePolygons polygons{vertices, triangles, domain.polygon, result.turned, {}, true};
+    mend_polygons(polygons, result.uv, context);
+    result.distortion = {distortion_of(triangles, domain, result.uv),
+                         judge_corners(vertices, triangles, result.uv, result.turned)};
     warn(domain, map, faults, result);
+    warn_concave_polygons(polygons, result.uv, result.warnings);
     if (domain.first_hole == 0 || even > 0.0)
         for (std::size_t k = 0; k < map.circles.size(); ++k) {
             TileLoop& loop = result.loops[domain.first_hole + k];
@@ -231,12 +242,12 @@ TileResult tile_result(const Vertices& vertices, const Triangles& triangles, con
             const CheckedTile checked(domain, holes, even, context);
             if (!checked.faults.any()) {
                 map = std::move(even);
-                return reported(vertices, triangles, domain, options.even, holes, map, checked);
+                return reported(vertices, triangles, domain, options.even, holes, map, checked, context);
             }
         }
     }
     const CheckedTile checked(domain, holes, map, context);
-    TileResult result = reported(vertices, triangles, domain, 0.0, holes, map, checked);
+    TileResult result = reported(vertices, triangles, domain, 0.0, holes, map, checked, context);
     if (options.even > 0.0) warn_not_even({}, result.warnings);
     return result;
 }

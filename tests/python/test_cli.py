@@ -83,7 +83,8 @@ def test_the_report_has_the_keys_of_the_contract(mesh):
         *("history", "loops", "mean_roundness", "even", "overlaps", "angle_error_deg", "angle_error_stored_deg"),
         *("lost_area", "beltrami"),
         *("area_distortion", "conformal_energy"),
-        *("flipped", "below_resolution", "seconds", "peak_memory_mb", "warnings", "input_sha256", "options"),
+        *("flipped", "below_resolution", "concave_polygons", "seconds", "peak_memory_mb", "warnings", "input_sha256"),
+        "options",
     ]
     assert report["input"] == "in.obj"
     assert report["vertices"] == len(perforated()[0])

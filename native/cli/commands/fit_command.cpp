@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "fit/fit_circles.h"
+#include "pipeline/convex_disk.h"
 #include "report/fit_json.h"
 
 #include <memory>
@@ -30,6 +31,8 @@ int run_fit(const FitRequest& request)
             return fit_circles(input.polygons.vertices, input.triangulation.triangles, wanted,
                                {.map = request.options, .extremal = request.extremal}, context);
         });
+        make_polygons_convex(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, result,
+                             context, false);  // the fit's |mu| is least as it is
         add_input_warnings(input, result.warnings);
         return result;
     };

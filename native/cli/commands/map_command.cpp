@@ -3,6 +3,7 @@
 #include "cli/commands/map_run.h"
 #include "cli/options/loop_options.h"
 #include "core/counted.h"
+#include "pipeline/convex_disk.h"
 #include "report/svg.h"
 
 #include <algorithm>
@@ -60,7 +61,10 @@ int run_map(const MapRequest& request, const MapFunction& compute)
         name_mapped_vertices(input, options);
         UniformizeResult result = with_filed_faces(input, [&] {
             require_fitting_vertices(input, options);
-            return compute(input.polygons.vertices, input.triangulation.triangles, options, context);
+            UniformizeResult made = compute(input.polygons.vertices, input.triangulation.triangles, options, context);
+            make_polygons_convex(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, made,
+                                 context);
+            return made;
         });
         input.give_to_joined(result.uv);
         add_input_warnings(input, result.warnings);

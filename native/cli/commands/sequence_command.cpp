@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "execution/stopwatch.h"
 #include "io/file_error.h"
+#include "pipeline/convex_disk.h"
 #include "pipeline/surface_solver.h"
 
 #include <cstdio>
@@ -122,7 +123,10 @@ private:
                              ": all files of a sequence must have the same faces");
         }
         input.triangulation = first_.triangulation;  // the surface was made of this triangulation
-        return surface_->uniformize(input.polygons.vertices, context);
+        UniformizeResult result = surface_->uniformize(input.polygons.vertices, context);
+        make_polygons_convex(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, result,
+                             context);
+        return result;
     }
 
     struct First {

@@ -55,7 +55,7 @@ def uniformize(
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: bool, **options: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult | CutResult: ...
-@takes("uniformize", progress=None, cancel=None)
+@takes("uniformize", polygon=None, progress=None, cancel=None)
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: bool = False, **given: "Unpack[UniformizeOptions]"
 ) -> UniformizeResult | CutResult:
@@ -72,6 +72,9 @@ def uniformize(
     mask         (V,) bool: faces with a vertex where it is True are left out, as if they were not there. Vertices keep
                  their numbers, and their values are NaN where no face is left. Faces are numbered without those left
                  out: the result's `source_face` has their numbers in the input. koebe.read_region reads masks
+    polygon      (F,) integers: triangles of one number are one polygon. If it is convex on the surface, it is convex in
+                 the UVs, or the warning concave_polygons has one of its triangles. Cuts do not part it. None: the
+                 polygons of the file or mesh
     progress     called as progress(fraction, stage) on the calling thread; fraction never falls
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
 
@@ -110,12 +113,13 @@ def uniformize(
     source = surface_of(vertices, triangles, degenerate=cut, mask=given["mask"], weld=chosen["weld"])
     source.name_mapped_vertices(options)
     options.importance = importance_of(given["importance"], chosen, len(source.vertices))
+    polygon = polygons_of(given["polygon"], source)
     if cut:
-        polygon = polygons_of(None, source)
         made = source.call(_koebe.uniformize_with_cuts, polygon, options, progress, cancel)
         report = with_origin(made.report(), source, {**chosen, "cut": True})
         return CutResult(report, made.uv, np.array(made.flipped_faces), source)
     native = source.call(_koebe.uniformize, options, progress, cancel)
+    source.call(_koebe.make_polygons_convex, native, polygon, True, cancel)
     report = with_origin(native.report(), source, chosen)
     return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
 

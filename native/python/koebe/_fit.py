@@ -9,7 +9,7 @@ import numpy as np
 
 from ._api import solver_options
 from ._arrays import as_indices, as_numbers, as_points
-from ._input import surface_of
+from ._input import polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, flag, takes, token, vertex
 from ._result import Source, UniformizeResult, with_origin
@@ -147,6 +147,7 @@ def fit_circles(
         raise InputError(f"there are {len(ranks)} loops for {count} circles")
     wanted = _koebe.CircleTemplate(places, sizes, _words(names, count), ranks, *_rims(pins, fixed, count))
     native = source.call(_koebe.fit_circles, wanted, options, extremal, progress, cancel)
+    source.call(_koebe.make_polygons_convex, native, polygons_of(None, source), False, cancel)
     report = with_origin(native.report(), source, {**said, "extremal": extremal})
     return FitResult(report, native.uv, np.array(native.flipped_faces), native.mu, source)
 

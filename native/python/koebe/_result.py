@@ -201,6 +201,7 @@ class MapReport(Saved):
                      corner at a side without length counts as a right angle
     lost_area        share of the surface's area in faces without a positive area as stored
     flipped, below_resolution    counts of faces, as in the command's JSON
+    concave_polygons    count of polygons that are convex on the surface, but not in the UVs
     flipped_faces    int32 array of the faces that `flipped` counts, ascending
     even, overlaps   for maps with the option `even`: the E that was reached, and how often loops cross
     seconds          of each stage
@@ -224,6 +225,7 @@ class MapReport(Saved):
     flipped_faces: np.ndarray
     even: float = 0.0
     overlaps: int = 0
+    concave_polygons: int = 0
     seconds: Any
     peak_memory_mb: float
     warnings: list[Warning]

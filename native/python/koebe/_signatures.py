@@ -51,6 +51,7 @@ class SequenceOptions(SweepOptions, total=False):
 class UniformizeOptions(SequenceOptions, RunOptions, total=False):
     """Options of `uniformize`, except `cut`."""
 
+    polygon: Any
     engine: Literal["condensed", "mesh"]
     even: float
     loops: Literal["auto", "round", "free"]

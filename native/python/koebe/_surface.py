@@ -7,7 +7,7 @@ import numpy as np
 
 from ._api import importance_of, solver_options
 from ._arrays import as_points
-from ._input import is_surface, surface_of
+from ._input import is_surface, polygons_of, surface_of
 from ._native import _koebe
 from ._options import callback, takes, token
 from ._result import Source, UniformizeResult, with_origin
@@ -58,6 +58,7 @@ class Surface:
         progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
         source = self._source if vertices is None else self._moved(vertices)
         native = self._native.uniformize(source.vertices, progress, cancel)
+        source.call(_koebe.make_polygons_convex, native, polygons_of(None, self._source), True, cancel)
         report = native.report()
         # Other positions might choose another outer loop: this one makes uniformize repeat the map.
         options = {**self._options, "outer": int(report["loops"][0]["vertices"][0])}
