@@ -16,6 +16,7 @@ namespace koebe {
 namespace {
 
 constexpr Index most_refined_faces = 20000, most_for_the_mesh_engine = 4000;
+constexpr Index most_faces_times_loops = 32000;  // of the mesh engine, which takes a step for each loop in a sweep
 constexpr int most_refinements = 3;
 
 std::vector<Index> boundary_of(const MapInput& input)
@@ -149,7 +150,10 @@ KoebeOutcome loop_images(const MapInput& input, const AssembledInput& assembled,
     Index stride = 1;
     for (int level = 0; level < most_refinements && wanting; ++level) {
         const MapInput& coarse = level == 0 ? input : fine;
-        if (4 * coarse.surface.triangles.rows() > (condensed ? most_refined_faces : most_for_the_mesh_engine)) break;
+        const Index most = condensed ? most_refined_faces
+                                     : std::min(most_for_the_mesh_engine,
+                                                most_faces_times_loops / static_cast<Index>(input.loops.size()));
+        if (4 * coarse.surface.triangles.rows() > most) break;
         fine = refined_input(coarse);
         stride *= 2;
         KoebeOutcome finer = attempt([&] {

@@ -22,6 +22,7 @@
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace koebe {
 namespace {
@@ -137,18 +138,77 @@ std::vector<Circle> annulus_circles(double height)
     return {Circle{}, Circle{0.0, inner}};
 }
 
-/// Compares the modulus with its bounds. A circle that is lost in rounding gives any modulus.
-void check_modulus(const PeriodicSurface& domain, double height, TileResult& result)
+/// Compares the modulus with its bounds: circles lost in rounding, and a metric mollified beyond its shortest edges,
+/// give any modulus.
+void check_modulus(const PeriodicSurface& domain, double height, bool has_circles, TileResult& result)
 {
     constexpr double slack = 0.02;  // of the bounds: they hold for the polyhedron, circles for smooth rims
     const ModulusBounds bounds = modulus_bounds(domain);
-    if (height >= (1.0 - slack) * bounds.lower && height <= (1.0 + slack) * bounds.upper) return;
+    if (!(height < (1.0 - slack) * bounds.lower) && !(height > (1.0 + slack) * bounds.upper)) return;
     result.converged = false;
-    result.warnings.push_back({WarningKind::lost_circles,
-                               "the modulus " + formatted("%.5g", height) + " is not between its bounds, " +
-                                   formatted("%.5g", bounds.lower) + " and " + formatted("%.5g", bounds.upper) +
-                                   ": the circles are lost in rounding",
-                               {0, 1}});
+    result.warnings.push_back(
+        {has_circles ? WarningKind::lost_circles : WarningKind::thin_faces,
+         "the modulus " + formatted("%.5g", height) + " is not between its bounds, " + formatted("%.5g", bounds.lower) +
+             " and " + formatted("%.5g", bounds.upper) +
+             (has_circles ? ": the circles are lost in rounding" : ": the mesh is too coarse, or its faces too thin"),
+         has_circles ? std::vector<Index>{0, 1} : std::vector<Index>{}});
+}
+
+/// A map of the ring, before it is a tile.
+struct FlatRing {
+    FlatMap map;
+    double height = 0.0;          // over the period
+    std::vector<Circle> circles;  // of the loops, in the unit disk
+    std::optional<RoundRing> round;
+};
+
+FlatRing by_potentials(const PeriodicSurface& domain, RingHoles holes)
+{
+    FlatRing ring;
+    ring.map = slit_map(domain, holes, ring.height);
+    if (holes == RingHoles::circles) ring.circles = annulus_circles(ring.height);
+    return ring;
+}
+
+FlatRing by_circles(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
+                    const TileOptions& options, ExecutionContext& context)
+{
+    ExecutionContext own([&](double done, const std::string& name) { context.report(0.1 + 0.8 * done, name); }, {},
+                         [&] { context.checkpoint(); });
+    FlatRing ring;
+    ring.round = round_ring(vertices, triangles, domain, options, own);
+    ring.circles = ring.round->circles;
+    ring.height = -std::log(ring.circles[1].radius) / two_pi;
+    ring.map = unrolled(domain, *ring.round, ring.height);
+    return ring;
+}
+
+TileResult ring_tile(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
+                     const TileOptions& options, HoleShape shape, FlatRing ring, ExecutionContext& context)
+{
+    TileResult result = tile_result(vertices, triangles, domain, options, shape, ring.map, context);
+    result.modulus = {0.0, ring.height};
+    if (result.even > 0.0) {
+        const VectorXcd& z = ring.map.z;
+        const double rise = z[domain.loops[1].front()].imag() - z[domain.loops[0].front()].imag();
+        result.modulus = {0.0, std::abs(rise) / ring.map.periods[0].real()};
+    }
+    check_modulus(domain, ring.height, ring.round.has_value(), result);
+    if (result.even == 0.0)
+        for (std::size_t k = 0; k < ring.circles.size(); ++k) {
+            result.loops[k].has_circle = true;
+            result.loops[k].circle = ring.circles[k];
+            if (!ring.round) continue;
+            std::vector<Index> both;
+            std::ranges::set_union(result.loops[k].off_circle, ring.round->off_circle[k], std::back_inserter(both));
+            result.loops[k].off_circle = std::move(both);
+        }
+    if (ring.round) {
+        result.sweeps = ring.round->sweeps;
+        result.warnings.insert(result.warnings.begin(), ring.round->warnings.begin(), ring.round->warnings.end());
+    }
+    take_verdict({.most_lost = options.most_lost}, result);
+    return result;
 }
 
 TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
@@ -165,48 +225,33 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
     const HoleShape shape = options.holes == RingHoles::circles      ? HoleShape::open
                             : options.holes == RingHoles::concentric ? HoleShape::along_u
                                                                      : HoleShape::along_v;
-    const bool is_tube = domain.loops.size() == domain.first_hole;
-    FlatMap map;
-    std::optional<RoundRing> ring;
-    std::vector<Circle> circles;
-    double height = 0.0;  // over the period
-    if (is_tube || shape != HoleShape::open) {
+    const auto tile = [&](FlatRing ring) {
+        clock.end(&StageSeconds::iterate);
+        context.begin_stage("finish", 0.9, 1.0);
+        return ring_tile(vertices, triangles, domain, options, shape, std::move(ring), context);
+    };
+    // A tube without holes needs no circles. But harmonic functions lay parts that hang on a rim by one edge flat along
+    // it; the disk with round holes has a place for these.
+    std::optional<TileResult> result;
+    if (domain.loops.size() == domain.first_hole || shape != HoleShape::open) {
         context.begin_stage("iterate", 0.1, 0.9);
-        map = slit_map(domain, options.holes, height);
-        if (shape == HoleShape::open) circles = annulus_circles(height);
-    } else {
-        ExecutionContext own([&](double done, const std::string& name) { context.report(0.1 + 0.8 * done, name); }, {},
-                             [&] { context.checkpoint(); });
-        ring = round_ring(vertices, triangles, domain, options, own);
-        height = -std::log(ring->circles[1].radius) / two_pi;
-        map = unrolled(domain, *ring, height);
-        circles = ring->circles;
+        result = tile(by_potentials(domain, options.holes));
     }
-    clock.end(&StageSeconds::iterate);
-    context.begin_stage("finish", 0.9, 1.0);
-    TileResult result = tile_result(vertices, triangles, domain, options, shape, map, context);
-    result.modulus = {0.0, height};
-    if (result.even > 0.0) {
-        const double rise = map.z[domain.loops[1].front()].imag() - map.z[domain.loops[0].front()].imag();
-        result.modulus = {0.0, std::abs(rise) / map.periods[0].real()};
-    }
-    if (result.even == 0.0)
-        for (std::size_t k = 0; k < circles.size(); ++k) {
-            result.loops[k].has_circle = true;
-            result.loops[k].circle = circles[k];
-            if (!ring) continue;
-            std::vector<Index> both;
-            std::ranges::set_union(result.loops[k].off_circle, ring->off_circle[k], std::back_inserter(both));
-            result.loops[k].off_circle = std::move(both);
+    const auto round_tile = [&] { return tile(by_circles(vertices, triangles, domain, options, context)); };
+    if (!result) {
+        result = round_tile();
+    } else if (!result->converged && shape == HoleShape::open) {
+        clock.end(&StageSeconds::finish);
+        try {
+            if (TileResult round = round_tile(); round.converged) result = std::move(round);
+        } catch (const OutOfMemory&) {
+            throw;
+        } catch (const SolverError&) {
+            // The report of the first map says why there is no map.
         }
-    if (ring) {
-        check_modulus(domain, height, result);
-        result.sweeps = ring->sweeps;
-        result.warnings.insert(result.warnings.begin(), ring->warnings.begin(), ring->warnings.end());
     }
-    take_verdict({.most_lost = options.most_lost}, result);
-    clock.finish(result, context);
-    return result;
+    clock.finish(*result, context);
+    return *std::move(result);
 }
 
 }  // namespace

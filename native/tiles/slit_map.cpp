@@ -6,7 +6,10 @@
 #include "tiles/floating_loops.h"
 #include "tiles/rim_bends.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace koebe {
@@ -89,9 +92,22 @@ VectorXd sides_of(const PeriodicSurface& domain, const VectorXcd& z, std::size_t
     return side;
 }
 
-OneForm no_form(const PeriodicSurface& domain)
+/// Integral of |du + turns * shift|^2 over the faces of the surface: infinite if u is not constant on a face without
+/// area.
+double energy_on_faces(const PeriodicSurface& domain, const VectorXd& u, double turns)
 {
-    return OneForm::Zero(static_cast<Eigen::Index>(domain.metric_shifts[0].size()));
+    const Triangles& triangles = domain.surface.triangles;
+    double sum = 0.0;
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+        const auto [a, b, c] = std::array{triangles(f, 0), triangles(f, 1), triangles(f, 2)};
+        const Eigen::RowVector3d ab = domain.vertices.row(b) - domain.vertices.row(a);
+        const Eigen::RowVector3d ac = domain.vertices.row(c) - domain.vertices.row(a);
+        const double along_ab = u[b] - u[a] + turns * domain.shifts[0][3 * f];
+        const double along_ac = u[c] - u[a] - turns * domain.shifts[0][3 * f + 2];
+        const double slope = (along_ab * ac - along_ac * ab).squaredNorm();
+        if (slope > 0.0) sum += 0.5 * slope / ab.cross(ac).norm();
+    }
+    return sum;
 }
 
 }  // namespace
@@ -99,8 +115,8 @@ OneForm no_form(const PeriodicSurface& domain)
 ModulusBounds modulus_bounds(const PeriodicSurface& domain)
 {
     const FloatingLoops floating(domain, true);
-    return {1.0 / energy(domain, floating.between_rims(), no_form(domain)),
-            energy(domain, floating.round(), domain.metric_shifts[0])};
+    return {1.0 / energy_on_faces(domain, floating.between_rims(), 0.0),
+            energy_on_faces(domain, floating.round(), 1.0)};
 }
 
 FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height)
@@ -108,7 +124,8 @@ FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height)
     const VectorXd f = FloatingLoops(domain, holes == RingHoles::concentric).between_rims();
     const VectorXd g = FloatingLoops(domain, holes == RingHoles::radial).round();
     // The conjugate function of g has the same energy.
-    height = std::sqrt(energy(domain, g, domain.metric_shifts[0]) / energy(domain, f, no_form(domain)));
+    const OneForm none = OneForm::Zero(static_cast<Eigen::Index>(domain.metric_shifts[0].size()));
+    height = std::sqrt(energy(domain, g, domain.metric_shifts[0]) / energy(domain, f, none));
     if (!std::isfinite(height) || !(height > 0.0))
         throw SolverError("the ring has no height: the metric is degenerate");
     FlatMap map;

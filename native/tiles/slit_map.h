@@ -17,7 +17,8 @@ struct ModulusBounds {
 
 /// Encloses the height of the ring whose holes are filled, however they are filled. Let E be the Dirichlet energy.
 /// With f from 0 to 1 between the rims and g of period 1 round them, both constant on each hole, 1 / E(f) <= height <=
-/// E(g) [Dirichlet's principle, and conjugate functions], for any such functions on the surface's faces.
+/// E(g) [Dirichlet's principle, and conjugate functions], for any such functions that are linear on the surface's
+/// faces. f and g are harmonic in the metric, which may be mollified; their energies are those on the faces as given.
 ModulusBounds modulus_bounds(const PeriodicSurface& domain);
 
 }  // namespace koebe
