@@ -85,7 +85,7 @@ std::vector<Circle> circles_with(const VectorXd& module)
 
 }  // namespace
 
-const char* to_string(Rims rims) noexcept { return rims == Rims::smooth ? "smooth" : "polygonal"; }
+const char* to_string(RimKind rims) noexcept { return rims == RimKind::smooth ? "smooth" : "polygonal"; }
 
 PolygonalCircles polygonal_circles(const Vertices& vertices, const Triangles& triangles,
                                    const std::vector<LoopReport>& loops, int threads, ExecutionContext& context)

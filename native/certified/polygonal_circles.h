@@ -13,12 +13,12 @@ namespace koebe {
 
 /// What a mesh says of the rims of the surface, for numbers of its shape. The two differ by the areas between the edges
 /// of a rim and its arcs (docs/numerics.md, "The circles of the polyhedron itself").
-enum class Rims {
+enum class RimKind {
     smooth,     ///< samples of smooth curves: the circles of the map
     polygonal,  ///< polygons: the circles of the polyhedron, which the enclosures of capacities.h prove
 };
 
-KOEBE_API const char* to_string(Rims rims) noexcept;
+KOEBE_API const char* to_string(RimKind rims) noexcept;
 
 inline constexpr std::size_t most_polygonal_loops = 12;  // the time grows with the fourth power of their number
 

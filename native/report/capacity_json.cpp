@@ -24,7 +24,7 @@ nlohmann::ordered_json to_json(const CapacityReport& report)
                               {"lower", capacity.value.lower},
                               {"upper", capacity.value.upper}});
     nlohmann::ordered_json json{{"version", KOEBE_VERSION},      {"input", ""},
-                                {"converged", report.converged}, {"rims", to_string(Rims::polygonal)},
+                                {"converged", report.converged}, {"rims", to_string(RimKind::polygonal)},
                                 {"width", report.width},         {"faces", report.faces},
                                 {"levels", report.levels},       {"capacities", capacities}};
     if (report.modulus) json["modulus"] = enclosure_json(*report.modulus);

@@ -7,6 +7,8 @@ from pathlib import Path
 import koebe
 import numpy as np
 import pytest
+from koebe._fields import areas as signed_areas
+from matplotlib import pyplot as plt
 from test_meshes import TRIANGLES, VERTICES
 
 RESULT = koebe.uniformize(VERTICES, TRIANGLES)
@@ -78,11 +80,11 @@ def test_every_map_is_drawn(kind):
     result = MAPS[kind]()
     for field in ("checker", "log_scale", "angle_error"):
         space, plane = koebe.plot(result, field=field).axes[:2]
-        areas = [0.5 * np.cross(b - a, c - a) for a, b, c in (p.vertices[:3] for p in plane.collections[0].get_paths())]
-        uv = result.corner_uv[result._drawn()]
-        (ux, uy), (vx, vy) = (uv[:, 1] - uv[:, 0]).T, (uv[:, 2] - uv[:, 0]).T
-        assert np.isclose(np.abs(areas).sum(), 0.5 * np.abs(ux * vy - uy * vx).sum(), rtol=1e-6)
-        assert len(space.collections[0].get_facecolor()) == len(areas)
+        drawn = np.array([path.vertices[:3] for path in plane.collections[0].get_paths()])
+        areas, expected = (abs(signed_areas(uv)).sum() for uv in (drawn, result.corner_uv[result._drawn()]))
+        assert np.isclose(areas, expected, rtol=1e-6)
+        assert len(space.collections[0].get_facecolor()) == len(drawn)
+        plt.close("all")
 
 
 def test_a_solid_is_drawn_without_uvs():

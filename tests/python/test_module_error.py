@@ -173,7 +173,7 @@ def test_tables_are_asked_for_in_the_right_words(folder, tmp_path):
     table = tmp_path / "t.csv"
     for words, says in (
         (("module", folder), "--csv"),
-        (("module", folder / "face 0.obj", "--error"), "--csv"),
+        (("compare", folder / "face 0.obj", folder / "face 1.obj", "--error"), "--csv"),
         (("compare", folder, "--csv", table, "--loops", "length"), "--loops"),
         (("compare", folder / "face 0.obj", folder / "face 1.obj", "--reference", "x"), "--csv"),
     ):

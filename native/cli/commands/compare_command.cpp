@@ -127,7 +127,7 @@ int run_compare(const CompareRequest& request)
     if (!request.with_json || to_file) {
         char line[64];
         std::snprintf(line, sizeof line, "distance %.9g%s\n", distance,
-                      request.options.rims == Rims::polygonal ? " (polygonal rims)" : "");
+                      request.options.rims == RimKind::polygonal ? " (polygonal rims)" : "");
         print(line, to_file ? "; the file is written" : "");
     }
     return a.converged && b.converged ? done : not_converged;
@@ -154,7 +154,7 @@ void settle_words(CompareRequest& request, const CLI::Option& json)
     if (request.any_outer && request.loops != "match") throw CLI::ValidationError("--any-outer", "needs --loops match");
     if (request.loops == "least" && !request.teichmueller)
         throw CLI::ValidationError("--loops", "least needs --teichmueller");
-    if (request.options.rims == Rims::polygonal && request.teichmueller)
+    if (request.options.rims == RimKind::polygonal && request.teichmueller)
         throw CLI::ValidationError("--teichmueller", "needs --rims smooth: the map of least K takes rims for smooth");
     if (request.options.with_error && !request.with_json)
         throw CLI::ValidationError("--error", "needs --csv or --json");

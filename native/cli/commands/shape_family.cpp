@@ -92,7 +92,7 @@ void add_family_options(CLI::App& app, FamilyRequest& request, const std::string
         ->type_name("NAME");
     app.add_flag("--error", request.options.with_error, "also bars of the error that " + bars);
     add_choice(app, *find_row("module", "rims"), static_cast<int>(request.options.rims),
-               [&request](int k) { request.options.rims = static_cast<Rims>(k); });
+               [&request](int k) { request.options.rims = static_cast<RimKind>(k); });
 }
 
 void require_csv(const FamilyRequest& request)
@@ -134,7 +134,7 @@ ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::str
             row.module = conformal_module(shape.circles, own);
             if (request.options.with_error) row.error = module_error(row.module, conformal_module(shape.refined, own));
             row.known = true;
-            if (request.options.rims == Rims::polygonal) row.note = "polygonal rims";
+            if (request.options.rims == RimKind::polygonal) row.note = "polygonal rims";
             if (!shape.converged) row.note = "not converged";
             for (const Warning& warning : shape.warnings)
                 if (warning.kind == WarningKind::reoriented_faces)

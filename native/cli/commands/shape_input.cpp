@@ -49,7 +49,7 @@ void warn_about_rims(ShapeInput& shape, const VectorXd& change)
 void take_circles(ShapeInput& shape, const UniformizeResult& result, const Vertices& vertices,
                   const Triangles& triangles, const ShapeOptions& options, ExecutionContext& context)
 {
-    if (options.rims == Rims::polygonal) {
+    if (options.rims == RimKind::polygonal) {
         PolygonalCircles polygonal = polygonal_circles(vertices, triangles, result.loops, options.map.threads, context);
         shape.circles = std::move(polygonal.circles);
         shape.refined = std::move(polygonal.of_upper_bounds);

@@ -16,18 +16,18 @@ namespace koebe::cli {
 
 struct ShapeOptions {
     UniformizeOptions map;
-    Rims rims = Rims::smooth;
+    RimKind rims = RimKind::smooth;
     bool with_error = false;  ///< also what error bars need: another map, of a finer mesh
 };
 
 struct ShapeInput {
-    std::string name;             ///< of the file
-    Rims rims = Rims::smooth;     ///< whose circles they are
-    std::vector<Circle> circles;  ///< the outer one first, then by length
-    std::vector<Circle> refined;  ///< for error bars: the same on a finer mesh (refined_circles) if requested, or of
-                                  ///< upper bounds (PolygonalCircles)
-    MappedSurface surface;        ///< the mesh and its map
-    std::vector<Index> ranks;     ///< rank of each circle's loop, by lowest vertex as in `koebe fill`
+    std::string name;                ///< of the file
+    RimKind rims = RimKind::smooth;  ///< whose circles they are
+    std::vector<Circle> circles;     ///< the outer one first, then by length
+    std::vector<Circle> refined;     ///< for error bars: the same on a finer mesh (refined_circles) if requested, or of
+                                     ///< upper bounds (PolygonalCircles)
+    MappedSurface surface;           ///< the mesh and its map
+    std::vector<Index> ranks;        ///< rank of each circle's loop, by lowest vertex as in `koebe fill`
     bool converged = false;
     std::vector<Warning> warnings;
 };
