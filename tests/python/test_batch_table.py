@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 
+import numpy as np
 import pytest
 from batch_support import TETRAHEDRON, batch, rows
 from cli_support import CANNOT_BE_MAPPED, NOT_CONVERGED, USAGE, contents, koebe, obj_text, perforated
@@ -146,7 +147,7 @@ def test_the_report_of_one_map_has_hash_and_options_too(library, tmp_path):
     assert content["options"] == {
         "method": "ck", "engine": "condensed", "outer": "auto", "center": None, "point": None, "tolerance": 1e-6,
         "max_sweeps": 50, "most_lost": 0.01, "balance": "none", "polish": False,
-        "even": 0.0, "loops": "auto",
+        "even": 0.0, "loops": "auto", "weld": None,
     }  # fmt: skip
 
 
@@ -283,3 +284,15 @@ def test_a_result_does_not_outlive_the_mesh_it_was_made_of(library, tmp_path):
     (library / "a.obj").write_text("v 1 2\n")
     assert batch(library / "a.obj", "--output", out).returncode == CANNOT_BE_MAPPED
     assert not (out / "a.obj").exists() and rows(out)["a.obj"]["error"] == "InputError"
+
+
+def test_a_batch_joins_vertices_and_maps_again_with_another_distance(tmp_path):
+    vertices, faces = perforated(8, holes=((0.5, 0.5, 0.2),))
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "soup.obj").write_text(obj_text(vertices[faces.ravel()], np.arange(faces.size).reshape(-1, 4)))
+    out = tmp_path / "out"
+    assert "1 failed" in batch(tmp_path / "in", "--output", out).stdout
+    for distance in (0, 1e-6):
+        assert "1 done;" in batch(tmp_path / "in", "--output", out, "--weld", distance).stdout
+        assert rows(out)["soup.obj"]["options"]["weld"] == distance
+    assert "unchanged" in batch(tmp_path / "in", "--output", out, "--weld", 1e-6).stdout

@@ -117,6 +117,17 @@ def test_in_python_all_vertices_have_values_and_faces_that_collapse_are_left_out
         koebe.uniformize(points, own, weld=1e3)
 
 
+def test_only_vertices_of_no_face_count_as_unused(tmp_path):
+    points, own = soup(TRIANGLES)
+    points = np.concatenate([points, [[9, 9, 9]]])
+    (tmp_path / "soup.obj").write_text(obj_text(points, own))
+    done = run("uniformize", "soup.obj", "out.obj", "--weld", 0, "--json", "out.json", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    for report in (json.loads((tmp_path / "out.json").read_text()), koebe.uniformize(points, own, weld=0).to_dict()):
+        (said,) = [one for one in report["warnings"] if one["kind"] == "unused_vertices"]
+        assert said["elements"] == [len(points) - 1]
+
+
 def test_a_vertex_that_was_joined_is_named_by_its_own_number():
     points, own = soup(TRIANGLES)
     inner = np.flatnonzero(np.linalg.norm(VERTICES - VERTICES[TRIANGLES[40, 0]], axis=1) == 0)[0]

@@ -135,8 +135,13 @@ void check_domain(const CLI::App& app, const BatchRequest& request)
 /// The settings that a map depends on beside the mesh.
 nlohmann::ordered_json recipe_options(const BatchRequest& request)
 {
-    if (request.domain == disk_domain) return uniformize_report(request.options, request.cut);
-    nlohmann::ordered_json report{{"domain", request.domain}};
+    nlohmann::ordered_json report = nlohmann::ordered_json::object();
+    if (request.of_files.weld) report["weld"] = *request.of_files.weld;
+    if (request.domain == disk_domain) {
+        report.update(uniformize_report(request.options, request.cut));
+        return report;
+    }
+    report["domain"] = request.domain;
     for (const auto& [name, word] : request.of_domain)
         if (find_row(request.domain, name) != nullptr) report[name] = word;
     report.update(option_report<SweepOptions>(request.domain, request.options));
@@ -300,6 +305,7 @@ Subcommand add_batch(CLI::App& app)
     add_batch_options(*options, *request);
     const std::size_t before = options->get_options().size();
     add_uniformize_options(*options, request->options, request->cut);
+    add_value(*options, *find_row("uniformize", "weld"), request->of_files.weld);
     const std::vector<CLI::Option*> all = options->get_options({});
     request->forwarded.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
     options->callback([options, request] {

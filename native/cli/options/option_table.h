@@ -69,15 +69,15 @@ void add_options(CLI::App& app, std::string_view map, Options& options)
 /// Steps as written: "0-2" for loops 0 and 2, "3" for loop 3 alone.
 std::vector<std::string> words_of(const Sweep& steps);
 
-/// A map's options as a report has them: choices by their words, null for vertex -1. Without the number of threads, on
-/// which no map depends, and without lists except steps.
+/// A map's options as a report has them: choices by their words, null for vertex -1. Without the number of threads and
+/// the set of UVs, on which no map depends, and without lists except steps.
 template <typename Options>
 nlohmann::ordered_json option_report(std::string_view map, const Options& options)
 {
     nlohmann::ordered_json report = nlohmann::ordered_json::object();
     Options::each_option([&]<typename Field, typename Owner>(const std::string& name, Field Owner::*member) {
         const OptionRow* const row = find_row(map, name);
-        if (row == nullptr || name == "threads") return;
+        if (row == nullptr || name == "threads" || name == "uv_channel") return;
         const Owner& owner = options;
         const Field& field = owner.*member;
         if constexpr (std::is_same_v<Field, OuterLoop>) {

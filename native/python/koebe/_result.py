@@ -130,8 +130,12 @@ class Source:
     def told(self, report: dict[str, Any]) -> dict[str, Any]:
         """The report, without vertices that have a face in the input, and with a warning of vertices in one place."""
         warnings = report["warnings"]
-        if self.kept is not None or (self.first is not None and self.used.all()):
+        if self.kept is not None or self.first is not None:
             warnings = [one for one in warnings if one["kind"] != "unused_vertices"]
+        if self.kept is None and self.first is not None and not self.used.all():
+            unused = np.flatnonzero(~self.used).tolist()
+            text = f"{len(unused)} vertices in no face; the first vertex is {unused[0]}"
+            warnings = [*warnings, {"kind": "unused_vertices", "elements": unused, "text": text}]
         if not any(one["kind"] == "coincident" for one in warnings):  # else it was loaded
             warnings = [*warnings, *self._coincident()]
         return {**report, "warnings": warnings}
