@@ -10,16 +10,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <numeric>
-#include <utility>
+#include <tuple>
 
 namespace koebe {
 namespace {
 
 // The search for places without flipped faces.
 constexpr double wanted_quality[] = {1e-3, 1e-2, 0.05, 0.15, 0.3};  // of faces near flipped ones, tried in turn
+constexpr double good_quality = 0.2;                                // of faces round a cone point: enough
 constexpr int rings_around = 4;                                     // of faces that may move for a flipped one
 constexpr int most_rounds = 10;                                     // over these faces, for each quality
 constexpr int tried_directions = 12;                                // tried around a vertex
@@ -177,7 +180,7 @@ private:
             for (const Index v : triangles_.row(f)) vertices.push_back(v);
         sort_unique(vertices);
         struct Way {
-            std::pair<bool, double> rank;
+            std::tuple<bool, double, std::ptrdiff_t> rank;  // upright, the least quality, minus the vertices moved
             Index vertex;
             double reach;
         };
@@ -193,7 +196,10 @@ private:
                 const std::vector<Index> moved = movable_within(v, reach);
                 const Vertices home = places_(moved, Eigen::all);
                 const double least = drag(v, point, moved, reach);
-                ways.push_back({{least > 0.0 && !surface_.on_loop[v], least}, v, reach});
+                ways.push_back(
+                    {{least > 0.0 && !surface_.on_loop[v], std::min(least, good_quality), -std::ssize(moved)},
+                     v,
+                     reach});
                 places_(moved, Eigen::all) = home;
                 for (const Index u : moved) lay_around(u);
             }

@@ -248,10 +248,10 @@ def test_the_layout_is_the_sphere(layout):
     sides = {}
     for f, face in enumerate(triangles):
         for k in range(3):
-            sides[face[k], face[(k + 1) % 3]] = f, uv[f, k], uv[f, (k + 1) % 3]
+            sides[face[k], face[(k + 1) % 3]] = uv[f, k], uv[f, (k + 1) % 3]
     joined = 0
-    for (a, b), (f, start, end) in sides.items():
-        _, other_end, other_start = sides[b, a]
+    for (a, b), (start, end) in sides.items():
+        other_end, other_start = sides[b, a]
         if layout == "equirectangular" and {start[1], end[1]} & {0.0, 1.0}:  # at a pole u has no meaning
             continue
         joined += 1

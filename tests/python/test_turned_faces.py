@@ -8,7 +8,7 @@ import pytest
 from cli_support import koebe as run
 from cli_support import obj_text, perforated, triangles_of
 from domain_surfaces import holed_ring, holed_torus
-from handle_surfaces import double_ring
+from handle_surfaces import double_ring, plate
 from sphere_surfaces import icosphere
 
 TURNED = [3, 4, 20]
@@ -80,7 +80,8 @@ def test_every_command_names_turned_faces_and_keeps_them(command, tmp_path):
         warnings = json.loads(done.stdout if command.startswith("module") else report.read_text())["warnings"]
         assert [one["elements"] for one in warnings if one["kind"] == "reoriented_faces"] in ([TURNED], [TURNED] * 2)
     else:
-        assert "3 faces" in done.stderr and f"is {TURNED[0]}" in done.stderr
+        said = done.stdout + done.stderr
+        assert "3 faces" in said and f"is {TURNED[0]}" in said
     for out in (paths["OUT"], tmp_path / "all" / "in.obj"):
         if out.exists():
             assert face_lines(out)[: len(face_lines(paths["IN"]))] == face_lines(paths["IN"])
@@ -98,11 +99,18 @@ def test_functions_without_a_report_warn(name):
     assert caught[0].message.elements == TURNED
 
 
-@pytest.mark.parametrize(("surface", "function"), [("ball", koebe.sphere_map), ("torus", koebe.torus_map),
-                                                   ("pretzel", koebe.schottky_map)])  # fmt: skip
-def test_a_surface_that_is_inside_out_is_told(surface, function):
+CLOSED = {
+    "sphere_map": lambda: icosphere(4),
+    "torus_map": lambda: holed_torus(4, holes={})[:2],
+    "schottky_map": lambda: plate(np.random.default_rng(0)),
+}
+
+
+@pytest.mark.parametrize("name", CLOSED)
+def test_a_surface_that_is_inside_out_is_told(name):
     """Its map is the map of its mirror image."""
-    vertices, triangles = SURFACES[surface]()
+    function = getattr(koebe, name)
+    vertices, triangles = CLOSED[name]()
     volume = np.linalg.det(vertices[triangles]).sum()
     outward = triangles if volume > 0 else triangles[:, ::-1].copy()
     right, wrong = function(vertices, outward), function(vertices, outward[:, ::-1].copy())

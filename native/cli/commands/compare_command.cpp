@@ -9,7 +9,6 @@
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
-#include "cli/process/result_line.h"
 #include "cli/process/standard_streams.h"
 
 #include "core/errors.h"
@@ -103,7 +102,7 @@ int run_compare(const CompareRequest& request)
     });
     std::vector<Warning> warnings;
     for (const ShapeInput* shape : {&a, &b}) add_losses(shape->name + ": ", shape->warnings, warnings);
-    show_warnings(warnings);
+    for (const Warning& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
     double distance = match.distance;
     nlohmann::ordered_json extremal;
     if (request.teichmueller) {

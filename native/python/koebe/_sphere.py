@@ -25,7 +25,7 @@ class SphereMap(DomainMap):
                      only. Across the cut the pattern continues: equirectangular with the period 1 along u, u in
                      [0, 2); octahedral with half turns round the middles of the square's sides, u and v in [-1, 2].
                      Triangles of a polygon lie side by side, if necessary farther out, up to 2 from 0
-    layout           dict: kind; crossing, the faces that go beyond the layout's edge; moved, the faces with corners that
+    layout           dict: kind; crossing, the faces that go beyond the layout's edge; moved, the faces whose corners
                      were moved in the UVs so that no face is flipped, most of them at a pole or at the middle of a side
                      of the square; torn, the faces whose UVs do not fit all neighbours; flipped, the faces without a
                      positive area in 32-bit UVs; below_resolution, the flipped faces that are too small for 32-bit UVs
