@@ -3,6 +3,7 @@
 #include "circles/circle_fit.h"
 #include "even/even_map.h"
 #include "execution/side_by_side.h"
+#include "mesh/connectivity.h"
 #include "parts/dart_rounds.h"
 #include "parts/tension.h"
 #include "parts/through_rounds.h"
@@ -24,6 +25,7 @@ constexpr EvenEffort search{.most_steps = 12};           // for an E of the sear
 constexpr EvenEffort look{4, 1, 8};                      // a first look, which ends the trial if
 constexpr double clearly_worse = 1.02;                   // angles are worse by this factor
 constexpr double roomy_piece = 0.1;                      // price of one more part, if that saves room
+constexpr double true_length = 1e-6;                     // in roots of a part's area: lengths differ by no more
 constexpr double step = 1.5;                             // factor from one E to the next
 constexpr double even_with_darts = 0.1;                  // E with darts, if no E is given,
 constexpr std::array less_even_with_darts{0.06, 0.03};   // and if angles are then worse
@@ -70,6 +72,20 @@ std::vector<RoundLoop> round_loops(const FlatPart& flat)
 
 bool has_darts(const HeldPart& part) { return !part.flat.tips.empty(); }
 
+/// Whether all lengths are those on the surface: no cut makes such a part more even.
+bool lies_true_to_size(const HeldPart& part)
+{
+    const FlatPart& flat = part.flat;
+    if (!flat.sizes.empty()) return false;
+    const double near = true_length * std::sqrt(face_areas(flat.vertices, flat.surface.triangles).sum());
+    for (Index h = 0; h < static_cast<Index>(flat.surface.triangles.size()); ++h) {
+        const Index a = origin(flat.surface.triangles, h), b = target(flat.surface.triangles, h);
+        const double length = (flat.vertices.row(a) - flat.vertices.row(b)).norm();
+        if (!(std::abs((flat.points.row(a) - flat.points.row(b)).norm() - length) <= near)) return false;
+    }
+    return true;
+}
+
 /// What a dart as long as the root of the surface's area costs, in energy.
 double dart_price(double darts) { return 1e-4 / darts; }
 
@@ -110,14 +126,20 @@ public:
     /// The parts that could not be moved.
     const std::vector<std::size_t>& left() const { return left_; }
 
+    /// Parts that lie true to size after the first relaxation are cut only to be packed more densely.
     void relax_with_darts(double even, const EvenEffort& effort)
     {
         relax(even, effort);
         if (!(options_.darts > 0.0)) return;
-        const bool joined = cut_through(even, {});
-        cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
-        if (joined || std::ranges::any_of(parts_, has_darts)) relax_cut(even, effort);
-        const bool is_split = cut_through(even, options_.piece * dart_price(options_.darts));
+        const std::vector<HeldPart> finished = take_finished();
+        bool is_split = false;
+        if (!parts_.empty()) {
+            const bool joined = cut_through(even, {});
+            cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
+            if (joined || std::ranges::any_of(parts_, has_darts)) relax_cut(even, effort);
+            is_split = cut_through(even, options_.piece * dart_price(options_.darts));
+        }
+        parts_.insert(parts_.end(), finished.begin(), finished.end());
         if (cut_for_room() || is_split) relax_cut(even, effort);
     }
 
@@ -154,6 +176,24 @@ public:
     }
 
 private:
+    /// Takes out the parts that lie true to size. They are none that could not be moved.
+    std::vector<HeldPart> take_finished()
+    {
+        std::vector<HeldPart> finished, others;
+        std::vector<std::size_t> left;
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            if (lies_true_to_size(parts_[k])) {
+                finished.push_back(std::move(parts_[k]));
+                continue;
+            }
+            if (std::ranges::find(left_, k) != left_.end()) left.push_back(others.size());
+            others.push_back(std::move(parts_[k]));
+        }
+        parts_ = std::move(others);
+        left_ = std::move(left);
+        return finished;
+    }
+
     /// @param piece price of one more part, in energy; without a value no part is split @return whether any part was
     /// cut
     bool cut_through(double even, std::optional<double> piece)
