@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -126,12 +127,13 @@ public:
     /// The parts that could not be moved.
     const std::vector<std::size_t>& left() const { return left_; }
 
-    /// Parts that lie true to size after the first relaxation are cut only to be packed more densely.
+    /// Parts that lie true to size stay as they are, and are cut only to be packed more densely.
     void relax_with_darts(double even, const EvenEffort& effort)
     {
+        const bool with_darts = options_.darts > 0.0;
+        const std::vector<HeldPart> finished = with_darts ? take_finished() : std::vector<HeldPart>{};
         relax(even, effort);
-        if (!(options_.darts > 0.0)) return;
-        const std::vector<HeldPart> finished = take_finished();
+        if (!with_darts) return;
         bool is_split = false;
         if (!parts_.empty()) {
             const bool joined = cut_through(even, {});
@@ -176,21 +178,12 @@ public:
     }
 
 private:
-    /// Takes out the parts that lie true to size. They are none that could not be moved.
+    /// Takes out the parts that lie true to size.
     std::vector<HeldPart> take_finished()
     {
-        std::vector<HeldPart> finished, others;
-        std::vector<std::size_t> left;
-        for (std::size_t k = 0; k < parts_.size(); ++k) {
-            if (lies_true_to_size(parts_[k])) {
-                finished.push_back(std::move(parts_[k]));
-                continue;
-            }
-            if (std::ranges::find(left_, k) != left_.end()) left.push_back(others.size());
-            others.push_back(std::move(parts_[k]));
-        }
-        parts_ = std::move(others);
-        left_ = std::move(left);
+        const auto others = std::ranges::stable_partition(parts_, std::not_fn(lies_true_to_size));
+        std::vector<HeldPart> finished(std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
+        parts_.erase(others.begin(), others.end());
         return finished;
     }
 
