@@ -1,11 +1,14 @@
 #include "flatten/sheets.h"
 
 #include "core/errors.h"
+#include "flatten/page_turn.h"
+#include "parts/packed_island.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -88,9 +91,35 @@ private:
         }
     }
 
+    /// Packs the pieces. One that fits the frame in few turns only is turned so first.
+    SheetPacking packed() const
+    {
+        std::vector<Outline> outlines = outlines_of(pieces_);
+        std::vector<Complex> turns(outlines.size(), 1.0);
+        for (std::size_t k = 0; k < outlines.size(); ++k) {
+            if (upright_fits(outlines[k])) continue;
+            const std::optional<Complex> turn =
+                turn_into(outlines[k].points, frame_width() - margin(), frame_height() - margin());
+            if (!turn) continue;
+            turns[k] = *turn;
+            outlines[k].points = place_island(outlines[k].points, {.turn = *turn}, 1.0);
+            outlines[k].along_axes = true;
+        }
+        SheetPacking packing = pack_on_sheets(outlines, margin(), {frame_width(), frame_height()});
+        for (std::size_t k = 0; k < turns.size(); ++k) packing.places[k].turn *= turns[k];
+        return packing;
+    }
+
+    bool upright_fits(const Outline& outline) const
+    {
+        const Eigen::RowVector2d size = box_size(upright_island(outline).points);
+        const double width = frame_width() - margin(), height = frame_height() - margin();
+        return (size[0] <= width && size[1] <= height) || (size[1] <= width && size[0] <= height);
+    }
+
     void on_pages()
     {
-        const SheetPacking packing = pack_on_sheets(outlines_of(pieces_), margin(), {frame_width(), frame_height()});
+        const SheetPacking packing = packed();
         std::vector<std::size_t> large;
         placed_.pattern.sheets.resize(static_cast<std::size_t>(packing.sheets),
                                       {frame_width(), frame_height(), 1, 1, {}, {}});
@@ -109,7 +138,7 @@ private:
     }
 
     /// @param length of a piece with its margin
-    static double tiles(double length, double frame) { return std::ceil(length / frame - 1e-12); }
+    static double tiles(double length, double frame) { return std::ceil(length / frame - page_slack); }
 
     double pages_for(const PlanarPoints& at) const
     {

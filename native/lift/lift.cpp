@@ -207,7 +207,7 @@ std::vector<DrawnOutline> outlines_of(const SvgDrawing& drawing, const FlatDomai
         result.warnings.push_back({WarningKind::not_kept,
                                    "the drawing's " + names + " is not drawn",
                                    {},
-                                   "Convert text and clones to paths first"});
+                                   "Convert text to paths, and clip paths too, first"});
     }
     return std::move(placed.outlines);
 }

@@ -270,7 +270,7 @@ private:
                 steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(third));
                 steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(second));
             }
-            i = 0;
+            i = i < 2 ? 0 : i - 2;
         }
         if (steps.size() < 3) return false;
         std::vector<std::array<Index, 2>> keys;

@@ -25,6 +25,9 @@ std::uint64_t key_of(Index a, Index b)
     return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint32_t>(std::max(a, b));
 }
 
+/// For an edge the outline that it belongs to, and its number there.
+using EdgesOfOutlines = std::unordered_map<std::uint64_t, std::pair<Index, std::size_t>>;
+
 class Drawing {
 public:
     Drawing(const FlatSheet& sheet, const std::vector<FlatSheet>& charts, const std::vector<DrawnOutline>& outlines)
@@ -49,6 +52,7 @@ private:
     struct FacePart {
         std::vector<Index> inside;                 // nodes inside the face
         std::vector<std::array<Index, 2>> chords;  // nodes
+        std::vector<Index> outlines;               // of the chords
         Index outline = -1;
     };
 
@@ -102,7 +106,9 @@ private:
                     touch(node.face, o).inside.push_back(steps[i].node);
                 }
                 const Index before = steps[(i + steps.size() - 1) % steps.size()].node;
-                touch(steps[i].face, o).chords.push_back({before, steps[i].node});
+                FacePart& crossed = touch(steps[i].face, o);
+                crossed.chords.push_back({before, steps[i].node});
+                crossed.outlines.push_back(o);
             }
         }
         for (auto& [halfedge, list] : on_edge_) std::ranges::sort(list, {}, [&](Index n) { return nodes_[n].share; });
@@ -196,15 +202,21 @@ private:
         }
         for (const Index n : part.inside) add(inside, nodes_[n].uv, vertex_of_[n]);
         std::vector<std::array<Index, 2>> segments;
-        for (const auto& [a, b] : part.chords) {
+        std::vector<Index> outlines;  // of the segments
+        for (std::size_t i = 0; i < part.chords.size(); ++i) {
+            const auto [a, b] = part.chords[i];
             const auto from = place.find(vertex_of_[a]), to = place.find(vertex_of_[b]);
-            if (from == place.end() || to == place.end())
-                blame(part.outline, Fault::too_fine);
-            else
+            if (from == place.end() || to == place.end()) {
+                blame(part.outlines[i], Fault::too_fine);
+            } else {
                 segments.push_back({from->second, to->second});
+                outlines.push_back(part.outlines[i]);
+            }
         }
-        const Triangles pieces = divided_polygon(polygon, inside, segments);
-        if (pieces.rows() == 0) blame(part.outline, Fault::crossing);
+        std::vector<std::size_t> faulty;
+        const Triangles pieces = divided_polygon(polygon, inside, segments, &faulty);
+        for (const std::size_t i : faulty) blame(outlines[i], Fault::crossing);
+        if (pieces.rows() == 0 && faulty.empty()) blame(part.outline, Fault::crossing);
         polygon.insert(polygon.end(), inside.begin(), inside.end());
         for (Eigen::Index t = 0; t < pieces.rows(); ++t) {
             std::array<StoredPoint, 3> stored{};
@@ -223,22 +235,21 @@ private:
     void find_regions(Overlay& result)
     {
         const std::vector<Index> twin = pair_halfedges(result.triangles, static_cast<Index>(result.vertices.rows()));
-        std::unordered_map<std::uint64_t, Index> outline_at;
+        EdgesOfOutlines outline_at;
         for (Index o = 0; o < static_cast<Index>(result.loops.size()); ++o)
             for (std::size_t i = 0; i < result.loops[o].size(); ++i)
-                outline_at[key_of(result.loops[o][i], result.loops[o][(i + 1) % result.loops[o].size()])] = o;
+                outline_at[key_of(result.loops[o][i], result.loops[o][(i + 1) % result.loops[o].size()])] = {o, i};
         result.region.assign(result.triangles.rows(), -1);
         std::vector<std::vector<Index>> begin(result.loops.size());
         std::vector<std::size_t> found(result.loops.size(), 0);
         for (Index h = 0; h < static_cast<Index>(twin.size()); ++h) {
-            const Index a = origin(result.triangles, h), b = target(result.triangles, h);
-            const auto at = outline_at.find(key_of(a, b));
+            const Index a = origin(result.triangles, h);
+            const auto at = outline_at.find(key_of(a, target(result.triangles, h)));
             if (at == outline_at.end()) continue;
-            const std::vector<Index>& loop = result.loops[at->second];
-            const std::size_t i = static_cast<std::size_t>(std::ranges::find(loop, a) - loop.begin());
-            if (loop[(i + 1) % loop.size()] != b) continue;
-            begin[at->second].push_back(h);
-            ++found[at->second];
+            const auto [o, i] = at->second;
+            if (result.loops[o][i] != a) continue;
+            begin[o].push_back(h);
+            ++found[o];
         }
         std::vector<Index> euler(begin.size(), 1);
         for (Index o = 0; o < static_cast<Index>(begin.size()); ++o) {
@@ -270,7 +281,7 @@ private:
 
     /// Numbers the faces inside an outline. @return their Euler characteristic
     Index flood(Index o, const std::vector<Index>& begin, const std::vector<Index>& twin,
-                const std::unordered_map<std::uint64_t, Index>& outline_at, Overlay& result)
+                const EdgesOfOutlines& outline_at, Overlay& result)
     {
         std::vector<Index> front, faces;
         const auto visit = [&](Index f) {

@@ -167,6 +167,23 @@ void scale_shapes(const FlatSheet& sheet, const LatticePlane& plane, const Patte
     std::erase_if(shapes, [](const LaidShape& one) { return one.scale == 0.0; });
 }
 
+/// Takes out the shapes that lie beyond the surface: it is farther from their middle than any of their points.
+void drop_beyond(const FlatSheet& sheet, const LatticePlane& plane, std::vector<LaidShape>& shapes)
+{
+    std::vector<Complex> middles;
+    double reach = 0.0;
+    for (const LaidShape& one : shapes) {
+        const Complex middle = middle_of(*one.shape);
+        for (const Complex z : *one.shape) reach = std::max(reach, distance(z, middle));
+        middles.push_back(first_copy(sheet.periods, plane.in_uv(first_copy(plane.periods, one.place + middle))));
+    }
+    const std::vector<SheetPlace> places = places_in_sheet(sheet, middles, (1.0 + 1e-9) * reach);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        if (places[i].face >= 0) shapes[count++] = shapes[i];
+    shapes.resize(count);
+}
+
 DrawnPattern lattice_pattern(const FlatSheet& sheet, const FlatSheet& walked, const std::string& name,
                              const PatternOptions& options)
 {
@@ -185,6 +202,7 @@ DrawnPattern lattice_pattern(const FlatSheet& sheet, const FlatSheet& walked, co
     for (std::size_t i = 0; i < laid.places.size(); ++i)
         for (const auto& shape : laid.other_shapes.empty() || coin(options.seed, i) ? laid.shapes : laid.other_shapes)
             shapes.push_back({&shape, laid.places[i]});
+    if (&walked != &sheet && !plane.middle) drop_beyond(sheet, plane, shapes);
     scale_shapes(sheet, plane, options, shapes);
     for (const LaidShape& one : shapes) pattern.outlines.push_back({points_in_uv(plane, one)});
     locate_outlines(walked, pattern.outlines);

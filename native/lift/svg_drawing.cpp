@@ -1,6 +1,7 @@
 #include "lift/svg_drawing.h"
 
 #include "core/errors.h"
+#include "lift/svg_document.h"
 
 // svgpp's arcs seem uninitialized to gcc.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -55,16 +56,9 @@ public:
     void set(svgpp::tag::attribute::fill_rule, svgpp::tag::value::evenodd) { even_odd_ = true; }
     void set(svgpp::tag::attribute::fill_rule, svgpp::tag::value::nonzero) { even_odd_ = false; }
     void set(svgpp::tag::attribute::fill_rule, svgpp::tag::value::inherit) {}
-    template <class Value>
-    void set(svgpp::tag::attribute::display, Value)
-    {
-        hidden_ = hidden_ || std::is_same_v<Value, svgpp::tag::value::none>;
-    }
-
     /// Takes the curves over. By now all attributes are known: they may come in any order.
     void on_exit_element()
     {
-        if (hidden_) return;
         sink_->drawing.open += open_;
         for (std::vector<Complex>& curve : path_.curves)
             for (Complex& z : curve) z = moved(z);
@@ -142,7 +136,7 @@ private:
 
     DrawingSink* sink_;
     std::array<double, 6> transform_{1.0, 0.0, 0.0, 1.0, 0.0, 0.0};
-    bool even_odd_ = false, hidden_ = false;
+    bool even_odd_ = false;
     int open_ = 0;
     std::vector<Complex> curve_;
     SvgPath path_;
@@ -189,10 +183,9 @@ namespace attribute = svgpp::tag::attribute;
 
 using SvgElements = boost::mpl::set<element::svg, element::g, element::a, element::path, element::rect, element::circle,
                                     element::ellipse, element::polyline, element::polygon>::type;
-using SvgAttributes = boost::mpl::insert<
+using SvgAttributes =
     boost::mpl::insert<boost::mpl::insert<svgpp::traits::shapes_attributes_by_element, attribute::transform>::type,
-                       attribute::fill_rule>::type,
-    attribute::display>::type;
+                       attribute::fill_rule>::type;
 
 using SvgTraversal =
     svgpp::document_traversal<svgpp::processed_elements<SvgElements>, svgpp::processed_attributes<SvgAttributes>,
@@ -241,10 +234,16 @@ const XmlNode* next_in_document(const XmlNode* node, const XmlNode* root)
 std::vector<std::string> not_drawn_in(const XmlNode* root)
 {
     std::set<std::string> names;
-    for (const XmlNode* node = root; node; node = next_in_document(node, root))
+    for (const XmlNode* node = root; node; node = next_in_document(node, root)) {
         if (const std::string name(node->local_name(), node->local_name_size());
             name == "text" || name == "use" || name == "image")
             names.insert(name);
+        for (const auto* one = node->first_attribute(); one; one = one->next_attribute()) {
+            const std::string_view name(one->local_name(), one->local_name_size());
+            if ((name == "clip-path" || name == "mask") && std::string_view(one->value(), one->value_size()) != "none")
+                names.insert(name == "mask" ? "mask" : "clipPath");
+        }
+    }
     return {names.begin(), names.end()};
 }
 
@@ -282,10 +281,11 @@ SvgDrawing traversed(std::string& bytes)
 {
     rapidxml_ns::xml_document<> document;
     document.parse<rapidxml_ns::parse_no_string_terminators>(bytes.data());
-    const XmlNode* root = document.first_node();
+    XmlNode* root = document.first_node();
     while (root && root->type() != rapidxml_ns::node_element) root = root->next_sibling();
     if (!root || std::string_view(root->local_name(), root->local_name_size()) != "svg")
         throw InputError("the file holds no svg element");
+    detail::resolve(document, *root);
     DrawingSink sink;
     SvgElement outermost(sink);
     SvgTraversal::load_document(root, outermost);
@@ -298,6 +298,7 @@ SvgDrawing traversed(std::string& bytes)
 SvgDrawing parse_svg(std::string bytes)
 {
     if (bytes.find('\0') != std::string::npos) throw InputError("the SVG holds a zero byte: it is no text in UTF-8");
+    bytes = detail::with_entities(std::move(bytes));
     require_shallow(bytes);
     SvgDrawing drawing;
     try {
@@ -315,7 +316,7 @@ SvgDrawing parse_svg(std::string bytes)
     if (drawing.paths.empty())
         throw InputError("the SVG has no closed path" +
                          (drawing.not_drawn.empty() ? std::string() : "; it has " + listed(drawing.not_drawn)) +
-                         ": convert text, strokes and clones to paths first");
+                         ": convert text and strokes to paths first");
     measure_box(drawing);
     return drawing;
 }

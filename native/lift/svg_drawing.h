@@ -19,12 +19,13 @@ struct SvgPath {
 struct SvgDrawing {
     std::vector<SvgPath> paths;
     int open = 0;                           ///< curves that do not close, left out
-    std::vector<std::string> not_drawn;     ///< names of elements without outlines here: text, use, image
+    std::vector<std::string> not_drawn;     ///< names of elements that are not drawn: text, image, clipPath
     Complex low{0.0, 0.0}, high{0.0, 0.0};  ///< corners of the box around all control points
 };
 
-/// Transforms are applied. Colours, strokes, clips and styles are ignored: each closed curve is an outline. Elements
-/// with display="none" and the contents of <defs>, <symbol> and the like are not drawn.
+/// What a browser would show is drawn: styles, uses, symbols, switches and viewports are resolved (svg_document.h).
+/// Transforms are applied. Colours are ignored: each closed curve that is filled or stroked is an outline. Clip paths
+/// and masks do not cut: `not_drawn` names them.
 /// @param bytes of the file
 /// @throws InputError it is not an SVG, or damaged; a number is not finite; elements are nested more than a hundred
 /// deep; there are over a million curve segments; there is no closed curve

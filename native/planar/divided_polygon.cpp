@@ -3,6 +3,9 @@
 #include "core/silent_cgal.h"
 #include "planar/planar_region.h"
 
+#include <algorithm>
+#include <numeric>
+#include <random>
 #include <set>
 #include <utility>
 
@@ -14,20 +17,41 @@ using EndPair = std::pair<Index, Index>;
 
 EndPair ends_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Inserts the points. @return their vertices; fewer if two coincide
-std::vector<Cdt::Vertex_handle> insert(Cdt& cdt, const std::vector<Complex>& polygon,
-                                       const std::vector<Complex>& interior)
+/// The order in which points are inserted: many of them in rounds, each a random share of the next one and near by
+/// near, so that no order along an outline makes the time grow with the square [Amenta, Choi, Rote 2003].
+std::vector<std::size_t> order_of(const std::vector<Complex>& points)
 {
-    std::vector<Cdt::Vertex_handle> handles;
-    for (const auto* points : {&polygon, &interior})
-        for (const Complex z : *points) {
-            const auto count = cdt.number_of_vertices();
-            const Cdt::Face_handle near = handles.empty() ? Cdt::Face_handle() : handles.back()->face();
-            const Cdt::Vertex_handle vertex = cdt.insert(detail::to_point(z), near);
-            if (cdt.number_of_vertices() == count) return {};
-            vertex->info() = static_cast<Index>(handles.size());
-            handles.push_back(vertex);
-        }
+    constexpr std::size_t few = 2000;
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    if (points.size() < few) return order;
+    std::mt19937 random(1);
+    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+    for (std::size_t end = order.size(); end > few; end /= 2) {
+        const std::vector<std::size_t> round(order.begin() + static_cast<std::ptrdiff_t>(end / 2),
+                                             order.begin() + static_cast<std::ptrdiff_t>(end));
+        std::vector<Complex> places;
+        for (const std::size_t i : round) places.push_back(points[i]);
+        std::ranges::transform(detail::to_and_fro(places), order.begin() + static_cast<std::ptrdiff_t>(end / 2),
+                               [&](std::size_t i) { return round[i]; });
+    }
+    return order;
+}
+
+/// Inserts the points. @return their vertices; none for a point that lies where another one is
+std::vector<Cdt::Vertex_handle> insert(Cdt& cdt, std::vector<Complex> points, const std::vector<Complex>& interior)
+{
+    points.insert(points.end(), interior.begin(), interior.end());
+    std::vector<Cdt::Vertex_handle> handles(points.size());
+    Cdt::Face_handle near;
+    for (const std::size_t i : order_of(points)) {
+        const auto count = cdt.number_of_vertices();
+        const Cdt::Vertex_handle vertex = cdt.insert(detail::to_point(points[i]), near);
+        near = vertex->face();
+        if (cdt.number_of_vertices() == count) continue;
+        vertex->info() = static_cast<Index>(i);
+        handles[i] = vertex;
+    }
     return handles;
 }
 
@@ -54,24 +78,45 @@ void mark_inside(Cdt& cdt, const std::set<EndPair>& sides)
 }  // namespace
 
 Triangles divided_polygon(const std::vector<Complex>& polygon, const std::vector<Complex>& interior,
-                          const std::vector<std::array<Index, 2>>& segments)
+                          const std::vector<std::array<Index, 2>>& segments, std::vector<std::size_t>* faulty)
 {
     const SilentCgal silent;
     Cdt cdt;
     const std::vector<Cdt::Vertex_handle> handles = insert(cdt, polygon, interior);
-    if (handles.size() != polygon.size() + interior.size()) return {};
+    const auto constrain = [&](Index a, Index b) {
+        if (handles[a] == Cdt::Vertex_handle() || handles[b] == Cdt::Vertex_handle()) return false;
+        try {
+            cdt.insert_constraint(handles[a], handles[b]);
+        } catch (const Cdt::Intersection_of_constraints_exception&) {
+            return false;
+        }
+        return true;
+    };
+
+    // sides first, so that a segment is at fault where it meets one
     const Index n = static_cast<Index>(polygon.size());
-    std::set<EndPair> sides;
+    std::set<EndPair> sides, met;
     for (Index i = 0; i < n; ++i) sides.insert(ends_of(i, (i + 1) % n));
-    std::set<EndPair> all = sides;  // each once: CGAL refuses a constraint that it has
-    for (const auto& [a, b] : segments) all.insert(ends_of(a, b));
-    try {
-        for (const auto& [a, b] : all) cdt.insert_constraint(handles[a], handles[b]);
-    } catch (const Cdt::Intersection_of_constraints_exception&) {
-        return {};
+    for (const auto& [a, b] : sides)
+        if (!constrain(a, b)) return {};
+    std::vector<char> at_fault(segments.size(), 0);
+    met = sides;  // each once: CGAL refuses a constraint that it has
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const auto [a, b] = segments[i];
+        at_fault[i] = met.insert(ends_of(a, b)).second && !constrain(a, b);
     }
-    for (const auto& [a, b] : all)
-        if (!cdt.is_edge(handles[a], handles[b])) return {};
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        const Cdt::Vertex_handle a = handles[segments[i][0]], b = handles[segments[i][1]], none;
+        at_fault[i] = at_fault[i] || a == none || b == none || !cdt.is_edge(a, b);
+    }
+
+    bool fails = std::ranges::find(handles, Cdt::Vertex_handle()) != handles.end();
+    for (const auto& [a, b] : sides) fails = fails || !cdt.is_edge(handles[a], handles[b]);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        fails = fails || at_fault[i];
+        if (at_fault[i] && faulty) faulty->push_back(i);
+    }
+    if (fails) return {};
     mark_inside(cdt, sides);
     std::vector<Index> corners;
     for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f)

@@ -162,11 +162,13 @@ std::vector<CountedSegment> divided_segments(std::vector<CountedSegment> segment
         join_equal(segments);
         std::vector<Cut> cuts = Dividing(segments, grid).cuts();
         if (cuts.empty()) return segments;
-        std::ranges::sort(cuts, {}, [](const Cut& one) { return std::tuple(one.segment, one.along, place_of(one.at)); });
+        std::ranges::sort(cuts, {},
+                          [](const Cut& one) { return std::tuple(one.segment, one.along, place_of(one.at)); });
         for (auto first = cuts.begin(); first != cuts.end();) {
             CountedSegment& whole = segments[first->segment];
             const CountedSegment given = whole;
-            const auto last = std::find_if(first, cuts.end(), [&](const Cut& c) { return c.segment != first->segment; });
+            const auto last =
+                std::find_if(first, cuts.end(), [&](const Cut& c) { return c.segment != first->segment; });
             whole.upper = first->at;
             std::vector<CountedSegment> parts;
             for (; first != last; ++first)

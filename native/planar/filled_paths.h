@@ -20,8 +20,8 @@ struct FilledBoundary {
     Index area = -1;  ///< connected areas are numbered; each has one boundary that is no hole
 };
 
-/// The union of filled paths. Polygons may cross themselves and each other: crossings are found by a sweep and rounded to
-/// floats (divided_segments.h), so that boundaries meet at common points only.
+/// The union of filled paths. Polygons may cross themselves and each other: crossings are found by a sweep and rounded
+/// to floats (divided_segments.h), so that boundaries meet at common points only.
 /// @param paths finite @throws InputError over a million crossings
 std::vector<FilledBoundary> united_paths(const std::vector<FilledPath>& paths);
 

@@ -73,6 +73,98 @@ TEST(FilledPaths, RandomBoxesCoverAsManyCellsAsTheyHold)
     }
 }
 
+TEST(FilledPaths, CrossingLinesAreFilledByTheNumberOfWindings)
+{
+    std::mt19937 random(54);
+    const auto number = [&] { return static_cast<double>(random() % 100000) / 1000.0; };
+    for (const int corners : {5, 20, 120}) {
+        std::vector<Complex> ring;
+        for (int i = 0; i < corners; ++i) ring.emplace_back(number(), number());
+        for (const bool even_odd : {false, true}) {
+            const std::vector<FilledBoundary> boundaries = united_paths({{even_odd, {ring}}});
+            for (int sample = 0; sample < 200; ++sample) {
+                const Complex z(number() + 1e-4, number() + 1e-4);
+                const auto windings = [&](const std::vector<Complex>& polygon) {
+                    int count = 0;
+                    for (std::size_t i = 0; i < polygon.size(); ++i) {
+                        const Complex a = polygon[i] - z, b = polygon[(i + 1) % polygon.size()] - z;
+                        if ((a.imag() > 0.0) == (b.imag() > 0.0)) continue;
+                        if ((cross(a, b) > 0.0) == (b.imag() > a.imag())) count += b.imag() > a.imag() ? 1 : -1;
+                    }
+                    return count;
+                };
+                int covered = 0;
+                for (const FilledBoundary& boundary : boundaries) covered += windings(boundary.points);
+                const int times = windings(ring);
+                EXPECT_EQ(covered, even_odd ? std::abs(times) % 2 : times != 0 ? 1 : 0);
+            }
+        }
+    }
+}
+
+TEST(FilledPaths, ManyLinesThroughFewPointsAreOneChain)
+{
+    std::vector<Complex> ring;  // most segments lie on few lines, up to rounding
+    for (int i = 0; i < 400; ++i) ring.emplace_back((i * 919 % 1000) / 1000.0, (i * 729 % 1000) / 1000.0);
+    const std::vector<FilledBoundary> boundaries = united_paths({{false, {ring}}});
+    EXPECT_LT(boundaries.size(), 100U);
+    EXPECT_NEAR(area_of(boundaries), 0.6737, 1e-3);
+}
+
+TEST(SvgDrawing, OnlyWhatIsShownIsDrawn)
+{
+    const std::string shown = "<path d='M10 10h10v10h-10z'/>", hidden = "<path d='M30 10h20v20h-20z'/>";
+    const auto drawn = [&](const std::string& inside) {
+        double area = 0.0;
+        for (const SvgPath& path : drawing_of(inside).paths)
+            area += area_of(united_paths({{path.even_odd, flattened(path, 1e-3)}}));
+        return area;
+    };
+    const std::string style = "<style>.a,.b{display:none} #c>g path{visibility:hidden} .d{display:inline}</style>";
+    for (const std::string& group :
+         {"<g class='x b'>" + hidden + "</g>", "<g id='c'><g><g>" + hidden + "</g></g></g>",
+          "<g class='d' style='display:none'>" + hidden + "</g>",
+          "<g display='none'><g display='inline'>" + hidden + "</g></g>", "<g opacity='0'>" + hidden + "</g>",
+          "<g fill='none'>" + hidden + "</g>", "<symbol>" + hidden + "</symbol>",
+          "<g requiredExtensions='x'>" + hidden + "</g>",
+          "<switch><foreignObject requiredExtensions='x'/><g/><g>" + hidden + "</g></switch>"})
+        EXPECT_NEAR(drawn(style + group + shown), 100.0, 1e-9) << group;
+    EXPECT_NEAR(drawn(style + "<g class='a d'>" + shown + "</g>"), 100.0, 1e-9) << "the later rule counts";
+    EXPECT_NEAR(drawn("<g fill='none' stroke='red'>" + shown + "</g>"), 100.0, 1e-9) << "cutters' files are strokes";
+}
+
+TEST(SvgDrawing, UsesAndViewportsAreTransforms)
+{
+    const auto size_of = [](const std::string& inside) {
+        const SvgDrawing drawing = drawing_of(inside);
+        return drawing.high - drawing.low;
+    };
+    const std::string box = "<path id='p' d='M0 0h5v10h-5z'/>";
+    const auto symbol = [&](const std::string& ratio) {
+        return "<symbol id='s' viewBox='0 0 5 10' preserveAspectRatio='" + ratio + "'>" + box + "</symbol>" +
+               "<use href='#s' x='3' width='20' height='20'/>";
+    };
+    EXPECT_NEAR(std::abs(size_of(symbol("")) - Complex(10.0, 20.0)), 0.0, 1e-9);
+    EXPECT_NEAR(std::abs(size_of(symbol("none")) - Complex(20.0, 20.0)), 0.0, 1e-9);
+    EXPECT_NEAR(std::abs(size_of(symbol("xMinYMid slice")) - Complex(20.0, 40.0)), 0.0, 1e-9);
+    EXPECT_NEAR(
+        std::abs(size_of("<defs>" + box + "</defs><use href='#p' transform='scale(2)'/>") - Complex(10.0, 20.0)), 0.0,
+        1e-9);
+    EXPECT_NEAR(std::abs(size_of(box + "<use href='#p' x='20'/>") - Complex(25.0, 10.0)), 0.0, 1e-9);
+    EXPECT_THROW(drawing_of("<g id='a'><use href='#a'/></g>"), InputError);
+}
+
+TEST(SvgDrawing, EntitiesStandForTheirText)
+{
+    const std::string doctype =
+        "<!DOCTYPE svg [<!ENTITY ns 'http://www.w3.org/2000/svg'><!ENTITY off 'display:none'>]>";
+    const SvgDrawing drawing = parse_svg(doctype + "<svg xmlns='&ns;'><path style='&off;' d='M0 0h9v9z'/>"
+                                                   "<path d='M0 0h2v1h-2z'/></svg>");
+    EXPECT_EQ(drawing.high - drawing.low, Complex(2.0, 1.0));
+    EXPECT_THROW(parse_svg("<!DOCTYPE svg [<!ENTITY a '&a;'>]><svg xmlns='http://www.w3.org/2000/svg' id='&a;'/>"),
+                 InputError);
+}
+
 TEST(SvgDrawing, AttributesMayComeInAnyOrder)
 {
     const SvgDrawing last = drawing_of("<path d='M0 0H2V1H0Z' transform='scale(3)' fill-rule='evenodd'/>");
