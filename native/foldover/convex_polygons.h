@@ -19,6 +19,7 @@ struct SurfacePolygons {
     std::vector<Index> held = {};       ///< vertices that stay in place
     bool periodic = false;              ///< sides of cuts that differ by a translation are one place
     std::vector<Index> left_out = {};   ///< faces that are drawn like others, instead of mapped
+    bool free_rims = false;  ///< loops and sides of cuts move, too; the caller checks that the map stays one to one
 };
 
 /// Finds the polygons that are convex on the surface, but not in the UVs.

@@ -1,4 +1,4 @@
-"""A polygon that is convex on the surface is convex in the UVs, however it is cut into triangles, or a warning lists it."""
+"""A polygon that is convex on the surface is convex in the UVs, or a warning lists it."""
 
 import itertools
 import json
