@@ -9,6 +9,7 @@
 #include "quality/stored_uv.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -652,7 +653,7 @@ void warn_concave_polygons(const SurfacePolygons& surface, const PlanarPoints& u
     warnings.push_back({WarningKind::concave_polygons, std::move(sentence), std::move(concave)});
 }
 
-PlanarPoints disk_corners(const Triangles& triangles, const PlanarPoints& points)
+PlanarPoints disk_corner_uvs(const Triangles& triangles, const PlanarPoints& points)
 {
     PlanarPoints uv(triangles.size(), 2);
     for (Eigen::Index c = 0; c < triangles.size(); ++c)
@@ -663,7 +664,7 @@ PlanarPoints disk_corners(const Triangles& triangles, const PlanarPoints& points
 bool mend_disk_polygons(const SurfacePolygons& surface, PlanarPoints& points, const ExecutionContext& context)
 {
     if (surface.polygon.empty()) return false;
-    const PlanarPoints before = disk_corners(surface.triangles, points);
+    const PlanarPoints before = disk_corner_uvs(surface.triangles, points);
     PlanarPoints uv = before;
     if (!mend_polygons(surface, uv, context)) return false;
     for (Eigen::Index c = 0; c < uv.rows(); ++c)

@@ -50,6 +50,6 @@ void warn_concave_polygons(const SurfacePolygons& surface, const PlanarPoints& u
 bool mend_disk_polygons(const SurfacePolygons& surface, PlanarPoints& points, const ExecutionContext& context);
 
 /// (3F, 2) u and v of all corners of a map into the unit disk.
-PlanarPoints disk_corners(const Triangles& triangles, const PlanarPoints& points);
+PlanarPoints disk_corner_uvs(const Triangles& triangles, const PlanarPoints& points);
 
 }  // namespace koebe
