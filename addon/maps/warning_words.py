@@ -37,7 +37,7 @@ WORDS = {
         "faces",
         "{count} {have} no UVs, because another face has the same vertices. Use Mesh ▸ Clean Up ▸ Merge by Distance"),
     "concave_polygons": (
-        "faces", "{count} {are} bent inwards in the UVs: Blender may draw {them} with overlaps. Triangulate {them} first"),
+        "faces", "{count} {are} bent inwards in the UVs: triangles may overlap there. Triangulate {them} first"),
     "not_mapped": ("faces", "{count} could not be mapped, and {are} at one point in the UVs. Repair the mesh there"),
 }  # fmt: skip
 # Of a surface that was cut open: there the mesh is not at fault.

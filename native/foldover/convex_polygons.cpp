@@ -9,6 +9,7 @@
 #include "quality/stored_uv.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -211,7 +212,7 @@ public:
     bool between_two(Index corner) const
     {
         const Index node = node_[corner];
-        if (held(node)) return false;
+        if (held(node) || at_rim_[node] != 0) return false;
         std::array<Index, 2> met{cell(corner), -1};
         for (const Index c : corners(node)) {
             if (cell(c) == met[0] || cell(c) == met[1]) continue;
@@ -290,9 +291,12 @@ private:
             if (own < 0) {
                 own = static_cast<Index>(held_.size());
                 held_.push_back(0);
+                at_rim_.push_back(0);
             }
             node_[c] = own;
-            if (open[c] != 0) held_[own] = 1;
+            if (open[c] == 0) continue;
+            at_rim_[own] = 1;
+            if (!surface_.free_rims) held_[own] = 1;
         }
         if (surface_.held.empty()) return;
         std::vector<char> stays(static_cast<std::size_t>(surface_.vertices.rows()), 0);
@@ -313,6 +317,7 @@ private:
     Index cell_count_ = 0;
     std::vector<Index> node_;     // (3F)
     std::vector<char> held_;      // of each node
+    std::vector<char> at_rim_;    // of each node: 1 on a loop, or on a side of a cut
     std::vector<Index> corners_;  // by node
     std::vector<std::size_t> begin_;
 };
@@ -492,6 +497,9 @@ private:
                               std::ranges::all_of(corners, [&](Index c) { return taken_[mesh_.cell(c)] != 0; });
             problem.mobility.push_back(free ? FoldoverProblem::Mobility::free : FoldoverProblem::Mobility::held);
         }
+        if (std::ranges::count(problem.mobility, FoldoverProblem::Mobility::held) ==
+            0)  // then it may not turn as a whole
+            problem.mobility.front() = problem.mobility.back() = FoldoverProblem::Mobility::held;
         for (const Index node : patch.nodes) local_of_[node] = -1;
         return patch;
     }
@@ -645,7 +653,7 @@ void warn_concave_polygons(const SurfacePolygons& surface, const PlanarPoints& u
     warnings.push_back({WarningKind::concave_polygons, std::move(sentence), std::move(concave)});
 }
 
-PlanarPoints disk_corners(const Triangles& triangles, const PlanarPoints& points)
+PlanarPoints disk_corner_uvs(const Triangles& triangles, const PlanarPoints& points)
 {
     PlanarPoints uv(triangles.size(), 2);
     for (Eigen::Index c = 0; c < triangles.size(); ++c)
@@ -656,7 +664,7 @@ PlanarPoints disk_corners(const Triangles& triangles, const PlanarPoints& points
 bool mend_disk_polygons(const SurfacePolygons& surface, PlanarPoints& points, const ExecutionContext& context)
 {
     if (surface.polygon.empty()) return false;
-    const PlanarPoints before = disk_corners(surface.triangles, points);
+    const PlanarPoints before = disk_corner_uvs(surface.triangles, points);
     PlanarPoints uv = before;
     if (!mend_polygons(surface, uv, context)) return false;
     for (Eigen::Index c = 0; c < uv.rows(); ++c)

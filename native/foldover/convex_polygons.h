@@ -19,6 +19,7 @@ struct SurfacePolygons {
     std::vector<Index> held = {};       ///< vertices that stay in place
     bool periodic = false;              ///< sides of cuts that differ by a translation are one place
     std::vector<Index> left_out = {};   ///< faces that are drawn like others, instead of mapped
+    bool free_rims = false;  ///< loops and sides of cuts move, too; the caller checks that the map stays one to one
 };
 
 /// Finds the polygons that are convex on the surface, but not in the UVs.
@@ -49,6 +50,6 @@ void warn_concave_polygons(const SurfacePolygons& surface, const PlanarPoints& u
 bool mend_disk_polygons(const SurfacePolygons& surface, PlanarPoints& points, const ExecutionContext& context);
 
 /// (3F, 2) u and v of all corners of a map into the unit disk.
-PlanarPoints disk_corners(const Triangles& triangles, const PlanarPoints& points);
+PlanarPoints disk_corner_uvs(const Triangles& triangles, const PlanarPoints& points);
 
 }  // namespace koebe

@@ -6,6 +6,7 @@
 #include "even/even_map.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
+#include "execution/side_by_side.h"
 #include "execution/stopwatch.h"
 #include "foldover/convex_polygons.h"
 #include "linear/dense_spd.h"
@@ -150,6 +151,26 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
 }
 
 /// @param length_of_unit of a unit of the layout, in the mesh's unit
+/// Makes polygons convex with free rims, as long as the part stays one to one. Packing keeps the parts apart
+/// afterwards.
+void mend_rims(const std::vector<Index>& polygon, std::vector<FlatPart>& parts, int threads, ExecutionContext& context)
+{
+    if (polygon.empty()) return;
+    side_by_side(parts.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
+        FlatPart& part = parts[k];
+        if (!part.one_to_one) return;
+        std::vector<Index> polygons;
+        for (const Index f : part.faces) polygons.push_back(polygon[f]);
+        const std::vector<Index> turned;
+        SurfacePolygons surface{part.vertices, part.surface.triangles, polygons, turned};
+        surface.free_rims = true;
+        for (std::size_t v = 0; v < part.held.size(); ++v)
+            if (part.held[v] != 0) surface.held.push_back(static_cast<Index>(v));
+        PlanarPoints moved = part.points;
+        if (mend_disk_polygons(surface, moved, own) && lies_one_to_one(part, moved)) part.points = std::move(moved);
+    });
+}
+
 PartsResult compute(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                     const std::function<double()>& length_of_unit, ExecutionContext& context)
 {
@@ -165,6 +186,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
     FlatMesh mesh = flat_mesh(vertices, triangles, options, true, context);
+    mend_rims(options.polygon, mesh.parts, options.threads, context);
     const double unit = length_of_unit();
     context.begin_stage("pack", 0.9, 1.0);
     PackOptions packing{.tiles = options.tiles, .threads = options.threads};

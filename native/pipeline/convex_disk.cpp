@@ -45,11 +45,11 @@ void make_polygons_convex(const Vertices& vertices, const Triangles& triangles, 
     for (const Index v : {result.center, result.point})
         if (v >= 0) held.push_back(v);
     const SurfacePolygons surface{vertices, triangles, polygon, turned, held};
-    if (concave_polygons(surface, disk_corners(triangles, result.uv)).empty()) return;
+    if (concave_polygons(surface, disk_corner_uvs(triangles, result.uv)).empty()) return;
     if (mend && mend_canonical(surface, result.uv, context))
         result.distortion = {measure_distortion(vertices, oriented(triangles, turned), result.uv),
                              judge_disk(vertices, triangles, result.uv, turned)};
-    warn_concave_polygons(surface, disk_corners(triangles, result.uv), result.warnings);
+    warn_concave_polygons(surface, disk_corner_uvs(triangles, result.uv), result.warnings);
 }
 
 }  // namespace koebe
