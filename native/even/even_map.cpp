@@ -30,6 +30,7 @@ constexpr double nearer = 0.9;            // and as long as this share, or the e
 constexpr double much_less = 0.99;        // the energy must fall to this, for faces to go on
 constexpr int steps_an_approach = 4;
 constexpr double settled_decrease = 5e-4;  // relative decrease of the energy
+constexpr double exact_length = 1e-6;      // of a face's longest edge: error of an edge that is true to size
 constexpr int steps_a_round = 5;           // with the void,
 constexpr double settled_round = 1e-3;     // and the relative decrease of the energy at which they end
 constexpr double void_weight = 1e-3;       // weight of a face of the void, over a mean face of the surface
@@ -340,6 +341,23 @@ double scale_to_size(const Vertices& vertices, const Triangles& triangles, doubl
 
 double area_weight(double even) { return even / (1.1 - even); }
 
+bool is_true_to_size(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points,
+                     const VectorXd& sizes)
+{
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const double scale = sizes.size() > 0 ? std::sqrt(sizes[f]) : 1.0;
+        double error = 0.0, longest = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            const Index a = triangles(f, k), b = triangles(f, (k + 1) % 3);
+            const double length = scale * (vertices.row(a) - vertices.row(b)).norm();
+            error = std::max(error, std::abs((points.row(a) - points.row(b)).norm() - length));
+            longest = std::max(longest, length);
+        }
+        if (!(error < exact_length * longest)) return false;
+    }
+    return true;
+}
+
 EvenMap make_even(const FlatSurface& surface, double even, double extent, ExecutionContext& context,
                   const EvenEffort& effort, NewtonPattern* pattern)
 {
@@ -347,6 +365,9 @@ EvenMap make_even(const FlatSurface& surface, double even, double extent, Execut
     NewtonPattern own;
     EvenProblem problem(surface, even, extent, effort, context, pattern ? *pattern : own);
     if (!(even > 0.0) || !problem.one_to_one()) return result;
+    result.moved =
+        !surface.periods && is_true_to_size(surface.vertices, surface.triangles, surface.points, surface.sizes);
+    if (result.moved) return result;
     if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result);
     return result;
 }

@@ -20,6 +20,11 @@ double scale_to_size(const Vertices& vertices, const Triangles& triangles, doubl
 /// @param even E, 0 to 1
 double area_weight(double even);
 
+/// Whether a map is an isometry, up to rounding and to `sizes`: no relaxation, and no cut, could make it better.
+/// @param sizes (F) as in FlatSurface
+bool is_true_to_size(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points,
+                     const VectorXd& sizes = {});
+
 /// Vertices of a loop that stay on a circle or a straight line. The circle or line moves.
 struct RoundLoop {
     std::vector<Index> vertices;
@@ -61,6 +66,7 @@ struct EvenMap {
 /// makes loops cross. If a step would make loops cross, the void around the map and in its holes is triangulated and
 /// takes part: its faces want to keep their shapes (Jiang, Schaefer and Panozzo 2017).
 ///
+/// A map that is_true_to_size stays as it is, and counts as moved.
 /// Faces that are not upright are turned back first (foldover/turn_upright.h). A map that is not one to one even then
 /// is not relaxed.
 /// @param extent side of the square in which the points are stored as 32-bit floats, in the unit of the points

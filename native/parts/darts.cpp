@@ -92,6 +92,7 @@ VectorXd least_heights(const FlatPart& flat)
 std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces, double even, double price,
                                   const std::vector<char>& refused)
 {
+    if (is_true_to_size(flat)) return {};
     const Triangles& triangles = flat.surface.triangles;
     const std::vector<char> outside = boundary_mask(flat.surface);
     const EdgeGraph graph(seamed(flat, flat.shown), 1.0);

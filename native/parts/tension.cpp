@@ -1,22 +1,22 @@
 #include "parts/tension.h"
 
 #include "core/complex_places.h"
+#include "even/even_map.h"
 #include "planar/planar_predicates.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <numeric>
 
 namespace koebe {
 namespace {
 
-/// The last half-edge from the same vertex, counter-clockwise, before the boundary.
-Index last_counter_clockwise(const Surface& surface, Index h)
+VectorXd sizes_of(const FlatPart& flat)
 {
-    while (surface.twin[previous_halfedge(h)] != no_twin) h = surface.twin[previous_halfedge(h)];
-    return h;
+    return Eigen::Map<const VectorXd>(flat.sizes.data(), static_cast<Eigen::Index>(flat.sizes.size()));
 }
 
 }  // namespace
-
 SeamedMesh seamed(const Vertices& vertices, const Surface& surface, const std::vector<Index>& polygon,
                   const std::vector<double>& shown)
 {
@@ -45,18 +45,44 @@ SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown)
 
 EvenForces forces_in(const FlatPart& flat, double even)
 {
-    const Eigen::Map<const VectorXd> sizes(flat.sizes.data(), static_cast<Eigen::Index>(flat.sizes.size()));
-    return even_forces(flat.vertices, flat.surface.triangles, flat.points, even, sizes);
+    return even_forces(flat.vertices, flat.surface.triangles, flat.points, even, sizes_of(flat));
 }
 
-Tension::Tension(const FlatPart& flat, const EvenForces& forces)
-    : flat_(flat), forces_(forces), whole_(VectorXcd::Zero(flat.points.rows())), leaving_(flat.points.rows(), no_twin)
+bool is_true_to_size(const FlatPart& flat)
 {
-    const Triangles& triangles = flat.surface.triangles;
-    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
-        whole_[origin(triangles, h)] += forces.pull[face_of(h)][h % 3];
-        leaving_[origin(triangles, h)] = h;
+    return is_true_to_size(flat.vertices, flat.surface.triangles, flat.points, sizes_of(flat));
+}
+
+Tension::Tension(const FlatPart& flat, const EvenForces& forces) : flat_(flat), begin_{0}
+{
+    const Surface& surface = flat.surface;
+    std::vector<Index> leaving(static_cast<std::size_t>(flat.points.rows()), no_twin);
+    for (Index h = 0; h < static_cast<Index>(surface.triangles.size()); ++h)
+        // On the boundary the ring starts at the half-edge that has no face on its right.
+        if (Index& own = leaving[origin(surface.triangles, h)]; own == no_twin || surface.twin[h] == no_twin) own = h;
+    for (std::size_t v = 0; v < leaving.size(); ++v) add_ring(static_cast<Index>(v), leaving[v], forces);
+}
+
+void Tension::add_ring(Index v, Index leaving, const EvenForces& forces)
+{
+    const Surface& surface = flat_.surface;
+    const auto add = [&](Index neighbour, Complex sum) {
+        neighbours_.push_back({neighbour, static_cast<Index>(neighbours_.size() - begin_[v])});
+        sums_.push_back(sum);
+    };
+    Complex sum = 0.0;
+    for (Index h = leaving; h != no_twin;) {
+        add(target(surface.triangles, h), sum);
+        sum += forces.pull[face_of(h)][h % 3];
+        const Index back = previous_halfedge(h);
+        h = surface.twin[back];
+        if (h == no_twin || h == leaving) add(origin(surface.triangles, back), sum);
+        if (h == leaving) break;
     }
+    if (leaving == no_twin) add(-1, sum);
+    std::ranges::stable_sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(begin_[v]), neighbours_.end(), {},
+                             &Neighbour::vertex);
+    begin_.push_back(neighbours_.size());
 }
 
 Complex Tension::at(Index v, Index from, Index to) const
@@ -64,29 +90,27 @@ Complex Tension::at(Index v, Index from, Index to) const
     const Complex way = complex_at(flat_.points, from) - complex_at(flat_.points, to >= 0 ? to : v);
     const double length = std::abs(way);
     if (!(length > 0.0)) return 0.0;
-    const Complex half = pull_of_left(v, from, to) - 0.5 * whole_[v];
+    const Complex half = pull_of_left(v, from, to) - 0.5 * whole(v);
     return half * std::conj(way) / length;
+}
+
+/// The first place of a neighbour in the ring of a vertex; -1 if it is none.
+Index Tension::place_of(Index v, Index neighbour) const
+{
+    const auto end = neighbours_.begin() + static_cast<std::ptrdiff_t>(begin_[v + 1]);
+    const auto found = std::ranges::lower_bound(neighbours_.begin() + static_cast<std::ptrdiff_t>(begin_[v]), end,
+                                                neighbour, {}, &Neighbour::vertex);
+    return found != end && found->vertex == neighbour ? found->place : -1;
 }
 
 /// The force of the faces from the edge to one neighbour, counter-clockwise to another neighbour or the boundary.
 Complex Tension::pull_of_left(Index v, Index from, Index to) const
 {
-    const Triangles& triangles = flat_.surface.triangles;
-    Complex sum = 0.0;
-    Index h = leaving_[v];
-    const Index first = h;
-    while (target(triangles, h) != from) {  // clockwise, and from the boundary on from its other end
-        const Index t = flat_.surface.twin[h];
-        h = t == no_twin ? last_counter_clockwise(flat_.surface, h) : next_halfedge(t);
-        if (h == first) return 0.5 * whole_[v];
-    }
-    while (true) {
-        sum += forces_.pull[face_of(h)][h % 3];
-        const Index back = previous_halfedge(h);
-        if (origin(triangles, back) == to || flat_.surface.twin[back] == no_twin) return sum;
-        h = flat_.surface.twin[back];
-        if (target(triangles, h) == from) return sum;
-    }
+    const auto before = [&](Index place) { return sums_[begin_[v] + static_cast<std::size_t>(place)]; };
+    const Index first = place_of(v, from), last = place_of(v, to);
+    if (first < 0) return 0.5 * whole(v);
+    if (last >= 0 && last <= first) return whole(v) - before(first) + before(last);
+    return (last < 0 ? whole(v) : before(last)) - before(first);
 }
 
 }  // namespace koebe

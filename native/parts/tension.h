@@ -19,6 +19,9 @@ SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {});
 /// The forces in a part relaxed for this E (even/even_forces.h), with the sizes that its faces should have.
 EvenForces forces_in(const FlatPart& flat, double even);
 
+/// Whether a part is flat in truth (even/even_map.h): it needs no cuts.
+bool is_true_to_size(const FlatPart& flat);
+
 class Tension {
 public:
     Tension(const FlatPart& flat, const EvenForces& forces);
@@ -30,12 +33,23 @@ public:
     Complex at(Index v, Index from, Index to) const;
 
 private:
+    /// A neighbour of a vertex, and its place among the neighbours, counter-clockwise.
+    struct Neighbour {
+        Index vertex;
+        Index place;
+    };
+
+    void add_ring(Index v, Index leaving, const EvenForces& forces);
+    Index place_of(Index v, Index neighbour) const;
     Complex pull_of_left(Index v, Index from, Index to) const;
+    Complex whole(Index v) const { return sums_[begin_[v + 1] - 1]; }
 
     const FlatPart& flat_;
-    const EvenForces& forces_;
-    VectorXcd whole_;             // (V) of all faces round a vertex
-    std::vector<Index> leaving_;  // (V) a half-edge from each vertex
+    // The rings of all vertices, one after the other. From each neighbour to the next one lies a face. Behind the last
+    // face stands the last neighbour on the boundary, or the first neighbour again.
+    std::vector<std::size_t> begin_;     // (V + 1)
+    std::vector<Neighbour> neighbours_;  // of each ring by rising vertices
+    std::vector<Complex> sums_;          // of the forces of the ring's faces before this place
 };
 
 }  // namespace koebe

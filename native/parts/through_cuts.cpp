@@ -293,6 +293,7 @@ std::array<std::vector<Index>, 2> sides_of(const Surface& surface, const std::ve
 
 std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price)
 {
+    if (is_true_to_size(flat)) return {};
     return ThroughSearch(flat, even, price).best();
 }
 

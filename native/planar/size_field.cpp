@@ -3,40 +3,72 @@
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index run_length = 16;
+constexpr std::size_t run_length = 8;
 
 }  // namespace
 
 SizeField::SizeField(const std::vector<VectorXcd>& polygons, double longest, double gradation)
-    : longest_(longest), gradation_(gradation)
+    : longest_(longest), gradation_(gradation), levels_(1)
 {
     for (const VectorXcd& polygon : polygons)
         for (Eigen::Index i = 0, n = polygon.size(); i < n; ++i) {
             const Complex here = polygon[i];
             const double length =
                 0.5 * (distance(polygon[(i + 1) % n], here) + distance(here, polygon[(i + n - 1) % n]));
-            if (i % run_length == 0) runs_.push_back({sites_.size(), sites_.size(), here, 0.0, length});
-            sites_.push_back({here, length});
-            Run& run = runs_.back();
-            run.end = sites_.size();
-            run.radius = std::max(run.radius, distance(run.center, here));
-            run.shortest = std::min(run.shortest, length);
+            levels_[0].push_back({0, 0, here, 0.0, length});
         }
+    while (levels_.back().size() > run_length) {
+        const std::vector<Run>& below = levels_.back();
+        std::vector<Run> runs;
+        for (std::size_t begin = 0; begin < below.size(); begin += run_length) {
+            Run run = below[begin];
+            run.begin = begin;
+            run.end = std::min(begin + run_length, below.size());
+            for (std::size_t i = begin; i < run.end; ++i) {
+                run.radius = std::max(run.radius, distance(run.center, below[i].center) + below[i].radius);
+                run.shortest = std::min(run.shortest, below[i].shortest);
+            }
+            runs.push_back(run);
+        }
+        levels_.push_back(std::move(runs));
+    }
+}
+
+/// A bound for the sizes wanted by a run's vertices: the size itself for one vertex.
+double SizeField::least_in(const Run& run, Complex place) const
+{
+    return run.shortest + gradation_ * std::max(distance(place, run.center) - run.radius, 0.0);
+}
+
+/// Lowers `size` to the least size wanted by these runs of a level. The runs with the lowest bounds come first.
+void SizeField::look(std::size_t level, std::size_t begin, std::size_t end, Complex place, double& size) const
+{
+    std::array<std::pair<double, std::size_t>, run_length> bounds;
+    const std::size_t count = end - begin;
+    for (std::size_t i = 0; i < count; ++i) bounds[i] = {least_in(levels_[level][begin + i], place), begin + i};
+    if (level == 0) {
+        for (std::size_t i = 0; i < count; ++i) size = std::min(size, bounds[i].first);
+        return;
+    }
+    std::sort(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < count && bounds[i].first < size; ++i) {
+        const Run& run = levels_[level][bounds[i].second];
+        look(level - 1, run.begin, run.end, place, size);
+    }
 }
 
 double SizeField::operator()(Complex place) const
 {
     double size = longest_;
-    for (const Run& run : runs_) {
-        if (run.shortest + gradation_ * (distance(place, run.center) - run.radius) >= size) continue;
-        for (std::size_t i = run.begin; i < run.end; ++i)
-            size = std::min(size, sites_[i].length + gradation_ * distance(place, sites_[i].place));
-    }
+    look(levels_.size() - 1, 0, levels_.back().size(), place, size);
     return size;
 }
 

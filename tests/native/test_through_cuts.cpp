@@ -1,5 +1,7 @@
 #include "even/even_forces.h"
+#include "parts/darts.h"
 #include "parts/packing.h"
+#include "parts/tension.h"
 #include "parts/through_rounds.h"
 
 #include <gtest/gtest.h>
@@ -67,6 +69,27 @@ FlatPart strip_part(int along, int across)
     return part;
 }
 
+/// A flat regular polygon of area 1, all faces round its middle.
+FlatPart fan_part(int sides)
+{
+    FlatPart part;
+    part.points = PlanarPoints::Zero(sides + 1, 2);
+    Triangles triangles(sides, 3);
+    const double radius = 1.0 / std::sqrt(0.5 * sides * std::sin(2.0 * pi / sides));
+    for (int i = 0; i < sides; ++i) {
+        const double angle = 2.0 * pi * i / sides;
+        part.points.row(i + 1) << radius * std::cos(angle), radius * std::sin(angle);
+        triangles.row(i) << 0, i + 1, (i + 1) % sides + 1;
+        part.faces.push_back(i);
+    }
+    part.vertices = Vertices::Zero(part.points.rows(), 3);
+    part.vertices.leftCols<2>() = part.points;
+    part.surface = require_bordered_genus_zero(triangles, static_cast<Index>(part.vertices.rows()));
+    for (Index v = 0; v < part.surface.vertex_count; ++v) part.original.push_back(v);
+    part.held.assign(part.original.size(), 0);
+    return part;
+}
+
 std::vector<HeldPart> cut_for_room(const FlatPart& part, const ThroughPrice& price)
 {
     std::vector<HeldPart> parts{{part, {}}};
@@ -121,6 +144,16 @@ TEST(ThroughCuts, a_rolled_panel_is_cut_along_once_and_lies_flat)
     EXPECT_LE(open.slit, 1.1 / std::sqrt(pi));         // along edges
     EXPECT_LT(energy(open), 1e-3 * before);
     EXPECT_TRUE(lies_one_to_one(open, open.points));
+}
+
+TEST(ThroughCuts, what_is_true_to_size_is_neither_moved_nor_cut_however_thin_its_faces)
+{
+    FlatPart part = fan_part(1000);
+    const PlanarPoints before = part.points;
+    relax(part);
+    EXPECT_EQ(part.points, before);
+    EXPECT_TRUE(promising_through_cuts(part, even, {1e-12, 1e-12}).empty());
+    EXPECT_TRUE(promising_darts(part, forces_in(part, even), even, 1e-12, {}).empty());
 }
 
 TEST(ThroughCuts, what_costs_more_than_it_releases_is_not_cut)
