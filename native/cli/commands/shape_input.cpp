@@ -24,18 +24,18 @@ ShapeInput read_shape(const std::string& path, const UniformizeOptions& options,
     UniformizeResult result =
         with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options, context); });
 
-    require_own_circles(result.loops);
+    require_own_circles(result.conformal_loops());
     ShapeInput shape{std::filesystem::path(path).filename().string(), {}, {}, {}, {}, result.converged, {}};
     add_input_warnings(input, result.warnings);
     shape.warnings = std::move(result.warnings);
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
-    for (const LoopReport& loop : result.loops) {
+    for (const LoopReport& loop : result.conformal_loops()) {
         shape.circles.push_back(loop.circle);
         shape.ranks.push_back(loop_with(loops, loop.vertices.front()));
     }
     if (with_refined)
-        shape.refined = refined_circles(input.polygons.vertices, triangles, result.loops, options, context);
-    shape.surface = {input.polygons.vertices, triangles, std::move(result.uv), std::move(result.loops)};
+        shape.refined = refined_circles(input.polygons.vertices, triangles, result.conformal_loops(), options, context);
+    shape.surface = conformal_surface(input.polygons.vertices, triangles, result);
     return shape;
 }
 

@@ -114,7 +114,8 @@ def uniformize(
         return CutResult(report, made.uv, np.array(made.flipped_faces), source)
     native = source.call(_koebe.uniformize, options, progress, cancel)
     report = with_origin(native.report(), source, chosen)
-    return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
+    flipped = np.array(native.flipped_faces)
+    return UniformizeResult(report, native.uv, flipped, native.step_maps, source, native.conformal_uv)
 
 
 def importance_of(values: Any, chosen: Mapping[str, Any], count: int) -> np.ndarray:
