@@ -1,10 +1,11 @@
 #include "fit/fit_circles.h"
 
+#include "bending/bend_between.h"
+#include "circles/same_circles.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "execution/detachable_run.h"
 #include "execution/thread_share.h"
-#include "fit/bend_between.h"
 #include "fit/plane_beltrami.h"
 #include "fit/template_start.h"
 #include "foldover/untangle.h"
@@ -25,8 +26,6 @@
 
 namespace koebe {
 namespace {
-
-constexpr double same_circle = 1e-9;  // disk units: circles as near are the surface's own
 
 /// The template in the order of the surface's loops.
 struct Goal {
@@ -208,14 +207,6 @@ double largest_miss(const MapInput& whole, const CircleMap& map)
     return largest;
 }
 
-bool are_same(const std::vector<Circle>& a, const std::vector<Circle>& b, double tolerance)
-{
-    for (std::size_t k = 0; k < a.size(); ++k)
-        if (std::abs(a[k].center - b[k].center) > tolerance || std::abs(a[k].radius - b[k].radius) > tolerance)
-            return false;
-    return true;
-}
-
 /// The loops whose polygons have lost half of their share of the circle's area: vertices have gathered on an arc.
 std::vector<Index> gathered_rims(const MapInput& whole, const TemplateStart& start, const CircleMap& map)
 {
@@ -271,7 +262,7 @@ public:
             lay_over_template(map.circles, with_unit_circle(wanted_.circles), given_match(whole_, wanted_),
                               whole_.surface.triangles, map.uv, context);
         const Goal goal = goal_of(whole_, wanted_, start.match);
-        const bool own = are_same(start.circles, goal.circles, same_circle);
+        const bool own = same_circles(start.circles, goal.circles);
         bend(start, goal, map, context);
         report(start, own, map, context);
         clock_.finish(result_, context);
@@ -338,8 +329,10 @@ private:
         result_.bending = summed(plane_beltrami(undistorted_, whole_.surface.triangles, map.uv).cwiseAbs(), areas_);
         reorder(whole_, map, start.match);
         result_.residual = largest_miss(whole_, map);
+        ConformalDomain conformal{std::move(result_.uv), {}};
+        for (const int k : start.match) conformal.loops.push_back(result_.loops[static_cast<std::size_t>(k)]);
         report_map(vertices_, triangles_, whole_, map, result_);
-        for (LoopReport& loop : result_.loops) loop.shrunk = loop.shrunk || !own;
+        if (!own) keep_conformal(std::move(conformal), result_);
         result_.names = wanted_.names;
         for (const VertexLoop& loop : whole_.loops) result_.ranks.push_back(rank_by_lowest_vertex(whole_, loop));
         const VectorXd mu = face_mu(whole_.vertices, whole_.surface.triangles, map.uv);

@@ -25,7 +25,7 @@ struct FitBeltrami {
 };
 
 /// `loops` are the template's circles in their order, the unit circle first. None is the surface's own circle, unless
-/// the template is its conformal domain.
+/// the template is its conformal domain. `conformal` has the surface's own circles in the same order.
 struct FitResult : UniformizeResult {
     std::vector<std::string> names;  ///< of the holes, or empty
     std::vector<int> ranks;          ///< for each of `loops` its number in Surface::loops

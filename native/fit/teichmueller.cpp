@@ -1,22 +1,24 @@
 #include "fit/teichmueller.h"
 
+#include "bending/bend_between.h"
+#include "circles/same_circles.h"
 #include "conformal/rectangle_modulus.h"
 #include "core/complex_places.h"
 #include "core/counted.h"
 #include "core/errors.h"
 #include "core/sort_unique.h"
 #include "execution/detachable_run.h"
-#include "fit/bend_between.h"
 #include "fit/bounded_matches.h"
 #include "fit/circle_template.h"
 #include "fit/coarse_gaps.h"
 #include "fit/dilatation_bounds.h"
+#include "fit/domain_dilatation.h"
 #include "fit/plane_beltrami.h"
 #include "fit/template_start.h"
 #include "linear/dense_spd.h"
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"
-#include "surface/laplacian.h"
+#include "transfer/compact_domain.h"
 #include "transfer/landmark_alignment.h"
 
 #include <algorithm>
@@ -31,46 +33,6 @@
 
 namespace koebe {
 namespace {
-
-/// A surface without the vertices that no face uses. Faces keep their numbers.
-struct CompactDomain {
-    std::vector<Index> original;  // vertex of the surface for each vertex
-    MappedSurface surface;
-    std::vector<VertexLoop> loops;
-    std::vector<Index> off_circle;
-    std::vector<Circle> circles;
-    VectorXd areas;  // on the surface
-};
-
-CompactDomain compact(const MappedSurface& surface)
-{
-    CompactDomain domain;
-    std::vector<Index> place(static_cast<std::size_t>(surface.uv.rows()), -1);
-    for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) place[surface.triangles.data()[i]] = 0;
-    for (std::size_t v = 0; v < place.size(); ++v)
-        if (place[v] == 0) {
-            place[v] = static_cast<Index>(domain.original.size());
-            domain.original.push_back(static_cast<Index>(v));
-        }
-    domain.surface.triangles = surface.triangles.unaryExpr([&](Index v) { return place[v]; });
-    domain.surface.vertices = surface.vertices(domain.original, Eigen::all);
-    domain.surface.uv = surface.uv(domain.original, Eigen::all);
-    domain.surface.loops = surface.loops;
-    for (LoopReport& loop : domain.surface.loops) {
-        for (Index& v : loop.vertices) v = place[v];
-        for (Index& v : loop.off_circle) v = place[v];
-        std::ranges::sort(loop.off_circle);
-        domain.circles.push_back(loop.circle);
-        domain.loops.push_back(loop.vertices);
-        domain.off_circle.insert(domain.off_circle.end(), loop.off_circle.begin(), loop.off_circle.end());
-    }
-    std::ranges::sort(domain.off_circle);
-    const EdgeLengths lengths = edge_lengths(surface.vertices, surface.triangles);
-    domain.areas.resize(lengths.rows());
-    for (Eigen::Index f = 0; f < lengths.rows(); ++f)
-        domain.areas[f] = triangle_area(lengths(f, 0), lengths(f, 1), lengths(f, 2));
-    return domain;
-}
 
 /// Landmarks in a's domain, and their places in b's.
 struct Held {
@@ -126,16 +88,6 @@ std::vector<int> inverse_match(const CompactDomain& a, const std::vector<Circle>
         throw InputError("the match must name each of the loops of b once, the outer one first");
     for (std::size_t k = 0; k < b.size(); ++k) inverse[match[k]] = static_cast<int>(k);
     return inverse;
-}
-
-/// Whether the circles already lie at their places.
-bool has_arrived(const std::vector<Circle>& circles, const std::vector<Circle>& goal)
-{
-    constexpr double near_enough = 1e-9;  // disk units
-    for (std::size_t k = 0; k < goal.size(); ++k)
-        if (std::abs(circles[k].center - goal[k].center) + std::abs(circles[k].radius - goal[k].radius) > near_enough)
-            return false;
-    return true;
 }
 
 /// Circles that are too small take thousands of steps to shrink to, as no face fits beside them.
@@ -235,7 +187,7 @@ TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circ
     PlanarPoints undistorted;
     const TemplateStart start = laid_over(domain, goal, held, undistorted, context);
     PlanarPoints uv = start.uv;
-    if (!has_arrived(start.circles, goal)) {
+    if (!same_circles(start.circles, goal)) {
         require_wide_circles(domain.circles, "a's");
         require_wide_circles(b, "b's");
         const BendingInput input{triangles,
@@ -276,18 +228,26 @@ TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circ
     }
     const double most = (mu.array().abs() < 1.0).select(mu.cwiseAbs(), 0.0).maxCoeff();
     result.largest = (1.0 + most) / (1.0 - most);
-    std::vector<Index> marks = mesh.vertex;
-    sort_unique(marks);
-    const DilatationBounds bounds = dilatation_bounds(mesh.triangles, from, start.circles, domain.loops, marks, mu);
-    result.lower = std::min(bounds.lower, result.largest);
-    result.dilatation = std::clamp(std::sqrt(bounds.lower * bounds.upper), result.lower, result.largest);
+    // K: from moduli, from the circles alone, or with landmarks from this map.
     if (const auto exact = dilatation_by_modulus(domain, b, mesh, from, uv)) {
         result.lower = result.dilatation = *exact;
-        result.largest = std::max(result.largest, result.dilatation);
     } else {
         require_fine_gaps(domain.circles, domain.loops, domain.surface.uv, "a");
         require_fine_gaps(goal, domain.loops, uv, "b");
+        DilatationBounds bounds;
+        if (!mesh.vertex.empty()) {
+            std::vector<Index> marks = mesh.vertex;
+            sort_unique(marks);
+            bounds = dilatation_bounds(mesh.triangles, from, start.circles, domain.loops, marks, mu);
+            bounds.lower = std::max(bounds.lower, separation_bound(domain.circles, goal));
+            bounds.upper = std::max(bounds.upper, bounds.lower);
+        } else if (!same_circles(start.circles, goal)) {
+            bounds = domain_dilatation(domain.circles, goal, context);
+        }
+        result.lower = bounds.lower;
+        result.dilatation = std::sqrt(bounds.lower * bounds.upper);
     }
+    result.largest = std::max(result.largest, result.dilatation);
     result.uv = uv.topRows(domain.surface.uv.rows());
     context.advance(1.0);
     return result;

@@ -35,13 +35,26 @@ LoopReport report_loop(const MapInput& whole, const CircleMap& map, std::size_t 
 
 }  // namespace
 
+ConformalDomain domain_of(const MapInput& whole, const CircleMap& map, Index vertex_count)
+{
+    ConformalDomain domain{PlanarPoints::Zero(vertex_count, 2), {}};
+    for (std::size_t k = 0; k < whole.loops.size(); ++k) domain.loops.push_back(report_loop(whole, map, k));
+    domain.uv(whole.original, Eigen::all) = map.uv;
+    return domain;
+}
+
+void keep_conformal(ConformalDomain domain, UniformizeResult& result)
+{
+    for (LoopReport& loop : result.loops) loop.shrunk = true;
+    result.conformal = std::move(domain);
+}
+
 void report_map(const Vertices& vertices, const Triangles& triangles, const MapInput& whole, const CircleMap& map,
                 UniformizeResult& result)
 {
-    result.loops.clear();
-    for (std::size_t k = 0; k < whole.loops.size(); ++k) result.loops.push_back(report_loop(whole, map, k));
-    result.uv = PlanarPoints::Zero(result.vertex_count, 2);
-    result.uv(whole.original, Eigen::all) = map.uv;
+    ConformalDomain shown = domain_of(whole, map, result.vertex_count);
+    result.loops = std::move(shown.loops);
+    result.uv = std::move(shown.uv);
     result.distortion = {measure_distortion(whole.vertices, whole.surface.triangles, map.uv),
                          judge_disk(vertices, triangles, result.uv, whole.surface.reoriented)};
 }

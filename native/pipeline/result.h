@@ -19,6 +19,12 @@ struct LoopReport : MappedLoop {
     bool shrunk = false;  ///< whether the circle differs from the surface's own: replaced, or lost in rounding
 };
 
+/// The circle domain of the surface itself, by which shapes are compared.
+struct ConformalDomain {
+    PlanarPoints uv;                ///< (V, 2) points of the closed unit disk
+    std::vector<LoopReport> loops;  ///< the outer loop first
+};
+
 struct UniformizeResult : MapReport {
     PlanarPoints uv;  ///< (V, 2) points of the closed unit disk, in the input's vertex order
     Method method = Method::gk;
@@ -33,6 +39,12 @@ struct UniformizeResult : MapReport {
     std::vector<PlanarPoints> step_images;
     std::optional<AreaDistortion> unbalanced_area;         ///< before the balance, with a balance
     std::optional<AngleError> unpolished_angle_error_deg;  ///< before the polish, with a polish
+    /// The conformal domain, if `uv` and `loops` are another one: more even, or fitted to a template. Same order.
+    std::optional<ConformalDomain> conformal;
+
+    /// The loops that shapes are compared by.
+    const std::vector<LoopReport>& conformal_loops() const { return conformal ? conformal->loops : loops; }
+    const PlanarPoints& conformal_uv() const { return conformal ? conformal->uv : uv; }
 };
 
 }  // namespace koebe

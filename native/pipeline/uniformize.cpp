@@ -219,12 +219,15 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
         polish(whole, *map, faults, context);
     }
     bool not_even = false;
+    std::optional<ConformalDomain> conformal;
     if (options.even > 0.0) {
         context.begin_stage("even", 0.98, 1.0);
+        conformal = domain_of(whole, *map, result.vertex_count);
         not_even = faults.any() || !make_disk_even(whole, options.even, options.loops, *map, context);
         result.even = not_even ? 0.0 : options.even;
     }
     report_map(vertices, triangles, whole, *map, result);
+    if (conformal && !not_even) keep_conformal(std::move(*conformal), result);
     if (!options.vertex_names.empty()) rename(problem.whole.original, options.vertex_names);
     if (!options.face_names.empty()) rename(problem.whole.original_faces, options.face_names);
     append(result.warnings, circle_warnings(*map));

@@ -18,6 +18,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <optional>
+
 namespace py = pybind11;
 
 namespace koebe::python {
@@ -95,6 +97,10 @@ koebe.errors.Cancelled: ...
     });
     py::class_<UniformizeResult, MapReport>(m, "UniformizeResult")
         .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
+        .def_property_readonly("conformal_uv",
+                               [](const UniformizeResult& r) -> std::optional<PlanarPoints> {
+                                   return r.conformal ? std::optional(r.conformal->uv) : std::nullopt;
+                               })
         .def_property_readonly("step_maps", [](const UniformizeResult& r) { return r.step_images; })
         .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
 

@@ -35,6 +35,14 @@ Json disk_loop_json(const LoopReport& loop)
     return json;
 }
 
+/// The circle of a loop by which shapes are compared.
+Json conformal_json(const LoopReport& loop)
+{
+    Json json = to_json(loop.circle);
+    json.update({{"off_circle", loop.off_circle}, {"own_circle", !loop.shrunk}});
+    return json;
+}
+
 Json mean_roundness_json(const std::vector<LoopReport>& loops)
 {
     std::vector<Roundness> each;
@@ -137,6 +145,8 @@ Json to_json(const UniformizeResult& result)
                 {"history", array_json(result.history, step_json)},
                 {"loops", array_json(result.loops, disk_loop_json)},
                 {"mean_roundness", mean_roundness_json(result.loops)}});
+    for (std::size_t k = 0; result.conformal && k < result.loops.size(); ++k)
+        own["loops"][k]["conformal"] = conformal_json(result.conformal->loops[k]);
     Json report = report_json(result, own);
     if (result.unbalanced_area) report["area_distortion"]["before_balance"] = area_json(*result.unbalanced_area);
     if (result.unpolished_angle_error_deg)

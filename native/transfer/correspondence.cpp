@@ -1,10 +1,14 @@
 #include "transfer/correspondence.h"
 
+#include "bending/bend_between.h"
+#include "circles/same_circles.h"
+#include "core/complex_places.h"
 #include "core/errors.h"
 #include "core/tolerances.h"
 #include "quality/distortion.h"
 #include "shape/conformal_module.h"
 #include "surface/harmonic_map.h"
+#include "transfer/compact_domain.h"
 #include "transfer/landmark_alignment.h"
 
 #include <algorithm>
@@ -38,24 +42,47 @@ struct Rims {
     VectorXcd way;
 };
 
-/// The outer rim stays; the others are moved and scaled with their circles.
-Rims rims_to_move(const std::vector<Circle>& source, const MappedSurface& target, const DomainAlignment& alignment,
+/// Each rim is moved and scaled with its circle.
+Rims rims_to_move(const CompactDomain& domain, const std::vector<Circle>& from, const std::vector<Circle>& to,
                   const PlanarPoints& uv)
 {
-    Rims rims{target.loops[0].vertices, {}};
-    std::vector<Complex> way(rims.vertices.size(), 0.0);
-    for (std::size_t k = 1; k < source.size(); ++k) {
-        const LoopReport& loop = target.loops[alignment.match[k]];
-        const Circle now = alignment.map(loop.circle);
-        for (const Index v : loop.vertices) {
-            if (std::ranges::binary_search(loop.off_circle, v)) continue;
-            const Complex here(uv(v, 0), uv(v, 1));
+    Rims rims;
+    std::vector<Complex> way;
+    for (std::size_t k = 0; k < to.size(); ++k)
+        for (const Index v : domain.loops[k]) {
+            if (k > 0 && std::ranges::binary_search(domain.off_circle, v)) continue;
+            const Complex here = complex_at(uv, v);
             rims.vertices.push_back(v);
-            way.push_back(source[k].center + (here - now.center) * (source[k].radius / now.radius) - here);
+            way.push_back(to[k].center + (here - from[k].center) * (to[k].radius / from[k].radius) - here);
         }
-    }
     rims.way = Eigen::Map<const VectorXcd>(way.data(), static_cast<Eigen::Index>(way.size()));
     return rims;
+}
+
+/// Moves the rims in steps; the inside follows by the harmonic displacement of the present domain. A step that turns
+/// faces over is halved. Fast, but gives up where tubes make the faces around a hole large.
+std::optional<PlanarPoints> moved_harmonically(const CompactDomain& domain, const std::vector<Circle>& from,
+                                               const std::vector<Circle>& to, const PlanarPoints& uv,
+                                               const ExecutionContext& context)
+{
+    constexpr double shortest_step = 1.0 / 32.0;  // of the way
+    const Triangles& triangles = domain.surface.triangles;
+    const Rims rims = rims_to_move(domain, from, to, uv);
+    const std::size_t flipped = flipped_faces(triangles, uv).size();
+    VectorXcd now = complex(uv);
+    for (double reached = 0.0, step = 1.0; reached < 1.0;) {
+        context.checkpoint();
+        const double share = std::min(step, 1.0 - reached);
+        PlanarPoints bent = planar(now + harmonic_map(triangles, edge_lengths(planar(now), triangles),
+                                                      static_cast<Index>(uv.rows()), rims.vertices, share * rims.way));
+        if (bent.allFinite() && flipped_faces(triangles, bent).size() <= flipped) {
+            now = complex(bent);
+            reached += share;
+        } else if ((step = 0.5 * share) < shortest_step) {
+            return {};
+        }
+    }
+    return planar(now);
 }
 
 }  // namespace
@@ -64,24 +91,30 @@ std::optional<PlanarPoints> with_fitted_holes(const std::vector<Circle>& source,
                                               const DomainAlignment& alignment, const PlanarPoints& uv,
                                               ExecutionContext& context)
 {
-    constexpr double shortest_step = 1.0 / 256.0;
-    const Index vertex_count = static_cast<Index>(uv.rows());
-    const Rims rims = rims_to_move(source, target, alignment, uv);
-    const std::size_t flipped = flipped_faces(target.triangles, uv).size();
-    VectorXcd now = complex(uv);
-    for (double reached = 0.0, step = 1.0; reached < 1.0;) {
-        context.advance(reached);
-        const double share = std::min(step, 1.0 - reached);
-        PlanarPoints bent = planar(now + harmonic_map(target.triangles, edge_lengths(planar(now), target.triangles),
-                                                      vertex_count, rims.vertices, share * rims.way));
-        if (bent.allFinite() && flipped_faces(target.triangles, bent).size() <= flipped) {
-            now = complex(bent);
-            reached += share;
-        } else if ((step = 0.5 * share) < shortest_step) {
-            return {};
-        }
+    const CompactDomain domain = compact(target);
+    const PlanarPoints aligned = uv(domain.original, Eigen::all);
+    std::vector<Circle> from(source.size()), to(source.size());
+    for (std::size_t k = 1; k < source.size(); ++k) {
+        const auto own = static_cast<std::size_t>(alignment.match[k]);
+        from[own] = alignment.map(domain.circles[own]);
+        to[own] = source[k];
     }
-    return planar(now);
+    if (same_circles(from, to)) return uv;
+    // The least distortion is found from a map that is near it, or along the way of the circles.
+    std::optional<PlanarPoints> fitted = moved_harmonically(domain, from, to, aligned, context);
+    const BendingInput input{domain.surface.triangles,
+                             domain.loops,
+                             domain.off_circle,
+                             aligned,
+                             fitted.value_or(aligned),
+                             domain.areas,
+                             std::vector<TemplateRim>(source.size())};
+    BendingResult bent = bend_between(input, fitted ? to : from, to, {}, context);
+    if (bent.arrived) fitted = std::move(bent.uv);
+    if (!fitted) return {};
+    PlanarPoints result = uv;
+    result(domain.original, Eigen::all) = *fitted;
+    return result;
 }
 
 namespace {

@@ -32,9 +32,9 @@ struct Correspondence {
     Vertices points;                ///< (V_a, 3) the same places in space: a target point per source vertex
 };
 
-/// Bends the target's domain until its holes are the source's circles, in steps. Rims are moved and scaled with their
-/// circles; the inside follows by the harmonic displacement of the present domain. A step that turns faces over is
-/// halved. So the map is one to one, and quasi-conformal where the holes differ.
+/// Bends the target's domain until its holes are the source's circles, one to one all the way. Of such maps it is the
+/// one of least distortion (bend_along), rim vertices sliding. Its start is a harmonic displacement, in steps that turn
+/// no face over, or else the way of the circles (paths_between).
 /// @param uv (V_b, 2) the target's aligned domain @param alignment of these points
 /// @return nothing if holes block each other
 /// @throws SolverError, Cancelled

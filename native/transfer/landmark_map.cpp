@@ -366,6 +366,11 @@ private:
 
 }  // namespace
 
+MappedSurface conformal_surface(const Vertices& vertices, const Triangles& triangles, const UniformizeResult& result)
+{
+    return {vertices, triangles, result.conformal_uv(), result.conformal_loops()};
+}
+
 std::vector<Index> folded_faces(const Triangles& triangles, const PlanarPoints& uv)
 {
     std::vector<Index> folded;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle.h"
+#include "core/api.h"
 #include "execution/execution.h"
 #include "pipeline/result.h"
 #include "transfer/cut_mesh.h"
@@ -17,6 +18,10 @@ struct MappedSurface {
     PlanarPoints uv;                ///< points of the unit disk
     std::vector<LoopReport> loops;  ///< of the map, the outer one first
 };
+
+/// The surface with its conformal map, whatever map the result shows.
+KOEBE_API MappedSurface conformal_surface(const Vertices& vertices, const Triangles& triangles,
+                                          const UniformizeResult& result);
 
 /// Two points that must correspond.
 struct Landmark {

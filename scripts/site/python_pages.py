@@ -15,7 +15,7 @@ from markup import escaped, indented, title, toctree
 
 PAGES = {
     "Maps": {
-        "uniformize": ["uniformize", "UniformizeResult", "CutResult"],
+        "uniformize": ["uniformize", "UniformizeResult", "ConformalDomain", "CutResult"],
         "parts": ["parts", "PartsResult"],
         "flatten": ["flatten", "FlattenResult"],
         "ring_map": ["ring_map", "torus_map", "TileMap"],
@@ -35,7 +35,7 @@ PAGES = {
     "Shapes": {
         "conformal_module": [
             "conformal_module", "module_names", "module_error", "module_distance", "canonical_order", "match_loops",
-            "separations", "separation_distance",
+            "LoopMatch", "separations", "separation_distance",
         ],
         "family": ["family", "Family", "SphereFamily"],
         "permutation_test": ["permutation_test", "PermutationTest", "noise_error", "vertex_noise"],

@@ -3,7 +3,7 @@
 #include "circle_domain.h"
 #include "circles/crowded_circles.h"
 #include "core/errors.h"
-#include "fit/circle_path.h"
+#include "bending/circle_path.h"
 #include "pipeline/uniformize.h"
 #include "planar/boundary_crossings.h"
 

@@ -177,9 +177,7 @@ def test_the_least_mu_of_a_flat_ring():
     assert np.allclose(np.hypot(*fit.uv.T), exact, atol=5e-4)
 
 
-def test_no_module_but_saved_and_loaded(tmp_path):
-    with pytest.raises(koebe.InputError, match="no conformal module"):
-        koebe.conformal_module(FIT)
+def test_saved_and_loaded(tmp_path):
     FIT.save(tmp_path / "fit.npz")
     again = koebe.load(tmp_path / "fit.npz")
     assert type(again) is koebe.FitResult and again.names == ["a", "b", "c"]

@@ -49,15 +49,16 @@ void warn_about_rims(ShapeInput& shape, const VectorXd& change)
 void take_circles(ShapeInput& shape, const UniformizeResult& result, const Vertices& vertices,
                   const Triangles& triangles, const ShapeOptions& options, ExecutionContext& context)
 {
+    const std::vector<LoopReport>& loops = result.conformal_loops();
     if (options.rims == RimKind::polygonal) {
-        PolygonalCircles polygonal = polygonal_circles(vertices, triangles, result.loops, options.map.threads, context);
+        PolygonalCircles polygonal = polygonal_circles(vertices, triangles, loops, options.map.threads, context);
         shape.circles = std::move(polygonal.circles);
         shape.refined = std::move(polygonal.of_upper_bounds);
         return;
     }
-    for (const LoopReport& loop : result.loops) shape.circles.push_back(loop.circle);
-    if (options.with_error) shape.refined = refined_circles(vertices, triangles, result.loops, options.map, context);
-    warn_about_rims(shape, polygonal_changes(vertices, triangles, result.uv, result.loops));
+    for (const LoopReport& loop : loops) shape.circles.push_back(loop.circle);
+    if (options.with_error) shape.refined = refined_circles(vertices, triangles, loops, options.map, context);
+    warn_about_rims(shape, polygonal_changes(vertices, triangles, result.conformal_uv(), loops));
 }
 
 }  // namespace
@@ -71,15 +72,16 @@ ShapeInput read_shape(const std::string& path, const ShapeOptions& options, cons
     UniformizeResult result =
         with_filed_faces(input, [&] { return uniformize(input.polygons.vertices, triangles, options.map, context); });
 
-    require_own_circles(result.loops);
+    require_own_circles(result.conformal_loops());
     ShapeInput shape{
         std::filesystem::path(path).filename().string(), options.rims, {}, {}, {}, {}, result.converged, {}};
     add_input_warnings(input, result.warnings);
     shape.warnings = std::move(result.warnings);
     const auto loops = analyze_surface(triangles, static_cast<Index>(input.polygons.vertices.rows())).loops;
-    for (const LoopReport& loop : result.loops) shape.ranks.push_back(loop_with(loops, loop.vertices.front()));
+    for (const LoopReport& loop : result.conformal_loops())
+        shape.ranks.push_back(loop_with(loops, loop.vertices.front()));
     with_filed_faces(input, [&] { take_circles(shape, result, input.polygons.vertices, triangles, options, context); });
-    shape.surface = {input.polygons.vertices, triangles, std::move(result.uv), std::move(result.loops)};
+    shape.surface = conformal_surface(input.polygons.vertices, triangles, result);
     return shape;
 }
 

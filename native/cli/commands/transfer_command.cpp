@@ -52,9 +52,9 @@ MappedInput read_and_map(const std::string& path, const TransferRequest& request
     ExecutionContext context(progress.callback(), token);
     const Vertices& vertices = input.mesh.polygons.vertices;
     const Triangles& triangles = input.mesh.triangulation.triangles;
-    UniformizeResult result =
+    const UniformizeResult result =
         with_filed_faces(input.mesh, [&] { return uniformize(vertices, triangles, request.options, context); });
-    input.surface = {vertices, triangles, std::move(result.uv), std::move(result.loops)};
+    input.surface = conformal_surface(vertices, triangles, result);
     input.converged = result.converged;
     std::ranges::copy_if(result.warnings, std::back_inserter(input.warnings),
                          [](const Warning& warning) { return warning.kind == WarningKind::reoriented_faces; });

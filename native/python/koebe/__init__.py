@@ -32,10 +32,11 @@ from ._opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_
 from ._parts import PartsResult, parts
 from ._plot import plot
 from ._report_entries import WARNING_ELEMENTS, Loop, Warning
-from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, MapReport, UniformizeResult
+from ._result import CIRCLE_TOLERANCE, UV_RESOLUTION, ConformalDomain, MapReport, UniformizeResult
 from ._schottky import SchottkyMap, schottky_map
 from ._shapes import (
     DomainAlignment,
+    LoopMatch,
     align_domains,
     canonical_order,
     conformal_module,
@@ -62,6 +63,7 @@ __all__ = [
     "CancelToken",
     "Cancelled",
     "CertifiedModuli",
+    "ConformalDomain",
     "Correspondence",
     "CutResult",
     "DomainAlignment",
@@ -75,6 +77,7 @@ __all__ = [
     "LeftOutFace",
     "LiftResult",
     "Loop",
+    "LoopMatch",
     "MapReport",
     "OpenedSurface",
     "OptionError",

@@ -121,7 +121,8 @@ def uniformize(
     native = source.call(_koebe.uniformize, options, progress, cancel)
     source.call(_koebe.make_polygons_convex, native, polygon, True, cancel)
     report = with_origin(native.report(), source, chosen)
-    return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
+    flipped = np.array(native.flipped_faces)
+    return UniformizeResult(report, native.uv, flipped, native.step_maps, source, native.conformal_uv)
 
 
 def importance_of(values: Any, chosen: Mapping[str, Any], count: int) -> np.ndarray:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._native import _koebe
 from .errors import InputError
 
 _REAL = (np.dtype(np.float32), np.dtype(np.float64))
@@ -72,7 +73,12 @@ def as_indices(indices: Any, name: str, count: int, of: str) -> np.ndarray:
 
 
 def as_circles(domain: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Centers (L, 2) and radii (L,) of an object that has both."""
+    """Centers (L, 2) and radii (L,) by which a shape is compared: of a result its conformal circles, else of an object
+    that has both. Raises InputError if a result's circles are not the surface's own."""
+    domain = getattr(domain, "conformal", domain)
+    if not getattr(domain, "converged", True):
+        raise InputError("the iteration has not converged, so the circles are not the surface's: allow more sweeps")
+    _koebe.require_own_circles(list(getattr(domain, "own", ())))
     if not (hasattr(domain, "centers") and hasattr(domain, "radii")):
         raise InputError(f"{type(domain).__name__} has no circles: give the result of uniformize")
     radii = as_numbers(domain.radii, "radii")

@@ -28,7 +28,8 @@ class Family:
 
     modules    (N, 3n - 3) float64, a row per shape; lengths in the unit disk
     columns    names of the numbers: r_1, y_2, r_2, ...
-    orders     (N, n + 1) int32: each shape's loops in the common order, the outer one first
+    orders     (N, n + 1) int32: each shape's loops in the common order, the outer one first. Without an order of yours
+               it is the reference's own order, and a row is the shape's loop for each of the reference's
     labels     of the shapes
     errors     (N, 3n - 3) error bars of the modules (module_error), or None without them
     rims       'smooth' or 'polygonal', as asked for (conformal_module)
@@ -43,6 +44,10 @@ class Family:
 
     def __repr__(self) -> str:
         return f"<koebe.Family {len(self.labels)} shapes, {self.orders.shape[1]} loops>"
+
+    def match(self, a: int, b: int) -> np.ndarray:
+        """(n + 1,) int32: shape b's loop for each of shape a's: the form of `match` in all functions."""
+        return self.orders[b][np.argsort(self.orders[a])]
 
     @property
     def distance_errors(self) -> np.ndarray | None:
@@ -206,7 +211,4 @@ def _like(reference: Any, shape: Any, wanted: np.ndarray, rims: Rims) -> np.ndar
     """The shape's loops that correspond to the reference's, in the wanted order."""
     if shape is reference:
         return wanted
-    order, other, _ = match_loops(reference, shape, rims=rims)
-    partner = np.empty_like(other)
-    partner[order] = other
-    return partner[wanted]
+    return match_loops(reference, shape, rims=rims).match[wanted]

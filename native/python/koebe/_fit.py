@@ -56,9 +56,9 @@ class FitResult(UniformizeResult):
     names       of the holes, or empty
     ranks       (L,) for each of `loops` its number in boundary_loops(triangles)
 
-    `loops`, `centers` and `radii` are in the template's order, the outer loop first: loops[1 + k] lies on circle k. The
-    circles are not the surface's own, so they have no conformal module. Two fits to one template correspond point by
-    point: koebe.transfer takes them.
+    `loops`, `centers` and `radii` are in the template's order, the outer loop first: loops[1 + k] lies on circle k.
+    Shapes are compared by `conformal`, the surface's own circles in the same order. Two fits to one template correspond
+    point by point: koebe.transfer takes them.
     """
 
     fit: Fit
@@ -73,15 +73,16 @@ class FitResult(UniformizeResult):
         flipped_faces: np.ndarray,
         mu: np.ndarray,
         source: Source,
+        conformal_uv: np.ndarray | None = None,
     ) -> None:
-        super().__init__(report, uv, flipped_faces, [], source)
+        super().__init__(report, uv, flipped_faces, [], source, conformal_uv)
         self.mu = mu
         self.mu.flags.writeable = False
         self.names = [loop["name"] for loop in report["loops"][1:] if "name" in loop]
         self.ranks = np.array([loop["rank"] for loop in report["loops"]], dtype=np.int32)
 
     def _arrays(self) -> dict[str, Any]:
-        return {"uv": self.uv, "flipped_faces": self.flipped_faces, "mu": self.mu}
+        return {"uv": self.uv, "flipped_faces": self.flipped_faces, "mu": self.mu, **self._conformal_array()}
 
     def __repr__(self) -> str:
         mu = self.fit["mu"]
@@ -149,7 +150,7 @@ def fit_circles(
     native = source.call(_koebe.fit_circles, wanted, options, extremal, progress, cancel)
     source.call(_koebe.make_polygons_convex, native, polygons_of(None, source), False, cancel)
     report = with_origin(native.report(), source, {**said, "extremal": extremal})
-    return FitResult(report, native.uv, np.array(native.flipped_faces), native.mu, source)
+    return FitResult(report, native.uv, np.array(native.flipped_faces), native.mu, source, native.conformal_uv)
 
 
 def _are_triangles(given: Any) -> bool:

@@ -41,9 +41,9 @@ def load(path: str | os.PathLike[str]) -> Any:
             before = "CutResult" if report.get("cut") is True else "UniformizeResult"  # 0.1 wrote no kind
             kind = str(file["kind"]) if "kind" in file else before
             if kind == "UniformizeResult":
-                return UniformizeResult(report, uv, flipped, list(file["step_maps"]), source)
+                return UniformizeResult(report, uv, flipped, list(file["step_maps"]), source, file.get("conformal_uv"))
             if kind == "FitResult":
-                return FitResult(report, uv, flipped, file["mu"], source)
+                return FitResult(report, uv, flipped, file["mu"], source, file.get("conformal_uv"))
             if kind == "CutResult":
                 return CutResult(report, uv, flipped, source)
             if kind == "PartsResult":

@@ -311,6 +311,25 @@ class MapReport(Saved):
         import_module("._export", __package__).export(self, path)
 
 
+@dataclass(frozen=True)
+class ConformalDomain:
+    """The circle domain of the surface itself. Shapes are compared by it, whatever map the result shows.
+
+    centers, radii   (L, 2) and (L,) circles in the unit disk, in the order of the result's loops
+    own              (L,) whether each circle is the iteration's, and not lost in rounding. Others are not compared
+    converged        whether the iteration has converged. Otherwise nothing is compared
+    uv               (V, 2) the conformal map; read-only
+    off_circle       int32 arrays: vertices of each loop that are not on its circle
+    """
+
+    centers: np.ndarray
+    radii: np.ndarray
+    own: np.ndarray
+    converged: bool
+    uv: np.ndarray
+    off_circle: list[np.ndarray]
+
+
 class UniformizeResult(MapReport):
     """A circle domain and its report.
 
@@ -325,7 +344,9 @@ class UniformizeResult(MapReport):
     mean_roundness   their means
     off_circle       int32 arrays: vertices of each loop that are not on its circle
     rims             'smooth': the circles are those of loops that are samples of smooth curves (conformal_module)
-    own_circle       (L,) whether each circle is the surface's own: the iteration's, and not lost in rounding
+    own_circle       (L,) whether each circle is the surface's own: the iteration's, not lost in rounding, and not moved
+                     by `even` or to a template
+    conformal        the ConformalDomain, by which shapes are compared: that of the same call without `even`
     vertices, triangles, vertex_count, face_count    as in MapReport
     method, engine   as chosen
     outer_loop       number of the outer loop in boundary_loops(triangles)
@@ -367,6 +388,7 @@ class UniformizeResult(MapReport):
         flipped_faces: np.ndarray,
         step_maps: list[np.ndarray],
         source: Source,
+        conformal_uv: np.ndarray | None = None,
     ) -> None:
         self._report = report = source.told(report)
         self._source = source
@@ -382,9 +404,26 @@ class UniformizeResult(MapReport):
         self.roundness_least_squares = np.array([loop["roundness_least_squares"] for loop in loops])
         self.off_circle = as_loops([loop["off_circle"] for loop in loops])
         self.own_circle = np.array([loop["own_circle"] for loop in loops])
+        self._conformal_uv = None if conformal_uv is None else source.outside_nan(conformal_uv)
         self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
         self.step_maps = step_maps
         self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    @cached_property
+    def conformal(self) -> ConformalDomain:
+        """The circle domain of the surface itself, by which shapes are compared."""
+        loops = [loop.get("conformal", loop) for loop in self._report["loops"]]
+        kept = self.even == 0.0 or "conformal" in self._report["loops"][0]  # early files have only the moved circles
+        uv = self.uv.view() if self._conformal_uv is None else self._conformal_uv
+        uv.flags.writeable = False
+        return ConformalDomain(
+            np.array([loop["center"] for loop in loops]),
+            np.array([loop["radius"] for loop in loops]),
+            np.array([loop["own_circle"] and kept for loop in loops]),
+            not any(warning.kind == "not_converged" for warning in self.warnings),
+            uv,
+            as_loops([loop["off_circle"] for loop in loops]),
+        )
 
     @cached_property
     def log_scale(self) -> np.ndarray:
@@ -417,9 +456,12 @@ class UniformizeResult(MapReport):
 
     def _arrays(self) -> dict[str, Any]:
         return {
-            "uv": self.uv, "flipped_faces": self.flipped_faces,
+            "uv": self.uv, "flipped_faces": self.flipped_faces, **self._conformal_array(),
             "step_maps": np.stack(self.step_maps) if self.step_maps else np.zeros((0, len(self.uv), 2)),
         }  # fmt: skip
+
+    def _conformal_array(self) -> dict[str, Any]:
+        return {} if self._conformal_uv is None else {"conformal_uv": self._conformal_uv}
 
     def __repr__(self) -> str:
         return (

@@ -1,12 +1,13 @@
 """The shape in a surface's circles: its conformal module, and two domains compared or laid over each other.
 
-A domain here is an object with `centers` (L, 2) and `radii` (L,), the unit circle first, such as a UniformizeResult.
+A domain here is an object with `centers` (L, 2) and `radii` (L,), the unit circle first, or a UniformizeResult, which
+counts with its `conformal` circles. A `match` of a and b is always b's loop for each of a's.
 """
 
 import math
 import warnings
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -42,15 +43,8 @@ def with_rims(domain: Any, rims: Rims, run: Run | None = None) -> Any:
         )
     kept = vars(domain)
     if "_polygonal" not in kept:
-        _require_own_circles(domain)
         kept["_polygonal"] = _Polygonal(domain, run or Run(None, None))
     return kept["_polygonal"]
-
-
-def _require_own_circles(domain: Any) -> None:
-    """Refuse a result with circles that replaced the iteration's: it has no module."""
-    if isinstance(domain, UniformizeResult):
-        _koebe.require_own_circles(domain.own_circle.tolist())
 
 
 def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
@@ -85,7 +79,6 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None, r
     >>> dict(zip(koebe.module_names(4), koebe.conformal_module(result).round(1).tolist()))
     {'r_1': 0.2, 'y_2': 0.6, 'r_2': 0.1, 'x_3': -0.4, 'y_3': 0.4, 'r_3': 0.1}
     """
-    _require_own_circles(result)
     result = with_rims(result, rims)
     return _koebe.conformal_module(*as_circles(result), chosen_order(result, order))
 
@@ -152,7 +145,6 @@ def _refined(result: UniformizeResult, run: Run) -> tuple[np.ndarray, np.ndarray
         options = _koebe.UniformizeOptions()
         options.method = choice(result.method, "method", _koebe.Method)
         options.engine = choice(result.engine, "engine", _koebe.Engine)
-        _require_own_circles(result)
         kept["_refined"] = _koebe.refined_circles(mapped_surface(result), options, run.progress, run.cancel)
     return kept["_refined"]
 
@@ -183,27 +175,43 @@ def module_names(loop_count: int) -> list[str]:
     return _koebe.module_names(whole(loop_count, "loop_count", least=0))
 
 
-def match_loops(
-    a: Any, b: Any, *, any_outer: bool = False, rims: Rims = "smooth"
-) -> tuple[np.ndarray, np.ndarray, float]:
+class LoopMatch(NamedTuple):
+    """The correspondence of the loops of a and b with the least distance of their modules.
+
+    order_a, order_b    (L,) int32: corresponding loops stand at the same place, the outer ones first
+    distance            of the modules in these orders
+    match               (L,) int32, b's loop for each of a's: the form of `match` in all functions
+    """
+
+    order_a: np.ndarray
+    order_b: np.ndarray
+    distance: float
+
+    @property
+    def match(self) -> np.ndarray:
+        """(L,) int32: b's loop for each of a's."""
+        return self.order_b[np.argsort(self.order_a)]
+
+
+def match_loops(a: Any, b: Any, *, any_outer: bool = False, rims: Rims = "smooth") -> LoopMatch:
     """The correspondence of the loops of two domains with the least distance of their modules.
 
-    Returns an order of a's loops and one of b's in which corresponding loops stand at the same place, outer ones
-    first, and the distance of the modules in these orders. It is symmetric, and 0 only for equal shapes. any_outer:
-    the outer loop of one may correspond to a hole of the other. rims: as in conformal_module. Raises InputError for
-    different numbers of loops.
+    Returns a LoopMatch: an order of a's loops and one of b's in which corresponding loops stand at the same place,
+    outer ones first, and the distance of the modules in these orders; `match` is b's loop for each of a's. It is
+    symmetric, and 0 only for equal shapes. any_outer: the outer loop of one may correspond to a hole of the other.
+    rims: as in conformal_module. Raises InputError for different numbers of loops.
 
     >>> import koebe
     >>> face, other = (koebe.uniformize(f"blend_samples/{name}.obj") for name in ("face", "surprised"))
     >>> order, partners, distance = koebe.match_loops(face, other)
     >>> print(order, partners, f"{distance:.2f}")
     [0 1 2 3] [0 1 2 3] 0.06
+    >>> koebe.match_loops(face, other).match.tolist()
+    [0, 1, 2, 3]
     """
-    _require_own_circles(a)
-    _require_own_circles(b)
     a, b = with_rims(a, rims), with_rims(b, rims)
     order_a, order_b, distance = _koebe.match_loops(*as_circles(a), *as_circles(b), flag(any_outer, "any_outer"))
-    return np.array(order_a, dtype=np.int32), np.array(order_b, dtype=np.int32), distance
+    return LoopMatch(np.array(order_a, dtype=np.int32), np.array(order_b, dtype=np.int32), distance)
 
 
 def module_distance(a: Any, b: Any, *, rims: Rims = "smooth") -> float:
@@ -216,7 +224,7 @@ def module_distance(a: Any, b: Any, *, rims: Rims = "smooth") -> float:
     0.06 0.0
     """
     if hasattr(a, "radii") and hasattr(b, "radii"):
-        return match_loops(a, b, rims=rims)[2]
+        return match_loops(a, b, rims=rims).distance
     first, second = as_numbers(a, "the module"), as_numbers(b, "the module")
     if first.shape != second.shape:
         raise InputError(f"modules of shapes {first.shape} and {second.shape} cannot be compared")
@@ -234,14 +242,13 @@ def separations(result: Any) -> np.ndarray:
     >>> koebe.separations(koebe.uniformize("blend_samples/face.obj")).round(1)[0].tolist()  # from the rim
     [0.0, 1.9, 2.3, 2.3]
     """
-    _require_own_circles(result)
     return _koebe.conformal_separations(*as_circles(result))
 
 
 def separation_distance(a: Any, b: Any, *, match: Sequence[int] | None = None, any_outer: bool = False) -> float:
     """The root of the mean squared difference of two domains' separations: a metric, dimensionless.
 
-    match      b's loop for each of a's; None: the correspondence of least distance
+    match      b's loop for each of a's, such as match_loops(a, b).match; None: the correspondence of least distance
     any_outer  the outer loop of one may correspond to a hole of the other
     It is symmetric, obeys the triangle inequality, depends on no order of the loops, and is 0 only for shapes that are
     equal or mirror images. The search is exact. It takes a second for 13 loops of unrelated shapes, and less for shapes
@@ -253,26 +260,25 @@ def separation_distance(a: Any, b: Any, *, match: Sequence[int] | None = None, a
     >>> print(f"{koebe.separation_distance(face, other):.2f}", koebe.separation_distance(face, face))
     0.31 0.0
     """
-    _require_own_circles(a)
-    _require_own_circles(b)
     if match is None:
         return float(_koebe.match_separations(*as_circles(a), *as_circles(b), flag(any_outer, "any_outer"))[1])
     partners = as_indices(match, "match", len(as_circles(b)[1]), "loops")
     return float(_koebe.separation_distance(*as_circles(a), *as_circles(b), partners))
 
 
-def mapped_surface(result: UniformizeResult, own: bool = False) -> "_koebe.MappedSurface":
-    """The result for the native module. own: all circles count as the surface's own."""
-    off = [np.sort(vertices).tolist() for vertices in result.off_circle]
+def mapped_surface(result: UniformizeResult, shown: bool = False) -> "_koebe.MappedSurface":
+    """The conformal map for the native module. shown: the map as the result shows it, such as a fit."""
+    domain: Any = result if shown else result.conformal
+    off = [np.sort(vertices).tolist() for vertices in domain.off_circle]
     loops = [loop.tolist() for loop in result.loops]
-    circles = result.centers, result.radii, (result.own_circle | own).tolist()
-    return _koebe.MappedSurface(*result.surface, np.nan_to_num(result.uv), loops, off, *circles)
+    circles = (result.centers, result.radii) if shown else as_circles(result)
+    return _koebe.MappedSurface(*result.surface, np.nan_to_num(domain.uv), loops, off, *circles, [True] * len(loops))
 
 
 class DomainAlignment:
     """An automorphism of the unit disk that lays one circle domain over another: z -> turn (z - a) / (1 - conj(a) z).
 
-    match       the target's loop for each of the source's
+    match       the target's loop for each of the source's; of transfer(a, b), b's loop for each of a's
     residual    root of the mean over the holes of squared differences of centres and radii, lengths in the disk
     largest, worst    the largest such root over the holes, and its hole
     misses      (L,) of each loop, in lengths of the disk: root of the squared differences of centre and radius
@@ -280,11 +286,11 @@ class DomainAlignment:
     converged   whether the last step could not make the residual smaller
     """
 
-    def __init__(self, native: "_koebe.DomainAlignment", radii: np.ndarray) -> None:
+    def __init__(self, native: "_koebe.DomainAlignment", radii: np.ndarray, match: list[int] | None = None) -> None:
         self._native = native
         self.a: complex = native.a
         self.turn: complex = native.turn
-        self.match: list[int] = native.match
+        self.match: list[int] = native.match if match is None else match
         self.residual: float = native.residual
         self.largest: float = native.largest
         self.worst: int = native.worst
@@ -303,7 +309,8 @@ class DomainAlignment:
 def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = None) -> DomainAlignment:
     """The automorphism of the unit disk that moves the target's circles as close as possible to the source's circles.
 
-    match    the target's loop for each of the source's, 0 for 0; None: by match_loops
+    match    the target's loop for each of the source's, 0 for 0, such as match_loops(source, target).match, which is
+             the default
     With one hole the circles do not determine the rotation, and it is 0. Without holes they determine nothing, and
     the map is the identity.
     Lengths are in the unit disk.

@@ -11,7 +11,7 @@ from ._arrays import as_circles, as_indices
 from ._native import _koebe
 from ._options import callback, token
 from ._result import UniformizeResult
-from ._shapes import _require_own_circles, mapped_surface
+from ._shapes import mapped_surface
 from ._tiles import TileMap
 from ._transfer import places
 from ._transfer_carry import landmark_pairs
@@ -22,11 +22,12 @@ from .errors import InputError
 class TeichmuellerMap:
     """The extremal map of a to b: of all one-to-one maps the one whose largest |mu| is least.
 
-    K           its dilatation, at least 1. 1: a conformal map takes a to b
+    K           its dilatation, at least 1. 1: a conformal map takes a to b. Without landmarks it depends on the two
+                circle domains alone: the way from b to a has the same K
     distance    the Teichmueller distance, log(K) / 2
-    lower       no map has a smaller largest dilatation, up to the error of the mesh; of maps that go round the holes as
-                this one
-    largest     largest dilatation of a face of this map, so K is at most this, up to the error of the mesh
+    lower       no map has a smaller largest dilatation, of maps that go round the holes as this one. Without landmarks
+                it is the same both ways, too
+    largest     largest dilatation of a face of this map, on a's mesh, or K if that is more
     mu          (F,) |mu| of each face of a, from a's circle domain. Nearly (K - 1) / (K + 1) everywhere; 1 for a face
                 without area there
     uv          (V, 2) places of a's vertices in b's domain; None for tori and rings that are TileMaps
@@ -66,8 +67,8 @@ def teichmueller(
     a's mesh and tells K from a quadratic differential, by the inequalities of Reich and Strebel.
     a           a result of uniformize
     b           a result of uniformize with equally many loops, or an object with `centers` and `radii`
-    match       b's loop for each of a's, 0 for 0. None: by match_loops or, with landmarks and up to five holes, the
-                match that brings circles and landmarks nearest. 'least': the match with the least K
+    match       b's loop for each of a's, 0 for 0, as everywhere. None: by match_loops or, with landmarks and up to five
+                holes, the match that brings circles and landmarks nearest. 'least': the match with the least K
     landmarks   pairs (on a, on b) of points that must correspond, as for `transfer`: the extremal map of those that
                 keep them. On a rim landmarks are vertices of both. Four on the rim of a surface without holes are the
                 corners of a quadrilateral, and K is the ratio of the moduli of the two rectangles
@@ -94,8 +95,6 @@ def teichmueller(
         return _of_tiles(a, b)
     if not isinstance(a, UniformizeResult):
         raise TypeError(f"teichmueller takes a result of uniformize first, not {type(a).__name__}")
-    _require_own_circles(a)
-    _require_own_circles(b)
     centers, radii = as_circles(b)
     least = isinstance(match, str) and match == "least"
     if least and pairs:
@@ -129,7 +128,7 @@ def _held_points(a: UniformizeResult, b: Any, pairs: list[Any]) -> tuple[list[An
     if not isinstance(b, UniformizeResult):
         raise TypeError(f"with landmarks teichmueller takes two results of uniformize, not {type(b).__name__}")
     on_a, on_b = (places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
-    return on_a, [point.place(b.uv, b.surface[1]) for point in on_b]
+    return on_a, [point.place(b.conformal.uv, b.surface[1]) for point in on_b]
 
 
 def _of_tiles(a: Any, b: Any) -> TeichmuellerMap:

@@ -33,10 +33,10 @@ class Correspondence:
     points      (V_b, 3) the point in space, in a's unit
     distances   (V_b,) how far outside a's domain b's vertex was before it took the nearest point, disk lengths
                 A vertex of b without a face corresponds to nothing: its face is -1, all else NaN
-    alignment   of a's domain over b's: the corresponding loops, and by how much the holes miss
+    alignment   of a's domain over b's: the corresponding loops, and by how much each of b's holes is missed
     fitted      whether the holes were then bent onto each other; False if that would have turned faces over
-    uv          (V_a, 2) a's domain as laid over b's; with landmarks inside faces, the faces are cut there, and the map
-                is linear in the pieces
+    uv          (V_a, 2) a's conformal domain as laid over b's; with landmarks inside faces, the faces are cut there,
+                and the map is linear in the pieces
     beltrami    |mu| of the bending of a's aligned domain, mean and max over the faces, dimensionless: 0 without bending
     flipped     faces that the bending has turned over: 0
     warnings    list of Warning: 'not_fitted' if fit=True and the holes could not be bent onto each other
@@ -53,6 +53,11 @@ class Correspondence:
     flipped: int
     triangles: np.ndarray
     warnings: list[Warning] = dataclasses.field(default_factory=list)
+
+    @property
+    def match(self) -> list[int]:
+        """b's loop for each of a's."""
+        return self.alignment.match
 
     def __repr__(self) -> str:
         return (
@@ -145,11 +150,11 @@ def transfer(
     """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
 
     The automorphism of the disk that brings the holes nearest lays a's circle domain over b's (align_domains). fit=True
-    then bends it in small harmonic steps until the holes are the same circles: nothing is lost at the rims, and no face
-    turns over, but it is quasi-conformal where the holes differ.
+    then bends it until the holes are the same circles: of such maps the one of least distortion, as for fit_circles.
+    Nothing is lost at the rims, and no face turns over, but it is quasi-conformal where the holes differ.
     field      (V_a,) or (V_a, k) at a's vertices: returns its values at b's vertices, (V_b,) or (V_b, k): numbers as
                float64, labels (whole numbers, booleans, words) as labels. None: returns the Correspondence
-    match      a's loop for each of b's, 0 for 0; None: by match_loops or, with landmarks and up to five holes, the
+    match      b's loop for each of a's, 0 for 0; None: by match_loops or, with landmarks and up to five holes, the
                match that brings circles and landmarks nearest
     landmarks  pairs (on a, on b) that must correspond. Each is a vertex, or a point (x, y, z) in the surface's unit,
                which stands for the nearest point of the surface. Then the domain is bent further, circles to circles.
@@ -192,21 +197,23 @@ def transfer(
     if not (isinstance(a, UniformizeResult) and isinstance(b, UniformizeResult)):
         other = next(type(one).__name__ for one in (a, b) if not isinstance(one, UniformizeResult))
         raise TypeError(f"transfer takes results of uniformize, or two of sphere_map, not {other}")
-    chosen = [] if match is None else as_indices(match, "match", len(a.loops), "loops").tolist()
-    if match is not None and not chosen:
-        raise InputError("the match must name each of the loops of a once, the outer one first")
+    partners = [] if match is None else as_indices(match, "match", len(b.loops), "loops").tolist()
+    if match is not None and len(partners) != len(b.loops):
+        raise InputError("the match must name each of the loops of b once, the outer one first")
     pairs = landmark_pairs(landmarks)
     if flag(extremal, "extremal") and not pairs:
         raise InputError("extremal needs landmarks")
     on_a, on_b = (places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
     same = _on_one_template(a, b)
     if same and match is None:
-        chosen = list(range(len(a.loops)))
+        partners = list(range(len(a.loops)))
     surfaces = mapped_surface(b, same), mapped_surface(a, same)
     run = callback(progress, "progress"), token(cancel, "cancel")
-    found = _koebe.correspond(*surfaces, chosen, flag(fit, "fit"), on_b, on_a, extremal, *run)
+    backwards = np.argsort(partners).tolist()  # the native module takes b's vertices to a
+    found = _koebe.correspond(*surfaces, backwards, flag(fit, "fit"), on_b, on_a, extremal, *run)
     _forget(found, ~b._source.used)
-    found["alignment"] = DomainAlignment(found["alignment"], b.radii)
+    radii = b.radii if same else b.conformal.radii
+    found["alignment"] = DomainAlignment(found["alignment"], radii, np.argsort(found["alignment"].match).tolist())
     found["warnings"] = [Warning(warning) for warning in found["warnings"]]
     for warning in found["warnings"]:
         warnings.warn(warning, stacklevel=2)

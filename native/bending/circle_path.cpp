@@ -1,4 +1,4 @@
-#include "fit/circle_path.h"
+#include "bending/circle_path.h"
 
 #include <algorithm>
 #include <cmath>

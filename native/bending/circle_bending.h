@@ -1,11 +1,11 @@
 // Bends a circle domain while its circles move, one to one all the way.
 #pragma once
 
+#include "bending/circle_path.h"
+#include "bending/template_rim.h"
 #include "circles/circle.h"
 #include "core/types.h"
 #include "execution/execution.h"
-#include "fit/circle_path.h"
-#include "fit/circle_template.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // A circle domain whose faces bend while its rims lie on given circles.
 #pragma once
 
-#include "fit/circle_bending.h"
+#include "bending/circle_bending.h"
 #include "foldover/foldover_free.h"
 
 #include <vector>

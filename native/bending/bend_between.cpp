@@ -1,6 +1,6 @@
-#include "fit/bend_between.h"
+#include "bending/bend_between.h"
 
-#include "fit/circle_path.h"
+#include "bending/circle_path.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
-#include "fit/circle_bending.h"
+#include "bending/circle_bending.h"
 
 #include "core/complex_places.h"
-#include "fit/bent_domain.h"
+#include "bending/bent_domain.h"
 #include "surface/harmonic_map.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "fit/bent_domain.h"
+#include "bending/bent_domain.h"
 
 #include "circles/circle_projection.h"
 #include "core/complex_places.h"

@@ -1,7 +1,7 @@
 // Bends a circle domain until its circles are given ones, on the best of several paths.
 #pragma once
 
-#include "fit/circle_bending.h"
+#include "bending/circle_bending.h"
 
 #include <vector>
 
