@@ -167,7 +167,6 @@ public:
     void enclose(Enclosures& enclosures, ExecutionContext& context)
     {
         CapacityReport& report = enclosures.report();
-        warn_reoriented(input.reoriented, report.warnings);
         if (!report.no_module.empty() && report.width > progress_for_circles * tried_) return;
         tried_ = report.width;
         report.no_module.clear();
@@ -208,6 +207,7 @@ CapacityReport capacities_here(const Vertices& vertices, const Triangles& triang
     BisectedSurface surface(vertices, input);
     Enclosures enclosures(chosen, loop_count);
     CapacityReport& report = enclosures.report();
+    warn_reoriented(input.reoriented, report.warnings);
     ModuleOfCapacities module(vertices, input, options.threads);
     const double wanted = options.width.value_or(std::numeric_limits<double>::infinity());
     double of_capacities = 0.0;  // the widest enclosure of a capacity
