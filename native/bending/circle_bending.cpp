@@ -1,7 +1,7 @@
 #include "bending/circle_bending.h"
 
-#include "core/complex_places.h"
 #include "bending/bent_domain.h"
+#include "core/complex_places.h"
 #include "surface/harmonic_map.h"
 
 #include <algorithm>

@@ -34,7 +34,8 @@ struct Correspondence {
 
 /// Bends the target's domain until its holes are the source's circles, one to one all the way. Of such maps it is the
 /// one of least distortion (bend_along), rim vertices sliding. Its start is a harmonic displacement, in steps that turn
-/// no face over, or else the way of the circles (paths_between).
+/// no face over, or else the way of the circles (paths_between). With more than 20,000 faces a harmonic map stays as it
+/// is.
 /// @param uv (V_b, 2) the target's aligned domain @param alignment of these points
 /// @return nothing if holes block each other
 /// @throws SolverError, Cancelled
