@@ -40,9 +40,9 @@ struct SphereLoop : MappedLoop {
 struct SphereLayoutReport {
     SphereLayout kind = SphereLayout::equirectangular;
     std::vector<Index> crossing;  ///< with corners beyond the layout's edge, where the pattern continues
-    std::vector<Index> moved;  ///< with corners that have other UVs than their points, so that no face is flipped
-    std::vector<Index> torn;   ///< their UVs do not fit all their neighbours
-    std::vector<Index> flipped;           ///< without positive area as 32-bit floats
+    std::vector<Index> moved;     ///< with corners that have other UVs than their points, so that no face is flipped
+    std::vector<Index> torn;      ///< their UVs do not fit all their neighbours
+    std::vector<Index> flipped;   ///< without positive area as 32-bit floats
     std::vector<Index> below_resolution;  ///< flipped faces whose longest edge is under uv_resolution
 };
 
