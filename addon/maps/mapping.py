@@ -327,7 +327,7 @@ def _unroll(koebe: ModuleType, outcome: SurfaceOutcome, options: Options) -> Non
     """Give the mapped tubes of a surface their shapes, if they become rectangles."""
     tubes = [one for one in outcome.mapped if _is_unrolled(one, options)]
     with failing_alone(koebe, tubes):
-        cases = [(one.island, one.result.uv, one.result.loops, one.opening is not None) for one in tubes]
+        cases = [(one.island, one.result.loops, one.opening is not None) for one in tubes]
         for one, unrolled in zip(tubes, unroll(koebe, outcome.task.surface, cases), strict=True):
             if unrolled is None:
                 one.error = MapError("the tube cannot be cut open along its edges: take Tube: Ring")

@@ -11,18 +11,17 @@ import numpy as np
 from .connected_components import connected_components
 from .islands import cut_into_islands
 from .surface import Island, Surface, next_corners
-from .triangles import as_complex, as_points
+from .triangles import as_points
 
-# An island, its UVs, its outer and inner loop, and whether it is a piece of an island that was cut beyond its seams.
-Tube = tuple[Island, np.ndarray, Sequence[np.ndarray], bool]
+# An island, its outer and inner loop, and whether it is a piece of an island that was cut beyond its seams.
+Tube = tuple[Island, Sequence[np.ndarray], bool]
 
 
 def unroll(koebe: ModuleType, surface: Surface, tubes: Sequence[Tube]) -> list[tuple[Island, np.ndarray] | None]:
     """Each island with two loops, cut open, and the rectangle (n, 2) that it becomes; None where that fails.
 
-    A tube is (island, uv, loops, is_piece): `uv` maps the island to the unit disk with a round hole; `loops` are its
-    outer and inner loop. A Moebius map makes the annulus concentric, and z -> i log z takes it to a rectangle: u runs
-    around, v from loop to loop. Both maps are conformal, so angles stay. The cut runs along a short path of edges from
+    A tube is (island, loops, is_piece), `loops` its outer and inner loop. The solver maps it to a cylinder, which is
+    i log z of a round annulus: u runs around, v from loop to loop. The cut runs along a short path of edges from
     loop to loop, which ends at the back, where y is largest. A vertex on the cut gets a copy for each side. The
     rectangle is centred at 0 and lies in the unit disk.
     """
@@ -31,9 +30,8 @@ def unroll(koebe: ModuleType, surface: Surface, tubes: Sequence[Tube]) -> list[t
     following = next_corners(surface)
     vertex = np.empty(len(surface.corner_vertex), dtype=np.int64)
     seam, selected, opened = surface.seam.copy(), np.zeros_like(surface.selected), []
-    for island, uv, loops, is_piece in tubes:
-        annulus = concentric(koebe, as_complex(uv), loops[1])
-        log = np.log(np.abs(annulus)) + 1j * np.angle(annulus)
+    for island, loops, is_piece in tubes:
+        log = _log_of_annulus(koebe, island, loops)
         vertex[island.corners] = island.corner_vertex
         edges, first, uses = np.unique(surface.corner_edge[island.corners], return_index=True, return_counts=True)
         if is_piece:
@@ -48,7 +46,7 @@ def unroll(koebe: ModuleType, surface: Surface, tubes: Sequence[Tube]) -> list[t
     sheets = cut_into_islands(dataclasses.replace(surface, seam=seam, selected=selected))
     with_first_face = {int(sheet.faces[0]): sheet for sheet in sheets}
     result = []
-    for (island, _, _, is_piece), (log, cut) in zip(tubes, opened, strict=True):
+    for (island, _, is_piece), (log, cut) in zip(tubes, opened, strict=True):
         sheet = with_first_face[int(island.faces[0])]
         whole = cut and len(sheet.triangles) == len(island.triangles)  # otherwise the path has cut off a piece
         if whole and is_piece:
@@ -90,16 +88,13 @@ def _turned_like(sheet: Island, island: Island) -> Island:
     return dataclasses.replace(sheet, triangles=triangles)
 
 
-def concentric(koebe: ModuleType, z: np.ndarray, inner: np.ndarray) -> np.ndarray:
-    """Points of the unit disk after the automorphism that brings the circle through z[inner] around 0."""
-    place, radius, _ = koebe.fit_circle(as_points(z[inner]))
-    center = complex(*place)
-    distance = abs(center)
-    near, far = distance - radius, distance + radius
-    if distance < 1e-15:
-        return z
-    a = (1.0 + near * far - np.sqrt((1.0 - near**2) * (1.0 - far**2))) / (near + far) * center / distance
-    return (z - a) / (1.0 - np.conj(a) * z)
+def _log_of_annulus(koebe: ModuleType, island: Island, loops: Sequence[np.ndarray]) -> np.ndarray:
+    """log z (n,) of the round annulus |z| <= 1, from the tube's conformal cylinder: exp would lose a far end."""
+    ring = koebe.ring_map(island.vertices, island.triangles, outer=int(loops[0][0]), inner=int(loops[1][0]))
+    place = np.empty((len(island.vertices), 2))
+    place[island.triangles.ravel()] = ring.uv.reshape(-1, 2)
+    turn, depth = 2.0 * np.pi / ring.periods[0, 0] * place.T
+    return -depth + 1j * turn
 
 
 def _wrapped_distance(one: np.ndarray, two: np.ndarray) -> np.ndarray:

@@ -197,6 +197,56 @@ def test_a_ring_of_two_loops_is_the_same_whatever_becomes_of_holes(holes):
     assert len(levels) == 2  # straight to the last bit
 
 
+def pipe(levels, radius=lambda s: 1.0, bend=None, around=12):
+    """Rings of vertices at these arc lengths, round a straight axis or one of radius `bend`: vertices, triangles."""
+    s, angle = np.meshgrid(levels, 2 * np.pi * np.arange(around) / around, indexing="ij")
+    r = radius(s)
+    points = np.stack([r * np.cos(angle), r * np.sin(angle), s], axis=-1)
+    if bend:
+        out, turn = bend + points[..., 0], s / bend
+        points = np.stack([out * np.cos(turn), out * np.sin(turn), points[..., 1]], axis=-1)
+    a = np.arange(len(levels) - 1)[:, None] * around + np.arange(around)
+    b = a - np.arange(around) + (np.arange(around) + 1) % around
+    faces = np.concatenate([np.stack([a, b, b + around], -1), np.stack([a, b + around, a + around], -1)])
+    return points.reshape(-1, 3), faces.reshape(-1, 3).astype(np.int32)
+
+
+def uneven(length, count, seed=3):
+    """Levels from 0 to a length whose steps differ up to ten times."""
+    steps = np.random.default_rng(seed).uniform(1, 10, count)
+    return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()]) * length
+
+
+GIRTH = 24 * np.sin(np.pi / 12)  # of a prism of 12 sides round the unit circle
+# A prism unrolls to its own rectangle. A cone of slope k: ln(R / r) sqrt(1 + k^2) / 2 pi k. On a torus the metric over
+# (R + r cos v)^2 is flat: half a turn is pi sqrt(R^2 - r^2) / 2 pi r.
+PIPES = {
+    "12 girths": (pipe(uneven(12 * GIRTH, 150)), 12.0, 1e-7),
+    "1,000 girths": (pipe(uneven(1000 * GIRTH, 400)), 1000.0, 1e-6),
+    "a tiny rim": (pipe(40 - np.geomspace(40, 1e-3, 120), lambda s: (40 - s) / 4, around=32),
+                   np.log(4e4) * 17**0.5 / (2 * np.pi), 2e-2),
+    "half a turn": (pipe(np.linspace(0, 8 * np.pi, 200), bend=8, around=32), np.pi * 63**0.5 / (2 * np.pi), 2e-2),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", PIPES)
+def test_a_tube_of_any_length_has_its_modulus(name):
+    (vertices, triangles), modulus, error = PIPES[name]
+    for first, second in ((0, -1), (-1, 0)):
+        loops = koebe.boundary_loops(triangles)
+        tile = koebe.ring_map(vertices, triangles, outer=int(loops[first][0]), inner=int(loops[second][0]))
+        assert tile.converged and not tile.flipped and not tile.warnings
+        assert_tile(tile, triangles, rims=2)
+        assert tile.modulus.imag == pytest.approx(modulus, rel=error)
+
+
+def test_a_long_tube_with_a_hole_has_its_modulus_or_has_not_converged():
+    for girths in (2, 6, 12, 40):
+        vertices, triangles = pipe(np.linspace(0, girths * GIRTH, 12 * girths))
+        tile = koebe.ring_map(vertices, np.delete(triangles, len(triangles) // 4, axis=0))
+        assert not tile.converged or tile.modulus.imag == pytest.approx(girths, rel=0.05)
+
+
 def test_slits_lie_along_one_line_to_the_last_bit():
     vertices, triangles, _, _, _ = holed_ring(8, holes=HOLES)
     for holes, axis in (("concentric", 1), ("radial", 0)):
