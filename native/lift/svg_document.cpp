@@ -329,7 +329,7 @@ private:
 // ---- places
 
 /// A length in pixels; no value for what is none. @param whole what percentages are of
-std::optional<double> length_of(std::string_view text, double whole)
+std::optional<double> pixels_of(std::string_view text, double whole)
 {
     double number = 0.0;
     if (text.starts_with('+')) text.remove_prefix(1);
@@ -362,7 +362,7 @@ std::optional<ViewBox> view_box_of(const SvgNode& node)
 {
     std::vector<double> numbers;
     for (const std::string_view word : words_of(value_of(node, "viewBox"), " ,\t\r\n"))
-        if (const auto number = length_of(word, 1.0)) numbers.push_back(*number);
+        if (const auto number = pixels_of(word, 1.0)) numbers.push_back(*number);
     if (numbers.size() != 4 || !(numbers[2] > 0.0 && numbers[3] > 0.0)) return {};
     return ViewBox{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
@@ -413,8 +413,8 @@ public:
         // a copy is resolved, as uses copy elements that are as they were
         SvgNode* group = copy_of_children(root_);
         const std::optional<ViewBox> box = view_box_of(root_);
-        const Size page{length_of(value_of(root_, "width"), 100.0).value_or(box ? box->width : 100.0),
-                        length_of(value_of(root_, "height"), 100.0).value_or(box ? box->height : 100.0)};
+        const Size page{pixels_of(value_of(root_, "width"), 100.0).value_or(box ? box->width : 100.0),
+                        pixels_of(value_of(root_, "height"), 100.0).value_or(box ? box->height : 100.0)};
         elements_ = 0;
         Shown shown;
         const bool drawn = inherit(root_, shown);
@@ -492,7 +492,7 @@ private:
         take("fill", shown.filled, unpainted);
         take("stroke", shown.stroked, unpainted);
         const std::string_view opacity = value_of(node, "opacity");
-        return value_of(node, "display") != "none" && (opacity.empty() || length_of(opacity, 1.0).value_or(1.0) > 0.0);
+        return value_of(node, "display") != "none" && (opacity.empty() || pixels_of(opacity, 1.0).value_or(1.0) > 0.0);
     }
 
     /// The conditional attributes (SVG 1.1, 5.8). No extension is known, and the language is English.
@@ -545,8 +545,8 @@ private:
     {
         const auto length = [&](std::string_view name, double whole, double otherwise) {
             if (use && name.size() > 1)  // width and height: x and y of a use move its group
-                if (const auto given = length_of(value_of(*use, name), whole)) return *given;
-            return length_of(value_of(node, name), whole).value_or(otherwise);
+                if (const auto given = pixels_of(value_of(*use, name), whole)) return *given;
+            return pixels_of(value_of(node, name), whole).value_or(otherwise);
         };
         const bool is_symbol = name_of(node) == "symbol";
         const ViewBox port{is_symbol ? 0.0 : length("x", size.width, 0.0),
@@ -575,8 +575,8 @@ private:
         SvgNode* group = document_.allocate_node(rapidxml_ns::node_element, "g");
         group->namespace_uri(svg_uri.data(), svg_uri.size());
         for (const char* name : drawn_properties) set(*group, name, value_of(use, name));
-        const double x = length_of(value_of(use, "x"), size.width).value_or(0.0);
-        const double y = length_of(value_of(use, "y"), size.height).value_or(0.0);
+        const double x = pixels_of(value_of(use, "x"), size.width).value_or(0.0);
+        const double y = pixels_of(value_of(use, "y"), size.height).value_or(0.0);
         set(*group, "transform",
             std::string(value_of(use, "transform")) + " translate(" + number_text(x) + " " + number_text(y) + ")");
         const std::string_view name = name_of(*target->second);
@@ -618,7 +618,7 @@ private:
             const double whole = wide   ? size.width
                                  : high ? size.height
                                         : std::hypot(size.width, size.height) / std::sqrt(2.0);
-            if (const auto length = length_of(value, whole)) lengths.emplace_back(name, *length);
+            if (const auto length = pixels_of(value, whole)) lengths.emplace_back(name, *length);
         }
         for (const auto& [name, length] : lengths) set(node, name, number_text(length));
     }

@@ -4,8 +4,6 @@
 #include "planar/planar_region.h"
 
 #include <algorithm>
-#include <numeric>
-#include <random>
 #include <set>
 #include <utility>
 
@@ -17,41 +15,21 @@ using EndPair = std::pair<Index, Index>;
 
 EndPair ends_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// The order in which points are inserted: many of them in rounds, each a random share of the next one and near by
-/// near, so that no order along an outline makes the time grow with the square [Amenta, Choi, Rote 2003].
-std::vector<std::size_t> order_of(const std::vector<Complex>& points)
-{
-    constexpr std::size_t few = 2000;
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
-    if (points.size() < few) return order;
-    std::mt19937 random(1);
-    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-    for (std::size_t end = order.size(); end > few; end /= 2) {
-        const std::vector<std::size_t> round(order.begin() + static_cast<std::ptrdiff_t>(end / 2),
-                                             order.begin() + static_cast<std::ptrdiff_t>(end));
-        std::vector<Complex> places;
-        for (const std::size_t i : round) places.push_back(points[i]);
-        std::ranges::transform(detail::to_and_fro(places), order.begin() + static_cast<std::ptrdiff_t>(end / 2),
-                               [&](std::size_t i) { return round[i]; });
-    }
-    return order;
-}
-
 /// Inserts the points. @return their vertices; none for a point that lies where another one is
-std::vector<Cdt::Vertex_handle> insert(Cdt& cdt, std::vector<Complex> points, const std::vector<Complex>& interior)
+std::vector<Cdt::Vertex_handle> insert(Cdt& cdt, const std::vector<Complex>& polygon,
+                                       const std::vector<Complex>& interior)
 {
-    points.insert(points.end(), interior.begin(), interior.end());
-    std::vector<Cdt::Vertex_handle> handles(points.size());
+    std::vector<Cdt::Vertex_handle> handles;
     Cdt::Face_handle near;
-    for (const std::size_t i : order_of(points)) {
-        const auto count = cdt.number_of_vertices();
-        const Cdt::Vertex_handle vertex = cdt.insert(detail::to_point(points[i]), near);
-        near = vertex->face();
-        if (cdt.number_of_vertices() == count) continue;
-        vertex->info() = static_cast<Index>(i);
-        handles[i] = vertex;
-    }
+    for (const auto* points : {&polygon, &interior})
+        for (const Complex z : *points) {
+            const auto count = cdt.number_of_vertices();
+            const Cdt::Vertex_handle vertex = cdt.insert(detail::to_point(z), near);
+            near = vertex->face();
+            const bool is_new = cdt.number_of_vertices() != count;
+            if (is_new) vertex->info() = static_cast<Index>(handles.size());
+            handles.push_back(is_new ? vertex : Cdt::Vertex_handle());
+        }
     return handles;
 }
 
