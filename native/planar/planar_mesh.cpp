@@ -38,6 +38,11 @@ bool may_insert(const PlanarRegion& region, Complex z, double spacing, Cdt::Face
     int index = 0;
     found = cdt.locate(p, type, index, hint);
     if (type != Cdt::FACE && type != Cdt::EDGE) return false;
+    // All vertices of the faces in conflict lie on the rim. Those of the face with the point tell most of the refusals,
+    // before the whole conflict zone is looked at, which is large beside long thin faces.
+    const auto is_near = [&](Cdt::Vertex_handle v) { return distance(to_complex(v->point()), z) < spacing; };
+    for (int k = 0; k < 3; ++k)
+        if (!cdt.is_infinite(found->vertex(k)) && is_near(found->vertex(k))) return false;
     std::vector<Cdt::Face_handle> conflict;
     std::vector<Cdt::Edge> rim;
     cdt.get_conflicts_and_boundary(p, std::back_inserter(conflict), std::back_inserter(rim), found);
@@ -46,7 +51,7 @@ bool may_insert(const PlanarRegion& region, Complex z, double spacing, Cdt::Face
     for (const auto& [face, i] : rim) {
         const Complex a = to_complex(face->vertex(Cdt::ccw(i))->point());
         const Complex b = to_complex(face->vertex(Cdt::cw(i))->point());
-        if (distance(a, z) < spacing || distance(b, z) < spacing) return false;
+        if (is_near(face->vertex(Cdt::ccw(i))) || is_near(face->vertex(Cdt::cw(i)))) return false;
         if (face->is_constrained(i) && dot(a - z, b - z) < 0.0) return false;
     }
     return true;
