@@ -25,8 +25,8 @@ public:
     /// @param mapped still in the piece's own numbers
     void turn_back(std::size_t piece, const Circle& place, MappedPiece& mapped, const ExecutionContext& context);
 
-    /// Makes polygons convex that are convex on the surface (mend_polygons), and changes the UVs in the pieces' own disks
-    /// in the same way. @param polygon (F) of the input's faces, or empty
+    /// Makes polygons convex that are convex on the surface (mend_polygons), and changes the UVs in the pieces' own
+    /// disks in the same way. @param polygon (F) of the input's faces, or empty
     void mend(const std::vector<Index>& polygon, std::vector<MappedPiece>& mapped, const std::vector<Circle>& places,
               const ExecutionContext& context);
 

@@ -1,9 +1,9 @@
 #include "fit/fit_circles.h"
 
+#include "bending/circle_path.h"
 #include "circle_domain.h"
 #include "circles/crowded_circles.h"
 #include "core/errors.h"
-#include "bending/circle_path.h"
 #include "pipeline/uniformize.h"
 #include "planar/boundary_crossings.h"
 
