@@ -12,7 +12,7 @@
 namespace koebe {
 
 /// What a mesh says of the rims of the surface, for numbers of its shape. The two differ by the areas between the edges
-/// of a rim and its arcs (docs/numerics.md, "The circles of the polyhedron itself").
+/// of a rim and its arcs (docs/numerics.md, the circles of the polyhedron itself).
 enum class RimKind {
     smooth,     ///< samples of smooth curves: the circles of the map
     polygonal,  ///< polygons: the circles of the polyhedron, which the enclosures of capacities.h prove

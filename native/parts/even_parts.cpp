@@ -3,7 +3,6 @@
 #include "circles/circle_fit.h"
 #include "even/even_map.h"
 #include "execution/side_by_side.h"
-#include "mesh/connectivity.h"
 #include "parts/dart_rounds.h"
 #include "parts/tension.h"
 #include "parts/through_rounds.h"
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -26,7 +24,6 @@ constexpr EvenEffort search{.most_steps = 12};           // for an E of the sear
 constexpr EvenEffort look{4, 1, 8};                      // a first look, which ends the trial if
 constexpr double clearly_worse = 1.02;                   // angles are worse by this factor
 constexpr double roomy_piece = 0.1;                      // price of one more part, if that saves room
-constexpr double true_length = 1e-6;                     // in roots of a part's area: lengths differ by no more
 constexpr double step = 1.5;                             // factor from one E to the next
 constexpr double even_with_darts = 0.1;                  // E with darts, if no E is given,
 constexpr std::array less_even_with_darts{0.06, 0.03};   // and if angles are then worse
@@ -73,20 +70,6 @@ std::vector<RoundLoop> round_loops(const FlatPart& flat)
 
 bool has_darts(const HeldPart& part) { return !part.flat.tips.empty(); }
 
-/// Whether all lengths are those on the surface: no cut makes such a part more even.
-bool lies_true_to_size(const HeldPart& part)
-{
-    const FlatPart& flat = part.flat;
-    if (!flat.sizes.empty()) return false;
-    const double near = true_length * std::sqrt(face_areas(flat.vertices, flat.surface.triangles).sum());
-    for (Index h = 0; h < static_cast<Index>(flat.surface.triangles.size()); ++h) {
-        const Index a = origin(flat.surface.triangles, h), b = target(flat.surface.triangles, h);
-        const double length = (flat.vertices.row(a) - flat.vertices.row(b)).norm();
-        if (!(std::abs((flat.points.row(a) - flat.points.row(b)).norm() - length) <= near)) return false;
-    }
-    return true;
-}
-
 /// What a dart as long as the root of the surface's area costs, in energy.
 double dart_price(double darts) { return 1e-4 / darts; }
 
@@ -127,21 +110,14 @@ public:
     /// The parts that could not be moved.
     const std::vector<std::size_t>& left() const { return left_; }
 
-    /// Parts that lie true to size stay as they are, and are cut only to be packed more densely.
     void relax_with_darts(double even, const EvenEffort& effort)
     {
-        const bool with_darts = options_.darts > 0.0;
-        const std::vector<HeldPart> finished = with_darts ? take_finished() : std::vector<HeldPart>{};
         relax(even, effort);
-        if (!with_darts) return;
-        bool is_split = false;
-        if (!parts_.empty()) {
-            const bool joined = cut_through(even, {});
-            cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
-            if (joined || std::ranges::any_of(parts_, has_darts)) relax_cut(even, effort);
-            is_split = cut_through(even, options_.piece * dart_price(options_.darts));
-        }
-        parts_.insert(parts_.end(), finished.begin(), finished.end());
+        if (!(options_.darts > 0.0)) return;
+        const bool joined = cut_through(even, {});
+        cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
+        if (joined || std::ranges::any_of(parts_, has_darts)) relax_cut(even, effort);
+        const bool is_split = cut_through(even, options_.piece * dart_price(options_.darts));
         if (cut_for_room() || is_split) relax_cut(even, effort);
     }
 
@@ -178,15 +154,6 @@ public:
     }
 
 private:
-    /// Takes out the parts that lie true to size.
-    std::vector<HeldPart> take_finished()
-    {
-        const auto others = std::ranges::stable_partition(parts_, std::not_fn(lies_true_to_size));
-        std::vector<HeldPart> finished(std::make_move_iterator(others.begin()), std::make_move_iterator(others.end()));
-        parts_.erase(others.begin(), others.end());
-        return finished;
-    }
-
     /// @param piece price of one more part, in energy; without a value no part is split @return whether any part was
     /// cut
     bool cut_through(double even, std::optional<double> piece)

@@ -1,5 +1,7 @@
 #include "sphere/placed_face.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
