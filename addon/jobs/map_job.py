@@ -100,7 +100,7 @@ class Job:
         surface, self._first = mesh_reading.read_surface(obj, self.selected_only), None
         if self.options.weld > 0.0:
             surface, self._first = joined(self.koebe, surface, self.options.weld)
-        elif loose := np.count_nonzero(np.diff(np.sort(self.koebe.weld(surface.positions))) == 0):
+        elif loose := int(np.count_nonzero(np.diff(np.sort(self.koebe.weld(surface.positions))) == 0)):
             self._loose[obj.name] = loose
         return surface
 

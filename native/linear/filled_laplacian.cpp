@@ -14,7 +14,7 @@ namespace {
 constexpr double stiffness = 1e20;  // over the largest diagonal entry: its inverse vanishes beside rounding
 
 constexpr std::size_t most_dense = 500;                 // vertices of a loop: its disk's factor takes about 0.1 s
-constexpr Index fewest_nodes = 250, most_nodes = 1000;  // of a longer loop
+constexpr Index fewest_nodes = 500, most_nodes = 1000;  // of a longer loop
 constexpr Index vertices_a_node = 25;                   // springs with more vertices cost more than a denser disk
 
 /// Of the springs, over K's entries. A node is then off its mean by a millionth of its potential at most.

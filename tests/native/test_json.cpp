@@ -75,6 +75,7 @@ TEST(Json, HasTheKeysOfTheContractInItsOrder)
                                      "conformal_energy",
                                      "flipped",
                                      "below_resolution",
+                                     "concave_polygons",
                                      "seconds",
                                      "peak_memory_mb",
                                      "warnings"}));

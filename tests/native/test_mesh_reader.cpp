@@ -441,7 +441,7 @@ TEST(MeshReader, RefusesWhatIsNoMeshAndSaysWhere)
          "NaN or infinite",
          {1}},
         {"a.stl", "", "the file is no STL", {}},
-        {"a.stl", "SOLID a\n", "the file is no STL", {}},
+        {"a.stl", "SOLID a\n", "or endsolid is", {0}},
         {"a.stl", "solid empty\nendsolid empty\n", "no vertex", {}},
         {"a.stl", "solid a\nfacet normal 0 0 1\nvertex 0 0\nendfacet\n", "facet 0 is missing or cut short", {0}},
         {"a.stl", "solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\nendsolid\n", "facet 0 is missing", {0}},

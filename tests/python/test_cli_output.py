@@ -258,8 +258,9 @@ def test_standard_output_that_is_full_or_closed_is_an_error(folder, arguments):
 def test_other_output_that_is_lost_is_an_error_too(folder, arguments):
     for redirection in (">&-", "> /dev/full"):
         code, error = with_streams(redirection, *arguments, cwd=folder)
-        assert code == CANNOT_BE_MAPPED and error.startswith("FileError: cannot write standard output ("), redirection
-        assert error.count("\n") == 1
+        last = error.splitlines()[-1]  # compare warns before
+        assert code == CANNOT_BE_MAPPED and last.startswith("FileError: cannot write standard output ("), redirection
+        assert error.count("FileError") == 1
 
 
 def test_a_broken_pipe_is_an_error_and_no_signal(folder):
@@ -327,7 +328,7 @@ def rich(tmp_path):
 def test_an_obj_keeps_all_but_its_texture_coordinates(rich, command):
     name, *options = command
     run = koebe(name, "in.obj", "out.obj", *options, "--json", "r.json", cwd=rich)
-    assert warnings(run, rich / "r.json").keys() - {"cut"} == {"replaced_uvs"}
+    assert warnings(run, rich / "r.json").keys() - {"cut", "concave_polygons"} == {"replaced_uvs"}
     out = (rich / "out.obj").read_text()
     assert kept_lines(out) == kept_lines((rich / "in.obj").read_text())
     used = [int(word.split("/")[1]) for line in out.splitlines() if line.startswith("f ") for word in line.split()[1:]]
@@ -419,7 +420,8 @@ def test_the_result_line_counts_the_warnings(folder):
     ), run.stdout
     run = koebe("fill", "in.obj", "out.obj", cwd=folder)
     assert re.search(r" s, 1 warning: faces with fewer than three different vertices.*\n$", run.stdout), run.stdout
-    assert len(json.loads(koebe("module", "in.obj", cwd=folder).stdout)["warnings"]) == 2
+    kinds = [warning["kind"] for warning in json.loads(koebe("module", "in.obj", cwd=folder).stdout)["warnings"]]
+    assert kinds == ["collapsed_faces", "unused_vertices", "coarse_mesh"]
 
 
 def test_warnings_of_faces_name_the_faces_of_the_file(folder):

@@ -24,6 +24,8 @@ def values(row):
         return [word for word in row.words if word != row.default] + [int(PLAIN.loops[1][0])] * (row.kind == "loop")
     if row.kind in ("number", "integer"):
         some = (0.0, 1e-9, 1e-3, 0.3, 1.0) if row.kind == "number" else (1, 2, 200)
+        # `weld` joins vertices: what lies farther apart is another surface.
+        some = tuple(number for number in some if row.name != "weld" or number < 1e-2)
         return [number for number in some if row.has(number) and number != row.default]
     return {
         "flag": [True], "vertex": [INSIDE if row.name == "center" else int(PLAIN.loops[0][3])],

@@ -143,7 +143,8 @@ def test_circles_that_cannot_be_equal_are_told():
         assert result.converged and result.by_circles
         radii = result.circles[:, :, 2]
         assert (radii.max(axis=1) > 2 * radii.min(axis=1)).all()
-        assert [warning["kind"] for warning in result.warnings] == ["no_circles"] * told
+        kinds = [warning["kind"] for warning in result.warnings]
+        assert kinds == ["no_circles"] * told + ["coincident"]  # its two rings meet in space
 
 
 def test_texels_of_a_closed_surface_fill_an_annulus():

@@ -44,6 +44,7 @@ class SequenceOptions(SweepOptions, total=False):
     point: int | None
     balance: Literal["none", "area"]
     importance: Any
+    polygon: Any
     polish: bool
     threads: int
 
@@ -51,7 +52,6 @@ class SequenceOptions(SweepOptions, total=False):
 class UniformizeOptions(SequenceOptions, RunOptions, total=False):
     """Options of `uniformize`, except `cut`."""
 
-    polygon: Any
     engine: Literal["condensed", "mesh"]
     even: float
     loops: Literal["auto", "round", "free"]

@@ -39,11 +39,12 @@ class Surface:
     0 0 True
     """
 
-    @takes("sequence")
+    @takes("sequence", polygon=None)
     def __init__(self, vertices: Any, triangles: Any = None, **given: "Unpack[SequenceOptions]") -> None:
         options, self._options = solver_options("sequence", given)
         self._source = surface_of(vertices, triangles, mask=given["mask"])
         options.importance = importance_of(given["importance"], self._options, len(self._source.vertices))
+        self._polygon = polygons_of(given["polygon"], self._source)
         self._native = self._source.call(_koebe.Surface, options)
 
     def uniformize(
@@ -58,7 +59,7 @@ class Surface:
         progress, cancel = callback(progress, "progress"), token(cancel, "cancel")
         source = self._source if vertices is None else self._moved(vertices)
         native = self._native.uniformize(source.vertices, progress, cancel)
-        source.call(_koebe.make_polygons_convex, native, polygons_of(None, self._source), True, cancel)
+        source.call(_koebe.make_polygons_convex, native, self._polygon, True, cancel)
         report = native.report()
         # Other positions might choose another outer loop: this one makes uniformize repeat the map.
         options = {**self._options, "outer": int(report["loops"][0]["vertices"][0])}
