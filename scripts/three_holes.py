@@ -53,7 +53,7 @@ def make_mesh():
     points = lifted(points)
     triangles = even_mesh.flipped_to_delaunay(points, triangles)
     points, triangles = even_mesh.relaxed(points, triangles, lifted, 24)
-    points = np.round(points, 4)
+    points = np.round(points, 4) + 0.0  # no minus zero, whose sign depends on the processor
     triangles = even_mesh.flipped_to_delaunay(points, triangles)
     first = np.cumsum([0] + [len(polygon) for polygon in polygons])
     loops = [np.arange(a, b) for a, b in zip(first, first[1:])]

@@ -98,6 +98,8 @@ class Job:
 
     def _surface(self, obj: MeshObject) -> Surface:
         surface, self._first = mesh_reading.read_surface(obj, self.selected_only), None
+        if not np.isfinite(surface.positions).all():  # the solver refuses them, and names them
+            return surface
         if self.options.weld > 0.0:
             surface, self._first = joined(self.koebe, surface, self.options.weld)
         elif loose := int(np.count_nonzero(np.diff(np.sort(self.koebe.weld(surface.positions))) == 0)):

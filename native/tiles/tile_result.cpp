@@ -170,7 +170,6 @@ TileResult reported(const Vertices& vertices, const Triangles& triangles, const 
     result.sweeps = static_cast<int>(map.changes.size());
     result.changes = map.changes;
     const SurfacePolygons polygons{vertices, triangles, domain.polygon, result.turned, {}, true};
-    mend_polygons(polygons, result.uv, context);
     result.distortion = {distortion_of(triangles, domain, result.uv),
                          judge_corners(vertices, triangles, result.uv, result.turned)};
     warn(domain, map, faults, result);
