@@ -382,6 +382,6 @@ def test_the_choices_are_the_solvers(addon, koebe):
     properties, table = addon("state.lift_properties"), addon("maps.lifting")
     rows = importlib.import_module("koebe._option_table").rows("lift")
     assert properties.OWN["shape"].words == [*rows["shape"].words]
-    assert set(rows) - {"perforate"} <= set(properties.LIFT_NAMES)
+    assert set(rows) - {"perforate", "weld"} <= set(properties.LIFT_NAMES)
     built_in = [word for word, *_ in properties.PATTERNS if word not in table.DRAWN]
     assert built_in == [*table.SPREAD, *table.LATTICES]
