@@ -18,6 +18,11 @@ namespace koebe::io {
 namespace {
 
 constexpr const char* compressions[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"};
+/// How the names of extensions begin that leave the shape of a mesh as it is, or that are read.
+constexpr const char* harmless[] = {
+    "KHR_materials_", "KHR_texture_",          "EXT_texture_", "MSFT_texture_",     "KHR_lights_",
+    "EXT_lights_",    "KHR_animation",         "KHR_xmp",      "KHR_node_",         "EXT_mesh_gpu_",
+    "KHR_audio",      "KHR_mesh_quantization", "MSFT_lod",     "EXT_mesh_features", "EXT_structural_metadata"};
 
 template <typename Item>
 const Item& item_at(const std::vector<Item>& items, std::ptrdiff_t place, const char* name)
@@ -93,11 +98,15 @@ void refuse_other_files(const nlohmann::ordered_json& json)
     }
 }
 
-void refuse_compression(const tinygltf::Model& model)
+/// A reader has to refuse a file that requires what it does not know (glTF 2.0, 3.12).
+void refuse_unknown_extensions(const tinygltf::Model& model)
 {
-    for (const std::string& extension : model.extensionsRequired)
+    for (const std::string& extension : model.extensionsRequired) {
         if (std::ranges::find(compressions, extension) != std::end(compressions))
             throw InputError("the GLB file is compressed (" + extension + "): save it without compression");
+        if (std::ranges::none_of(harmless, [&](const char* start) { return extension.starts_with(start); }))
+            throw InputError("the GLB file requires the extension " + extension + ", which may change its shapes");
+    }
 }
 
 }  // namespace
@@ -120,7 +129,7 @@ tinygltf::Model read_gltf_model(std::string_view glb)
         error = "empty data";
     }
     if (!read) throw InputError("the GLB file is damaged: " + error.substr(0, error.find('\n')));
-    refuse_compression(model);
+    refuse_unknown_extensions(model);
     return model;
 }
 
@@ -149,6 +158,9 @@ std::string accessor_elements(const tinygltf::Model& model, int number, std::ptr
     std::string elements;
     if (accessor.bufferView >= 0) {
         const std::size_t stride = item_at(model.bufferViews, accessor.bufferView, "buffer view").byteStride;
+        if (stride != 0 && stride < size)
+            throw InputError("the elements of accessor " + std::to_string(number) +
+                             " of the GLB file overlap: its byte stride is too small");
         const Pieces pieces{accessor.byteOffset, size, stride == 0 ? size : stride, accessor.count};
         const unsigned char* bytes = checked_bytes(model, accessor.bufferView, pieces);
         elements.resize(accessor.count * size);

@@ -377,6 +377,11 @@ def broken(change):
             lambda j: j.update(extensionsRequired=["KHR_draco_mesh_compression"]),
             "the GLB file is compressed (KHR_draco_mesh_compression): save it without compression",
         ),
+        (
+            lambda j: j.update(extensionsUsed=["EXT_bent"], extensionsRequired=["EXT_bent"]),
+            "the GLB file requires the extension EXT_bent, which may change its shapes",
+        ),
+        (lambda j: j["bufferViews"][1].update(byteStride=4), "elements of accessor 1 of the GLB file overlap"),
     ],
 )
 def test_bad_files_are_refused_with_the_reason(tmp_path, change, sentence):
