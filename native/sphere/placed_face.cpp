@@ -148,6 +148,11 @@ std::span<const SpherePoint> cone_points(SphereLayout layout)
 
 bool face_contains(const SphereCorners& p, const SpherePoint& point)
 {
+    // The point is a sum of the corners with factors >= 0. Signs alone mostly say that there is none.
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax({p[0][axis], p[1][axis], p[2][axis]});
+        if ((high < 0.0 && point[axis] >= 0.0) || (low > 0.0 && point[axis] <= 0.0)) return false;
+    }
     int sides = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const int side = orientation(p[k], p[(k + 1) % 3], point);

@@ -4,6 +4,7 @@
 #include "core/tolerances.h"
 #include "execution/each_in_pieces.h"
 #include "sphere/placed_face.h"
+#include "sphere/sphere_check.h"
 #include "sphere/sphere_polygons.h"
 
 #include <Eigen/Geometry>
@@ -15,6 +16,7 @@
 #include <iterator>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 namespace koebe {
@@ -27,9 +29,11 @@ constexpr int rings_around = 4;                                     // of faces 
 constexpr int most_rounds = 10;                                     // over these faces, for each quality
 constexpr int tried_directions = 12;                                // tried around a vertex
 constexpr int step_halvings = 10;                                   // from the longest edge around the vertex
-constexpr double golden_angle = 2.399963;        // radians: turns the directions, so that they never repeat
-constexpr std::size_t most_vertex_moves = 4000;  // of single vertices
-constexpr std::size_t most_ranks = 6;            // ways to bring a vertex to a cone point
+constexpr double golden_angle = 2.399963;           // radians: turns the directions, so that they never repeat
+constexpr std::size_t most_vertex_moves = 4000;     // of single vertices
+constexpr std::size_t most_moves_in_vain = 400;     // on a folded sphere
+constexpr std::size_t most_near_a_cone_point = 12;  // vertices that are tried at it
+constexpr std::size_t most_ranks = 6;               // ways to bring a vertex to a cone point
 constexpr double dragged_reach = 6.0;  // radius that moves with a vertex, over its way: sides change by at most 1/4
 
 class LayoutSearch {
@@ -50,7 +54,11 @@ public:
 
     PlanarPoints run(SphereLayoutReport& report)
     {
-        for (std::size_t rank = 0; rank < most_ranks && (rank == 0 || !flipped_faces().empty()); ++rank) {
+        // No layout of a folded sphere is upright: a second way to the cone points and a long search would be in vain.
+        const bool folded = sphere_is_folded();
+        if (folded) most_moves_ = most_moves_in_vain;
+        for (std::size_t rank = 0; rank < (folded ? 1 : most_ranks) && (rank == 0 || !flipped_faces().empty());
+             ++rank) {
             places_ = surface_.points;
             held_.assign(held_.size(), 0);
             each_in_pieces(static_cast<Index>(polygon_begin_.size() - 1), [&](Index g) { lay(g); });
@@ -105,6 +113,14 @@ private:
             faces_of_[next[triangles_.data()[h]]++] = static_cast<Index>(h / 3);
     }
 
+    bool sphere_is_folded() const
+    {
+        return !found_in_pieces(static_cast<Index>(face_count()), [&](Index f) {
+                    return upright_on_sphere(triangles_, surface_.points, f) == (surface_.turned[f] != 0) &&
+                           longest_edge_on_sphere(triangles_, surface_.points, f) >= sphere_resolution;
+                }).empty();
+    }
+
     auto faces_around(Index v) const
     {
         return std::ranges::subrange(faces_of_.begin() + faces_begin_[v], faces_of_.begin() + faces_begin_[v + 1]);
@@ -146,11 +162,12 @@ private:
                (a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm());
     }
 
-    /// Lays the faces around a vertex out. @return the least quality
-    double lay_around(Index v)
+    /// Lays the faces around vertices out. @return the least quality
+    double lay_around(std::span<const Index> vertices)
     {
         std::vector<Index> polygons;
-        for (const Index f : faces_around(v)) polygons.push_back(polygon_of_[f]);
+        for (const Index v : vertices)
+            for (const Index f : faces_around(v)) polygons.push_back(polygon_of_[f]);
         sort_unique(polygons);
         double least = 1.0;
         for (const Index g : polygons) {
@@ -160,6 +177,8 @@ private:
         }
         return least;
     }
+
+    double lay_around(Index v) { return lay_around({&v, 1}); }
 
     double lay_around(Index v, const SpherePoint& place)
     {
@@ -179,6 +198,11 @@ private:
         for (const Index f : around)
             for (const Index v : triangles_.row(f)) vertices.push_back(v);
         sort_unique(vertices);
+        if (vertices.size() > most_near_a_cone_point) {  // only where the sphere is folded
+            const auto distance = [&](Index v) { return (places_.row(v).transpose() - point).norm(); };
+            std::ranges::stable_sort(vertices, {}, distance);
+            vertices.resize(most_near_a_cone_point);
+        }
         struct Way {
             std::tuple<bool, double, std::ptrdiff_t> rank;  // upright, the least quality, minus the vertices moved
             Index vertex;
@@ -201,7 +225,7 @@ private:
                      v,
                      reach});
                 places_(moved, Eigen::all) = home;
-                for (const Index u : moved) lay_around(u);
+                lay_around(moved);
             }
         }
         if (ways.empty()) return;
@@ -233,9 +257,7 @@ private:
             places_.row(u) = (Eigen::AngleAxisd(share * share * angle, axis) * from).normalized().transpose();
         }
         places_.row(vertex) = point.transpose();
-        double least = 1.0;
-        for (const Index u : moved) least = std::min(least, lay_around(u));
-        return least;
+        return lay_around(moved);
     }
 
     /// Faces within so many rings of some faces, ascending.
@@ -276,7 +298,7 @@ private:
                 sort_unique(vertices);
                 bool moved = false;
                 for (const Index v : vertices) moved |= improve(v, wanted);
-                if (!moved || moves_ >= most_vertex_moves) break;
+                if (!moved || moves_ >= most_moves_) break;
             }
     }
 
@@ -285,7 +307,7 @@ private:
     {
         context_.checkpoint();
         double most = lay_around(v);
-        if (most >= wanted || ++moves_ > most_vertex_moves) return false;
+        if (most >= wanted || ++moves_ > most_moves_) return false;
         const SpherePoint home = places_.row(v);
         SpherePoint best = home;
         double step = 0.0;
@@ -316,7 +338,7 @@ private:
     LayoutMarks marks_;
     std::vector<char> held_;  // (V) 1 for vertices at cone points
     std::vector<Index> by_polygon_, polygon_of_, polygon_begin_, faces_of_, faces_begin_;
-    std::size_t moves_ = 0;
+    std::size_t moves_ = 0, most_moves_ = most_vertex_moves;
 };
 
 }  // namespace

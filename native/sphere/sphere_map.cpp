@@ -32,6 +32,8 @@
 namespace koebe {
 namespace {
 
+constexpr std::size_t rounding_effort = 30000;  // to turn back faces that rounding in a rotation has turned over
+
 /// (V) directions from the surface's middle.
 Vertices directions_of(const PeriodicSurface& domain, const VectorXd& weights)
 {
@@ -178,7 +180,7 @@ SphereResult sphere_map_here(const CanonicalMesh& mesh, const SphereOptions& opt
         sphere.points.row(v) = (turn * sphere.points.row(v).transpose()).normalized().transpose();
     });
     for (Cap& cap : sphere.caps) cap.center = (turn * cap.center).normalized();
-    turn_back_on_sphere(domain, sphere, context);  // for faces that rounding after the rotation has turned over
+    turn_back_on_sphere(domain, sphere, context, rounding_effort);
     result.mean_point = (weights.transpose() * sphere.points).norm() / weights.sum();
 
     const SphereFaults faults = find_sphere_faults(domain.surface.triangles, domain.loops, sphere.points, sphere.caps);

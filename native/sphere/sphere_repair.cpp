@@ -29,12 +29,12 @@ enum class LoopFreedom { held, sliding, freed };
 
 class SphereRepair {
 public:
-    SphereRepair(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context)
+    SphereRepair(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context, std::size_t effort)
         : domain_(domain),
           triangles_(domain.surface.triangles),
           map_(map),
           context_(context),
-          effort_(triangles_.rows(), 1000000)
+          effort_(triangles_.rows(), effort)
     {
     }
 
@@ -304,9 +304,10 @@ private:
 
 }  // namespace
 
-std::size_t turn_back_on_sphere(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context)
+std::size_t turn_back_on_sphere(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context,
+                                std::size_t effort)
 {
-    return SphereRepair(domain, map, context).run();
+    return SphereRepair(domain, map, context, effort).run();
 }
 
 }  // namespace koebe

@@ -20,7 +20,9 @@ struct SphericalMap {
 /// wide. Each is projected from the middle of the ball to the plane that touches the sphere there. So the sides of its
 /// faces are straight, and faces upright in the plane are upright on the sphere. First loops are held, then they slide
 /// along their circles, then the loop vertices in the neighbourhood are freed.
+/// @param effort in steps of a face beside those of the whole surface (repair_effort.h)
 /// @return the number of faces still flipped, except those below sphere_resolution
-std::size_t turn_back_on_sphere(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context);
+std::size_t turn_back_on_sphere(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context,
+                                std::size_t effort = 300000);
 
 }  // namespace koebe

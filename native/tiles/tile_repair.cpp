@@ -16,7 +16,8 @@ namespace koebe {
 namespace {
 
 constexpr int most_tile_passes = 8;
-constexpr int most_in_vain = 3;  // passes that turn no face back
+constexpr int most_in_vain = 3;              // passes that turn no face back
+constexpr std::size_t tile_effort = 600000;  // steps of a face beside those of the whole (repair_effort.h)
 
 /// The tile as a mesh of the plane, with a vertex for each fan of corners that the tile joins.
 struct TileSheet {
@@ -233,7 +234,7 @@ std::vector<Index> tangled(const PeriodicSurface& domain, const Tile& tile)
 
 std::size_t turn_faces_back(const PeriodicSurface& domain, HoleShape shape, FlatMap& map, ExecutionContext& context)
 {
-    RepairEffort effort(domain.surface.triangles.rows(), 3000000);  // the first pass does most of the work
+    RepairEffort effort(domain.surface.triangles.rows(), tile_effort);
     std::vector<Index> left = tangled(domain, tile_of(domain, map));
     for (int pass = 0, in_vain = 0; pass < most_tile_passes && in_vain < most_in_vain && !left.empty(); ++pass) {
         context.advance(static_cast<double>(pass) / most_tile_passes);
