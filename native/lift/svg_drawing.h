@@ -32,8 +32,7 @@ struct SvgDrawing {
 /// and masks of plain white shapes, cut: `not_drawn` names the others.
 /// @param bytes of the file
 /// @throws InputError it is not an SVG, or damaged; a number is not finite; elements are nested more than a hundred
-/// deep; there are over a million curve segments; there is no closed curve; clips leave
-/// nothing
+/// deep; there are over a million curve segments; there is no closed curve; clips leave nothing
 KOEBE_API SvgDrawing parse_svg(std::string bytes);
 
 /// The curves as polygons that lie at most a tolerance from them, without the point that closes them.
