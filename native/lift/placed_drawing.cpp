@@ -28,46 +28,77 @@ double mean_uv_edge(const FlatSheet& sheet)
     return sum / static_cast<double>(sheet.uv.size());
 }
 
+/// The boundaries of the united paths.
+std::vector<FilledBoundary> united(const SvgDrawing& drawing, double tolerance)
+{
+    std::size_t corners = 0;
+    const auto filled = [&](const std::vector<SvgPath>& given) {
+        std::vector<FilledPath> paths;
+        for (const SvgPath& path : given) {
+            paths.push_back({path.even_odd, flattened(path, tolerance), path.clips});
+            for (const auto& ring : paths.back().rings) corners += ring.size();
+            if (corners > most_corners)
+                throw InputError("the drawing has over " + std::to_string(most_corners) +
+                                 " corners: simplify its paths");
+        }
+        return paths;
+    };
+    std::vector<std::vector<FilledPath>> clips;
+    for (const std::vector<SvgPath>& clip : drawing.clips) clips.push_back(filled(clip));
+    return united_paths(filled(drawing.paths), clips);
+}
+
+/// Moves all curves: z to factor (z - centre).
+void move_curves(SvgDrawing& drawing, Complex centre, Complex factor)
+{
+    const auto move = [&](std::vector<SvgPath>& paths) {
+        for (SvgPath& path : paths)
+            for (auto& curve : path.curves)
+                for (Complex& z : curve) z = factor * (z - centre);
+    };
+    move(drawing.paths);
+    std::ranges::for_each(drawing.clips, move);
+}
+
+/// A box around the drawing as it is cut.
+PlaneBox drawn_box(const SvgDrawing& drawing)
+{
+    std::vector<Complex> all;
+    if (drawing.clips.empty()) {
+        for (const SvgPath& path : drawing.paths)
+            for (const auto& polygon : flattened(path, of_drawing))
+                all.insert(all.end(), polygon.begin(), polygon.end());
+    } else {
+        for (const FilledBoundary& boundary : united(drawing, of_drawing))
+            all.insert(all.end(), boundary.points.begin(), boundary.points.end());
+    }
+    if (all.empty()) throw InputError("the clip paths and masks of the drawing leave nothing of it");
+    return box_around(all);
+}
+
 /// The paths turned, with the box's middle at 0 and its width 1.
 SvgDrawing in_unit_width(SvgDrawing drawing, double degrees)
 {
-    const Complex turn = unit_turn(degrees);
-    const double largest = std::max((drawing.high - drawing.low).real(), (drawing.high - drawing.low).imag());
-    const Complex middle = 0.5 * drawing.low + 0.5 * drawing.high;
-    std::vector<Complex> all;
-    for (SvgPath& path : drawing.paths)
-        for (auto& curve : path.curves) {
-            for (Complex& z : curve) z = turn * ((z - middle) / largest);
-            SvgPath one;
-            one.curves.push_back(curve);
-            for (const auto& polygon : flattened(one, of_drawing))
-                all.insert(all.end(), polygon.begin(), polygon.end());
-        }
-    const PlaneBox box = box_around(all);
+    const auto largest = [](Complex size) { return std::max(size.real(), size.imag()); };
+    move_curves(drawing, 0.5 * drawing.low + 0.5 * drawing.high, 1.0);
+    move_curves(drawing, 0.0, unit_turn(degrees) / largest(drawing.high - drawing.low));
+    PlaneBox box = drawn_box(drawing);
+    while (largest(box.size()) < 0.5 && box.size().real() > 0.0) {  // clips leave a small part: it is seen closer
+        move_curves(drawing, box.middle(), 1.0 / largest(box.size()));
+        box = drawn_box(drawing);
+    }
     if (!(box.size().real() > 0.0 && box.size().imag() > 0.0))
         throw InputError("the drawing has no width or no height, or is too large");
-    const double width = box.size().real();
-    const Complex centre = 0.5 * (box.low + box.high);
-    for (SvgPath& path : drawing.paths)
-        for (auto& curve : path.curves)
-            for (Complex& z : curve) z = (z - centre) / width;
-    drawing.low = (box.low - centre) / width;
-    drawing.high = (box.high - centre) / width;
+    move_curves(drawing, box.middle(), 1.0 / box.size().real());
+    drawing.low = (box.low - box.middle()) / box.size().real();
+    drawing.high = (box.high - box.middle()) / box.size().real();
     return drawing;
 }
 
 /// The boundaries of the united paths, their long sides divided.
 std::vector<FilledBoundary> drawn_boundaries(const SvgDrawing& drawing, double tolerance)
 {
-    std::vector<FilledPath> paths;
-    std::size_t corners = 0;
-    for (const SvgPath& path : drawing.paths) {
-        paths.push_back({path.even_odd, flattened(path, tolerance)});
-        for (const auto& ring : paths.back().rings) corners += ring.size();
-        if (corners > most_corners)
-            throw InputError("the drawing has over " + std::to_string(most_corners) + " corners: simplify its paths");
-    }
-    std::vector<FilledBoundary> boundaries = united_paths(paths);
+    std::vector<FilledBoundary> boundaries = united(drawing, tolerance);
     for (FilledBoundary& boundary : boundaries) {
         const std::vector<Complex> points = std::move(boundary.points);
         double length = 0.0;

@@ -1,19 +1,9 @@
 // The elements of an SVG as they are drawn: styles, switches and uses resolved. For svg_drawing.cpp only.
 #pragma once
 
-#include <rapidxml_ns/rapidxml_ns.hpp>
-
-#include <string>
+#include "lift/svg_words.h"
 
 namespace koebe::detail {
-
-using SvgDocument = rapidxml_ns::xml_document<>;
-using SvgNode = rapidxml_ns::xml_node<>;
-
-/// The text with the entities that its DOCTYPE declares in their places, and without the DOCTYPE, which Illustrator
-/// writes with all namespaces as entities.
-/// @throws InputError entities that grow to over 64 MB
-std::string with_entities(std::string text);
 
 /// Changes a document so that what is left can be drawn element by element:
 /// - The properties that rules of <style> or the attribute `style` give an element become its attributes, by the order
@@ -22,8 +12,10 @@ std::string with_entities(std::string text);
 ///   parent's.
 /// - Of a <switch> the first child whose conditions hold stays (SVG 1.1, 5.8).
 /// - A <use> becomes a group with a copy of its element. A <symbol> in it and an inner <svg> become groups with their
-///   place, viewBox and preserveAspectRatio as a transform.
-/// @throws InputError uses that contain themselves, or more than a hundred levels or 200,000 elements
+///   place, viewBox and preserveAspectRatio as a transform, cut by their viewport unless they overflow.
+/// - A clip path, or a mask of plain white shapes, becomes a <mask> at the end of the group that it cuts; a shape that
+///   is cut gets a group. The attributes `clip-path` and `mask` stay where they mean anything else.
+/// @throws InputError uses or clip paths that contain themselves, or more than a hundred levels or 200,000 elements
 void resolve(SvgDocument& document, SvgNode& root);
 
 }  // namespace koebe::detail

@@ -1,7 +1,9 @@
 #include "lift/svg_drawing.h"
 
 #include "core/errors.h"
+#include "lift/pattern_place.h"
 #include "lift/svg_document.h"
+#include "lift/svg_text.h"
 
 // svgpp's arcs seem uninitialized to gcc.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -19,8 +21,10 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <optional>
 #include <set>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 namespace koebe {
@@ -28,20 +32,38 @@ namespace {
 
 using XmlNode = rapidxml_ns::xml_node<>;
 
-constexpr int deepest = 100;                  // elements inside each other
 constexpr std::size_t most_pieces = 1000000;  // curve segments
 constexpr double closed_within = 1e-9;        // of a curve's size, between its ends
+constexpr double box_tolerance = 1e-5;        // of bounding boxes, of their size
 
 /// What the elements of the drawing add to.
 struct DrawingSink {
     SvgDrawing drawing;
     std::size_t pieces = 0;
+
+    /// The paths of the drawing (-1), or of a clip.
+    std::vector<SvgPath>& paths_of(Index clip)
+    {
+        return clip < 0 ? drawing.paths : drawing.clips[static_cast<std::size_t>(clip)];
+    }
 };
 
 /// The state inside an element; a child begins with a copy. svgpp calls its functions by these names.
 class SvgElement {
 public:
     explicit SvgElement(DrawingSink& sink) : sink_(&sink) {}
+    SvgElement(const SvgElement& around)
+        : sink_(around.sink_),
+          transform_(around.transform_),
+          even_odd_(around.even_odd_),
+          clip_(around.clip_),
+          first_(sink_->paths_of(clip_).size())
+    {
+    }
+    SvgElement& operator=(const SvgElement&) = delete;
+    ~SvgElement() = default;
+
+    std::size_t first_inside() const { return first_; }
 
     void transform_matrix(const boost::array<double, 6>& m)
     {
@@ -59,11 +81,11 @@ public:
     /// Takes the curves over. By now all attributes are known: they may come in any order.
     void on_exit_element()
     {
-        sink_->drawing.open += open_;
+        if (clip_ < 0) sink_->drawing.open += open_;
         for (std::vector<Complex>& curve : path_.curves)
             for (Complex& z : curve) z = moved(z);
         path_.even_odd = even_odd_;
-        if (!path_.curves.empty()) sink_->drawing.paths.push_back(std::move(path_));
+        if (!path_.curves.empty()) sink_->paths_of(clip_).push_back(std::move(path_));
         path_ = {};
     }
 
@@ -125,7 +147,7 @@ private:
         for (const Complex z : curve_) size = std::max(size, std::abs(z - curve_.front()));
         if (size == 0.0) return;
         const bool closes = std::abs(curve_.back() - curve_.front()) <= closed_within * size;
-        if (!close && !closes) {
+        if (!close && !closes && clip_ < 0) {  // a clip is filled, which closes
             ++open_;
             return;
         }
@@ -134,18 +156,81 @@ private:
         path_.curves.push_back(std::move(curve_));
     }
 
+protected:
+    /// Takes the bounding box of paths, from the one with this number on, for the unit square (SVG 1.1, 7.11).
+    void enter_bounding_box(const std::vector<SvgPath>& paths, std::size_t first)
+    {
+        const auto& m = transform_;
+        const double det = m[0] * m[3] - m[1] * m[2];
+        std::vector<Complex> points;
+        for (std::size_t k = first; k < paths.size() && det != 0.0; ++k) {
+            SvgPath path = paths[k];
+            double size = 0.0;
+            for (auto& curve : path.curves)
+                for (Complex& z : curve) {
+                    const double x = z.real() - m[4], y = -z.imag() - m[5];
+                    z = {(m[3] * x - m[2] * y) / det, (m[0] * y - m[1] * x) / det};
+                    size = std::max(size, std::abs(z - path.curves[0][0]));
+                }
+            for (const auto& polygon : flattened(path, box_tolerance * size))
+                points.insert(points.end(), polygon.begin(), polygon.end());
+        }
+        const PlaneBox box = points.empty() ? PlaneBox{} : box_around(points);
+        const Complex size = points.empty() ? Complex() : box.size();
+        transform_matrix({{size.real(), 0.0, 0.0, size.imag(), box.low.real(), box.low.imag()}});
+    }
+
     DrawingSink* sink_;
     std::array<double, 6> transform_{1.0, 0.0, 0.0, 1.0, 0.0, 0.0};
     bool even_odd_ = false;
+    Index clip_ = -1;        // what the paths are of: the drawing, or this clip
+    std::size_t first_ = 0;  // path inside the element
+
+private:
     int open_ = 0;
     std::vector<Complex> curve_;
     SvgPath path_;
 };
 
+/// A clip, which cuts all paths of the element around: it comes last there (svg_document.h).
+class SvgClip : public SvgElement {
+public:
+    explicit SvgClip(const SvgElement& around) : SvgElement(around), cut_(clip_), first_cut_(around.first_inside())
+    {
+        clip_ = static_cast<Index>(sink_->drawing.clips.size());
+        sink_->drawing.clips.emplace_back();
+    }
+
+    using SvgElement::set;
+    void set(svgpp::tag::attribute::maskContentUnits, svgpp::tag::value::userSpaceOnUse) {}
+    void set(svgpp::tag::attribute::maskContentUnits, svgpp::tag::value::objectBoundingBox)
+    {
+        enter_bounding_box(sink_->paths_of(cut_), first_cut_);
+    }
+
+    void on_exit_element()
+    {
+        std::vector<std::vector<SvgPath>>& clips = sink_->drawing.clips;
+        Index clip = clip_;
+        // a neighbour with the same clip is cut together with this element (planar/filled_paths.h)
+        if (clip > 0 && clip + 1 == static_cast<Index>(clips.size()) && clips[clips.size() - 2] == clips.back()) {
+            clips.pop_back();
+            --clip;
+        }
+        std::vector<SvgPath>& paths = sink_->paths_of(cut_);
+        for (std::size_t k = first_cut_; k < paths.size(); ++k) paths[k].clips.push_back(clip);
+    }
+
+private:
+    Index cut_;
+    std::size_t first_cut_;
+};
+
 struct SvgElementFactories {
     template <class Parent, class Tag>
     struct apply {  // NOLINT(readability-identifier-naming): SVG++ asks for it by this name
-        using type = svgpp::factory::context::on_stack<SvgElement>;
+        using type = svgpp::factory::context::on_stack<
+            std::conditional_t<std::is_same_v<Tag, svgpp::tag::element::mask>, SvgClip, SvgElement>>;
     };
 };
 
@@ -182,47 +267,16 @@ namespace element = svgpp::tag::element;
 namespace attribute = svgpp::tag::attribute;
 
 using SvgElements = boost::mpl::set<element::svg, element::g, element::a, element::path, element::rect, element::circle,
-                                    element::ellipse, element::polyline, element::polygon>::type;
-using SvgAttributes =
+                                    element::ellipse, element::polyline, element::polygon, element::mask>::type;
+using SvgAttributes = boost::mpl::insert<
     boost::mpl::insert<boost::mpl::insert<svgpp::traits::shapes_attributes_by_element, attribute::transform>::type,
-                       attribute::fill_rule>::type;
+                       attribute::fill_rule>::type,
+    attribute::maskContentUnits>::type;
 
 using SvgTraversal =
     svgpp::document_traversal<svgpp::processed_elements<SvgElements>, svgpp::processed_attributes<SvgAttributes>,
                               svgpp::context_factories<SvgElementFactories>, svgpp::error_policy<SvgErrors>,
                               svgpp::path_policy<svgpp::policy::path::minimal>>;
-
-/// Refuses deep nesting before the parser, which calls itself for each level.
-void require_shallow(std::string_view text)
-{
-    const auto after = [&](std::size_t at, std::string_view end) {
-        const std::size_t found = text.find(end, at);
-        return found == text.npos ? text.size() : found + end.size();
-    };
-    int depth = 0;
-    for (std::size_t at = text.find('<'); at < text.size(); at = text.find('<', at)) {
-        const std::string_view rest = text.substr(at);
-        if (rest.starts_with("<!--")) {
-            at = after(at + 4, "-->");
-        } else if (rest.starts_with("<![CDATA[")) {
-            at = after(at, "]]>");
-        } else if (rest.starts_with("<?")) {
-            at = after(at, "?>");
-        } else if (rest.starts_with("</")) {
-            --depth;
-            at += 2;
-        } else if (rest.starts_with("<!")) {
-            at += 2;
-        } else {
-            char quote = 0;
-            for (++at; at < text.size() && (quote != 0 || text[at] != '>'); ++at)
-                if (quote != 0 ? text[at] == quote : text[at] == '"' || text[at] == '\'')
-                    quote = quote != 0 ? 0 : text[at];
-            if (at < text.size() && text[at - 1] != '/' && ++depth > deepest)
-                throw InputError("elements of the SVG are nested more than " + std::to_string(deepest) + " deep");
-        }
-    }
-}
 
 const XmlNode* next_in_document(const XmlNode* node, const XmlNode* root)
 {
@@ -247,18 +301,43 @@ std::vector<std::string> not_drawn_in(const XmlNode* root)
     return {names.begin(), names.end()};
 }
 
+/// A box around the control points of paths, cut by the boxes of their clips. Empty: no value
+std::optional<PlaneBox> box_of(const SvgDrawing& drawing, const std::vector<SvgPath>& paths,
+                               std::vector<std::optional<std::optional<PlaneBox>>>& known)
+{
+    std::optional<PlaneBox> all;
+    const auto low = [](Complex a, Complex b) {
+        return Complex(std::min(a.real(), b.real()), std::min(a.imag(), b.imag()));
+    };
+    const auto high = [](Complex a, Complex b) {
+        return Complex(std::max(a.real(), b.real()), std::max(a.imag(), b.imag()));
+    };
+    for (const SvgPath& path : paths) {
+        std::vector<Complex> points;
+        for (const auto& curve : path.curves) points.insert(points.end(), curve.begin(), curve.end());
+        std::optional<PlaneBox> box = box_around(points);
+        for (const Index clip : path.clips) {
+            std::optional<std::optional<PlaneBox>>& other = known[clip];
+            if (!other) other = box_of(drawing, drawing.clips[clip], known);
+            if (box && *other) *box = {high(box->low, (*other)->low), low(box->high, (*other)->high)};
+            const bool meet = box && *other && box->size().real() > 0.0 && box->size().imag() > 0.0;
+            if (!meet) box.reset();
+        }
+        if (box) all = all ? PlaneBox{low(all->low, box->low), high(all->high, box->high)} : *box;
+    }
+    return all;
+}
+
 void measure_box(SvgDrawing& drawing)
 {
-    drawing.low = drawing.high = drawing.paths.front().curves.front().front();
-    for (const SvgPath& path : drawing.paths)
-        for (const auto& curve : path.curves)
-            for (const Complex z : curve) {
-                drawing.low = {std::min(drawing.low.real(), z.real()), std::min(drawing.low.imag(), z.imag())};
-                drawing.high = {std::max(drawing.high.real(), z.real()), std::max(drawing.high.imag(), z.imag())};
-            }
-    const Complex size = drawing.high - drawing.low;
+    std::vector<std::optional<std::optional<PlaneBox>>> known(drawing.clips.size());
+    const std::optional<PlaneBox> box = box_of(drawing, drawing.paths, known);
+    if (!box) throw InputError("the clip paths and masks of the drawing leave nothing of it");
+    const Complex size = box->size();
     if (!(std::isfinite(size.real()) && std::isfinite(size.imag()) && size.real() > 0.0 && size.imag() > 0.0))
         throw InputError("the drawing has no width or no height, or is too large");
+    drawing.low = box->low;
+    drawing.high = box->high;
 }
 
 std::string listed(const std::vector<std::string>& names)
@@ -299,7 +378,7 @@ SvgDrawing parse_svg(std::string bytes)
 {
     if (bytes.find('\0') != std::string::npos) throw InputError("the SVG holds a zero byte: it is no text in UTF-8");
     bytes = detail::with_entities(std::move(bytes));
-    require_shallow(bytes);
+    detail::require_shallow(bytes);
     SvgDrawing drawing;
     try {
         drawing = traversed(bytes);

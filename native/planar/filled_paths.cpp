@@ -5,7 +5,12 @@
 #include "planar/planar_predicates.h"
 #include "planar/planar_region.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -32,9 +37,15 @@ using VertexHandle = FillTriangulation::Vertex_handle;
 /// A face and one of its edges, the one opposite its vertex of this number.
 using FaceEdge = std::pair<FaceHandle, int>;
 
+/// By which numbers of windings a point is inside.
+enum FillRule : int {
+    odd = 0,
+    nonzero = 1  ///< at least so many, either way round; n: inside n areas, given by their boundaries
+};
+
 class Filling {
 public:
-    Filling(const std::vector<std::vector<Complex>>& rings, bool even_odd) : even_odd_(even_odd)
+    Filling(const std::vector<std::vector<Complex>>& rings, int rule) : rule_(rule)
     {
         std::vector<CountedSegment> segments;
         for (const std::vector<Complex>& ring : rings)
@@ -98,7 +109,7 @@ private:
             const FaceHandle face = front.back();
             front.pop_back();
             const int windings = face->info().windings;
-            face->info().inside = even_odd_ ? windings % 2 != 0 : windings != 0;
+            face->info().inside = rule_ == odd ? windings % 2 != 0 : std::abs(windings) >= rule_;
             for (int edge = 0; edge < 3; ++edge) {
                 const FaceHandle next = face->neighbor(edge);
                 if (next->info().seen) continue;
@@ -167,22 +178,72 @@ private:
         return boundary;
     }
 
-    bool even_odd_;
+    int rule_;
     FillTriangulation triangulation_;
     std::vector<FaceEdge> border_;
 };
 
+using Rings = std::vector<std::vector<Complex>>;
+
+/// Adds the boundaries of what rings fill.
+void append_filled(const Rings& rings, int rule, Rings& to)
+{
+    for (FilledBoundary& boundary : Filling(rings, rule).boundaries()) to.push_back(std::move(boundary.points));
+}
+
+/// What clips leave of paths.
+class ClippedPaths {
+public:
+    explicit ClippedPaths(const std::vector<std::vector<FilledPath>>& clips) : clips_(clips), known_(clips.size()) {}
+
+    /// Boundaries of areas that may overlap each other. Paths with the same clips are united first.
+    Rings areas(const std::vector<FilledPath>& paths)
+    {
+        std::map<std::vector<Index>, Rings> alike;
+        for (const FilledPath& path : paths)
+            append_filled(path.rings, path.even_odd ? odd : nonzero, alike[path.clips]);
+        Rings all;
+        for (auto& [clips, rings] : alike) {
+            if (!clips.empty()) {  // one arrangement of the areas and the clips: inside is inside all
+                Rings both;
+                append_filled(rings, nonzero, both);
+                for (const Index clip : clips) {
+                    const Rings& other = clip_area(clip);
+                    both.insert(both.end(), other.begin(), other.end());
+                }
+                rings.clear();
+                append_filled(both, static_cast<int>(clips.size()) + 1, rings);
+            }
+            std::ranges::move(rings, std::back_inserter(all));
+        }
+        return all;
+    }
+
+private:
+    const Rings& clip_area(Index clip)
+    {
+        std::optional<Rings>& known = known_[static_cast<std::size_t>(clip)];
+        if (!known) {
+            Rings area;
+            append_filled(areas(clips_[static_cast<std::size_t>(clip)]), nonzero, area);
+            known = std::move(area);
+        }
+        return *known;
+    }
+
+    const std::vector<std::vector<FilledPath>>& clips_;
+    std::vector<std::optional<Rings>> known_;
+};
+
 }  // namespace
 
-std::vector<FilledBoundary> united_paths(const std::vector<FilledPath>& paths)
+std::vector<FilledBoundary> united_paths(const std::vector<FilledPath>& paths,
+                                         const std::vector<std::vector<FilledPath>>& clips)
 {
     const SilentCgal silent;
-    if (paths.size() == 1) return Filling(paths.front().rings, paths.front().even_odd).boundaries();
-    std::vector<std::vector<Complex>> rings;
-    for (const FilledPath& path : paths)
-        for (FilledBoundary& boundary : Filling(path.rings, path.even_odd).boundaries())
-            rings.push_back(std::move(boundary.points));
-    return Filling(rings, false).boundaries();
+    if (paths.size() == 1 && paths.front().clips.empty())
+        return Filling(paths.front().rings, paths.front().even_odd ? odd : nonzero).boundaries();
+    return Filling(ClippedPaths(clips).areas(paths), nonzero).boundaries();
 }
 
 }  // namespace koebe

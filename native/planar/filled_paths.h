@@ -11,6 +11,7 @@ namespace koebe {
 struct FilledPath {
     bool even_odd = false;  ///< rule by the number of windings: odd ones are inside; else all but 0
     std::vector<std::vector<Complex>> rings;
+    std::vector<Index> clips;  ///< only what lies in all of these is filled
 };
 
 /// A boundary of the filled area, with this area on its left: counter-clockwise outside, clockwise round a hole.
@@ -22,7 +23,10 @@ struct FilledBoundary {
 
 /// The union of filled paths. Polygons may cross themselves and each other: crossings are found by a sweep and rounded
 /// to floats (divided_segments.h), so that boundaries meet at common points only.
-/// @param paths finite @throws InputError over a million crossings
-std::vector<FilledBoundary> united_paths(const std::vector<FilledPath>& paths);
+/// @param paths finite
+/// @param clips each the union of its paths, which may be clipped in turn, but not by themselves
+/// @throws InputError over a million crossings
+std::vector<FilledBoundary> united_paths(const std::vector<FilledPath>& paths,
+                                         const std::vector<std::vector<FilledPath>>& clips = {});
 
 }  // namespace koebe

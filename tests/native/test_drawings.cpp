@@ -33,6 +33,19 @@ SvgDrawing drawing_of(const std::string& inside)
     return parse_svg("<svg xmlns='http://www.w3.org/2000/svg'>" + inside + "</svg>");
 }
 
+/// The area of a drawing as it is cut.
+double cut_area(const SvgDrawing& drawing)
+{
+    const auto filled = [](const std::vector<SvgPath>& given) {
+        std::vector<FilledPath> paths;
+        for (const SvgPath& path : given) paths.push_back({path.even_odd, flattened(path, 1e-4), path.clips});
+        return paths;
+    };
+    std::vector<std::vector<FilledPath>> clips;
+    for (const std::vector<SvgPath>& clip : drawing.clips) clips.push_back(filled(clip));
+    return area_of(united_paths(filled(drawing.paths), clips));
+}
+
 }  // namespace
 
 TEST(FilledPaths, TheRuleDecidesAboutAHole)
@@ -70,6 +83,27 @@ TEST(FilledPaths, RandomBoxesCoverAsManyCellsAsTheyHold)
         for (const auto& row : inside)
             for (const bool cell : row) cells += cell;
         EXPECT_NEAR(area_of(united_paths(paths)), cells, 1e-9);
+    }
+}
+
+TEST(FilledPaths, ClipsLeaveTheCellsThatLieInAllOfThem)
+{
+    std::mt19937 random(54);
+    for (int trial = 0; trial < 40; ++trial) {
+        // the first set is the drawing, cut by the second; the second, by the third
+        std::vector<std::vector<FilledPath>> sets(3);
+        bool inside[3][12][12] = {};
+        for (int k = 0; k < 9; ++k) {
+            const int x = random() % 6, y = random() % 6, w = 1 + random() % 6, h = 1 + random() % 6;
+            sets[k % 3].push_back({k % 2 == 0, {box(x, y, w, h)}, {}});
+            if (k % 3 < 2) sets[k % 3].back().clips = {k % 3};
+            for (int i = x; i < x + w; ++i)
+                for (int j = y; j < y + h; ++j) inside[k % 3][i][j] = true;
+        }
+        double cells = 0.0;
+        for (int i = 0; i < 12; ++i)
+            for (int j = 0; j < 12; ++j) cells += inside[0][i][j] && inside[1][i][j] && inside[2][i][j];
+        EXPECT_NEAR(area_of(united_paths(sets[0], {sets[1], sets[2]})), cells, 1e-9);
     }
 }
 
@@ -133,6 +167,59 @@ TEST(SvgDrawing, OnlyWhatIsShownIsDrawn)
     EXPECT_NEAR(drawn("<g fill='none' stroke='red'>" + shown + "</g>"), 100.0, 1e-9) << "cutters' files are strokes";
 }
 
+TEST(SvgDrawing, ClipPathsAndWhiteMasksCut)
+{
+    const std::string half =
+        "<clipPath id='half' clipPathUnits='objectBoundingBox'><rect width='.5' height='1'/></clipPath>";
+    const std::string ring = "<path id='o' d='M0 0H6V6H0Z M2 2H4V4H2Z' clip-rule='evenodd'/>";
+    struct Case {
+        std::string defined, drawn;
+        double area;
+    };
+    const std::string square = "<rect width='6' height='6' clip-path='url(#c)'/>";
+    for (const Case& one : std::vector<Case>{
+             {"<clipPath id='c'><rect width='4' height='9'/></clipPath>", square, 24.0},
+             {"<clipPath id='c' transform='scale(.5)'><rect width='4' height='9'/></clipPath>", square, 9.0},
+             {"<clipPath id='c'>" + ring + "</clipPath>", square, 32.0},
+             {"<g clip-rule='evenodd'><clipPath id='c'><path d='M0 0H6V6H0Z M2 2H4V4H2Z'/></clipPath></g>", square,
+              32.0},
+             {"<defs>" + ring + "</defs><clipPath id='c'><use href='#o' x='3'/></clipPath>", square, 16.0},
+             {"<clipPath id='c'><path d='M0 0H6V6' fill='none'/></clipPath>", square, 18.0},
+             {"<clipPath id='c'><g><rect width='9' height='9'/></g></clipPath>", square + "<path d='M7 0h1v1h-1z'/>",
+              1.0},
+             {half, "<rect width='6' height='6' style=\"clip-path: url('#half')\"/>", 18.0},
+             {half,
+              "<g clip-path='url(#half)' transform='scale(2)'><path d='M1 0h2v1h-2z'/><path d='M5 0h2v1h-2z'/></g>",
+              8.0},
+             {half + "<clipPath id='c' clip-path='url(#half)'><rect width='4' height='6'/></clipPath>", square, 12.0},
+             {half + "<clipPath id='c'><rect clip-path='url(#half)' width='4' height='6'/><path d='M5 "
+                     "0h1v1h-1z'/></clipPath>",
+              square, 13.0},
+             {half, "<g clip-path='url(#half)'><g clip-path='url(#half)'><path d='M0 0h8v1h-8z'/></g></g>", 4.0},
+             {"", square, 36.0},  // what is not there cuts nothing
+             {"<mask id='m'><rect fill='white' width='4' height='4'/></mask>",
+              "<rect mask='url(#m)' width='6' height='3'/>", 12.0},
+             {"<mask id='m' maskUnits='userSpaceOnUse' width='2' height='9' x='0' y='0' fill='#fff'><circle "
+              "r='9'/></mask>",
+              "<rect mask='url(#m)' width='6' height='3'/>", 6.0},
+             {"", "<svg width='2' height='2'><rect width='6' height='3'/></svg>", 4.0},
+             {"", "<svg width='2' height='2' overflow='visible'><rect width='6' height='3'/></svg>", 18.0}}) {
+        const SvgDrawing drawing = drawing_of(one.defined + one.drawn);
+        EXPECT_NEAR(cut_area(drawing), one.area, 1e-2) << one.defined << one.drawn;
+        EXPECT_TRUE(drawing.not_drawn.empty()) << one.defined << one.drawn;
+    }
+    // what is no clip is told of, and cuts nothing
+    for (const char* mask : {"<rect width='4' height='4'/>", "<rect fill='white' opacity='.5' width='4' height='4'/>",
+                             "<rect fill='white' width='4' height='4'/><text>a</text>"}) {
+        const SvgDrawing drawing =
+            drawing_of("<mask id='m'>" + std::string(mask) + "</mask><rect mask='url(#m)' width='6' height='3'/>");
+        EXPECT_NEAR(cut_area(drawing), 18.0, 1e-9);
+        EXPECT_EQ(drawing.not_drawn, std::vector<std::string>{"mask"});
+    }
+    EXPECT_THROW(drawing_of("<clipPath id='c'/>" + square), InputError) << "nothing is left";
+    EXPECT_THROW(drawing_of("<clipPath id='c' clip-path='url(#c)'><rect/></clipPath>" + square), InputError);
+}
+
 TEST(SvgDrawing, UsesAndViewportsAreTransforms)
 {
     const auto size_of = [](const std::string& inside) {
@@ -146,7 +233,8 @@ TEST(SvgDrawing, UsesAndViewportsAreTransforms)
     };
     EXPECT_NEAR(std::abs(size_of(symbol("")) - Complex(10.0, 20.0)), 0.0, 1e-9);
     EXPECT_NEAR(std::abs(size_of(symbol("none")) - Complex(20.0, 20.0)), 0.0, 1e-9);
-    EXPECT_NEAR(std::abs(size_of(symbol("xMinYMid slice")) - Complex(20.0, 40.0)), 0.0, 1e-9);
+    EXPECT_NEAR(std::abs(size_of(symbol("xMinYMid slice")) - Complex(20.0, 20.0)), 0.0, 1e-9);
+    EXPECT_NEAR(std::abs(size_of(symbol("xMinYMid slice' overflow='visible")) - Complex(20.0, 40.0)), 0.0, 1e-9);
     EXPECT_NEAR(
         std::abs(size_of("<defs>" + box + "</defs><use href='#p' transform='scale(2)'/>") - Complex(10.0, 20.0)), 0.0,
         1e-9);
