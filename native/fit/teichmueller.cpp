@@ -173,17 +173,22 @@ std::optional<double> dilatation_by_modulus(const CompactDomain& domain, const s
     return std::max(ratio, 1.0 / ratio);
 }
 
+/// b's circles in the order of a's loops. @param inverse a's loop for each of b's
+std::vector<Circle> in_order_of(const std::vector<int>& inverse, const std::vector<Circle>& b)
+{
+    std::vector<Circle> result(b.size());
+    for (std::size_t k = 0; k < b.size(); ++k) result[static_cast<std::size_t>(inverse[k])] = b[k];
+    return result;
+}
+
 TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circle>& b, const std::vector<int>& inverse,
                              const Held& held, ExecutionContext& context)
 {
     const Triangles& triangles = domain.surface.triangles;
-    std::vector<Circle> goal(b.size());
+    const std::vector<Circle> goal = in_order_of(inverse, b);
     TeichmuellerMap result;
     result.match.assign(b.size(), 0);
-    for (std::size_t k = 0; k < b.size(); ++k) {
-        goal[static_cast<std::size_t>(inverse[k])] = b[k];
-        result.match[static_cast<std::size_t>(inverse[k])] = static_cast<int>(k);
-    }
+    for (std::size_t k = 0; k < b.size(); ++k) result.match[static_cast<std::size_t>(inverse[k])] = static_cast<int>(k);
     PlanarPoints undistorted;
     const TemplateStart start = laid_over(domain, goal, held, undistorted, context);
     PlanarPoints uv = start.uv;
@@ -259,7 +264,8 @@ TeichmuellerMap least_map(const CompactDomain& domain, const std::vector<Circle>
     constexpr std::size_t most_maps = 100;
     std::optional<TeichmuellerMap> best;
     std::exception_ptr error;
-    std::size_t refused = 0, tried = 0;
+    std::vector<std::vector<int>> refused;
+    std::size_t tried = 0;
     context.begin_stage("fit", 0.0, 1.0);
     ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
     const auto attempt = [&](const std::vector<int>& inverse) {
@@ -272,7 +278,17 @@ TeichmuellerMap least_map(const CompactDomain& domain, const std::vector<Circle>
             throw;
         } catch (const SolverError&) {
             if (!error) error = std::current_exception();
-            ++refused;
+            refused.push_back(inverse);
+        }
+    };
+    const auto may_beat = [&](double dilatation, const std::vector<int>& inverse) {
+        try {
+            const DilatationBounds bounds = domain_dilatation(domain.circles, in_order_of(inverse, b), inner);
+            return std::sqrt(bounds.lower * bounds.upper) < dilatation;
+        } catch (const OutOfMemory&) {
+            throw;
+        } catch (const SolverError&) {
+            return true;
         }
     };
     const std::vector<int> first = inverse_match(domain, b, {}, {}, context);
@@ -283,7 +299,8 @@ TeichmuellerMap least_map(const CompactDomain& domain, const std::vector<Circle>
         if (inverse != first) attempt(inverse);
     }
     if (!best) std::rethrow_exception(error);
-    best->refused = refused;
+    // K depends on the circles alone: without a map it still tells that a match is not the one with the least K.
+    for (const std::vector<int>& inverse : refused) best->refused += may_beat(best->dilatation, inverse);
     context.advance(1.0);
     return *best;
 }

@@ -1,5 +1,7 @@
 #include "iteration/disk_dirichlet_to_neumann.h"
 
+#include <Eigen/SparseCholesky>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -158,9 +160,16 @@ MatrixXd of_hats(Arcs& arcs)
 
 constexpr double widest = 1.0;  // rad: widest arc for which the corrections count in full
 
-/// S' T S. Row of S at a node: u - (d_- d_+ / 12) u'' by divided differences. The diagonal is at most 7/6, so that S is
-/// diagonally dominant.
-MatrixXd of_sharpened(const MatrixXd& t, const Arcs& arcs)
+/// The correction of hat functions at a node between arcs of these widths: times u'', by of_sharpened.
+double hat_correction(double last, double next)
+{
+    return std::min(1.0, widest / (0.5 * (last + next))) * last * next / 12.0;
+}
+
+/// S' T S. Row of S at a node: u - amount u'' by divided differences.
+/// @param amount of a node between arcs of these widths, (their product) / 6 at most: S is diagonally dominant then
+template <typename Amount>
+MatrixXd of_sharpened(const MatrixXd& t, const Arcs& arcs, Amount&& amount)
 {
     const Eigen::Index m = arcs.count();
     const auto before = [&](Eigen::Index a) { return a == 0 ? m - 1 : a - 1; };
@@ -168,9 +177,9 @@ MatrixXd of_sharpened(const MatrixXd& t, const Arcs& arcs)
     VectorXd to_last(m), to_next(m);  // S(a, a - 1) and S(a, a + 1), with the diagonal of sum 1
     for (Eigen::Index a = 0; a < m; ++a) {
         const double last = arcs.width(before(a)), next = arcs.width(a);
-        const double share = std::min(1.0, widest / (0.5 * (last + next))) / (6.0 * (last + next));
-        to_last[a] = -share * next;
-        to_next[a] = -share * last;
+        const double share = 2.0 * amount(a, last, next) / (last + next);
+        to_last[a] = -share / last;
+        to_next[a] = -share / next;
     }
     const auto times_s = [&](const MatrixXd& matrix) {
         MatrixXd result(m, m);
@@ -185,17 +194,19 @@ MatrixXd of_sharpened(const MatrixXd& t, const Arcs& arcs)
 
 /// Subtracts the segments between circle and polygon. Over each arc a segment has mean height d^2 / 12, and |grad U|^2
 /// in it is about twice the squared slope along the arc. Up to `widest` that is at most 0.62 of t, so t stays positive.
-void take_off_segments(MatrixXd& t, const Arcs& arcs)
+/// @param segments over each arc: their factor of the squared difference of its ends, d / 6 for one segment
+void take_off_segments(MatrixXd& t, const VectorXd& segments)
 {
-    for (Eigen::Index a = 0; a < arcs.count(); ++a) {
-        const Eigen::Index b = a + 1 < arcs.count() ? a + 1 : 0;
-        const double segment = std::min(arcs.width(a), widest) / 6.0;
-        t(a, a) -= segment;
-        t(b, b) -= segment;
-        t(a, b) += segment;
-        t(b, a) += segment;
+    for (Eigen::Index a = 0; a < segments.size(); ++a) {
+        const Eigen::Index b = a + 1 < segments.size() ? a + 1 : 0;
+        t(a, a) -= segments[a];
+        t(b, b) -= segments[a];
+        t(a, b) += segments[a];
+        t(b, a) += segments[a];
     }
 }
+
+double segment(double arc) { return std::min(arc, widest) / 6.0; }
 
 }  // namespace
 
@@ -213,49 +224,67 @@ MatrixXd disk_dirichlet_to_neumann(const VectorXd& angles)
 {
     Arcs arcs(angles);
     MatrixXd t = of_hats(arcs);
-    if (arcs.count() > 2) t = of_sharpened(t, arcs);
-    take_off_segments(t, arcs);
+    if (arcs.count() > 2)
+        t = of_sharpened(t, arcs, [](Eigen::Index, double last, double next) { return hat_correction(last, next); });
+    VectorXd segments(arcs.count());
+    for (Eigen::Index a = 0; a < arcs.count(); ++a) segments[a] = segment(arcs.width(a));
+    take_off_segments(t, segments);
     return t;
 }
 
 CoarseDisk coarse_disk(const VectorXd& angles, const std::vector<std::vector<Index>>& places)
 {
     const Eigen::Index m = angles.size(), n = static_cast<Eigen::Index>(places.size());
-    const double spacing = static_cast<double>(m) / static_cast<double>(n);
     const auto arc = [&](Eigen::Index i) {
         return i + 1 < m ? angles[i + 1] - angles[i] : angles[0] + 2.0 * pi - angles[i];
     };
-    // The means, and their angles: angles are unrolled from each mean's first node on.
+    // P: hats at every few vertices, where the places of the mean before end. A: the arc around each vertex.
+    VectorXd nodes(n), segments = VectorXd::Zero(n), mass(m);
+    std::vector<Eigen::Triplet<double, Index>> hats;
+    for (Eigen::Index c = 0; c < n; ++c) {
+        const Eigen::Index first = c > 0 ? places[c - 1].back() + 1 : 0, end = places[c].back() + 1;
+        nodes[c] = angles[first];
+        const double width = (end < m ? angles[end] : angles[0] + 2.0 * pi) - nodes[c];
+        for (Eigen::Index i = first; i < end; ++i) {
+            const double share = (angles[i] - nodes[c]) / width;
+            hats.emplace_back(static_cast<Index>(i), static_cast<Index>(c), 1.0 - share);
+            hats.emplace_back(static_cast<Index>(i), static_cast<Index>(c + 1 < n ? c + 1 : 0), share);
+            mass[i] = 0.5 * (arc(i) + arc(i > 0 ? i - 1 : m - 1));
+            // The polygon is the loop's: with slope s along the wide arc its segments take d_i^3 / 6 s^2 each.
+            segments[c] += segment(arc(i)) * std::pow(arc(i) / width, 2);
+        }
+    }
+    SparseMatrix weights(m, n);
+    weights.setFromTriplets(hats.begin(), hats.end());
+    // The projection to hats is Q = G^-1 P' A with G = P' A P, and P' A is the means times their weights' sums.
+    const SparseMatrix transposed = weights.transpose();
+    weights = mass.asDiagonal() * weights;
+    const Eigen::SimplicialLDLT<SparseMatrix> gram(SparseMatrix(transposed * weights));
+    const VectorXd sums = weights.transpose() * VectorXd::Ones(m);
     CoarseDisk result;
-    VectorXd middles(n);
     for (Eigen::Index c = 0; c < n; ++c) {
         const std::vector<Index>& own = places[static_cast<std::size_t>(c)];
-        VectorXd weights(static_cast<Eigen::Index>(own.size()));
-        double sum = 0.0;
-        for (Eigen::Index j = 0; j < weights.size(); ++j) {
-            const Index i = own[static_cast<std::size_t>(j)];
-            double away = std::abs(static_cast<double>(i) - static_cast<double>(c) * spacing);
-            away = std::min(away, static_cast<double>(m) - away);
-            weights[j] = std::max(1.0 - away / spacing, 0.0) * 0.5 * (arc(i) + arc(i > 0 ? i - 1 : m - 1));
-            const double turn = i < own.front() ? 2.0 * pi : 0.0;
-            sum += weights[j] * (angles[i] + turn);
-        }
-        middles[c] = sum / weights.sum() - (own.front() > own.back() && c == 0 ? 2.0 * pi : 0.0);
-        result.means.emplace_back(weights / weights.sum());
+        VectorXd& mean = result.means.emplace_back(static_cast<Eigen::Index>(own.size()));
+        for (Eigen::Index j = 0; j < mean.size(); ++j)
+            mean[j] = weights.coeff(own[static_cast<std::size_t>(j)], static_cast<Index>(c)) / sums[c];
     }
-    result.stiffness = disk_dirichlet_to_neumann(middles);
+    // Q u = u + e u'' at the nodes, where exp(i theta) tells e. It nearly cancels the error of hat functions.
+    MatrixXd parts(m, 2);
+    parts << angles.array().cos(), angles.array().sin();
+    const MatrixXd mode = gram.solve(MatrixXd(weights.transpose() * parts));
+    Arcs arcs(nodes);
+    MatrixXd t = of_sharpened(of_hats(arcs), arcs, [&](Eigen::Index c, double last, double next) {
+        const double e = 1.0 - std::cos(nodes[c]) * mode(c, 0) - std::sin(nodes[c]) * mode(c, 1);
+        return std::clamp(hat_correction(last, next) + e, 0.0, last * next / 6.0);
+    });
+    take_off_segments(t, segments);
     // The energy of exp(i theta): 2 pi of the disk, less the segments outside of the polygon.
     double exact = 2.0 * pi;
-    for (Eigen::Index i = 0; i < m; ++i) exact -= std::min(arc(i), widest) * (2.0 - 2.0 * std::cos(arc(i))) / 6.0;
-    VectorXcd mode(n);
-    for (Eigen::Index c = 0; c < n; ++c) {
-        Complex sum = 0.0;
-        for (Eigen::Index j = 0; j < result.means[static_cast<std::size_t>(c)].size(); ++j)
-            sum += result.means[static_cast<std::size_t>(c)][j] *
-                   std::polar(1.0, angles[places[static_cast<std::size_t>(c)][static_cast<std::size_t>(j)]]);
-        mode[c] = sum;
-    }
-    result.stiffness *= exact / (mode.dot(result.stiffness * mode)).real();
+    for (Eigen::Index i = 0; i < m; ++i) exact -= segment(arc(i)) * (2.0 - 2.0 * std::cos(arc(i)));
+    t *= exact / (mode.transpose() * t * mode).trace();
+    t = gram.solve(MatrixXd(gram.solve(t).transpose()));
+    t = sums.asDiagonal() * t * sums.asDiagonal();
+    result.stiffness = 0.5 * (t + t.transpose());
     return result;
 }
 

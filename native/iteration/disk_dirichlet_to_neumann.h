@@ -27,10 +27,11 @@ struct CoarseDisk {
     std::vector<VectorXd> means;  ///< weights of each mean, sum 1
 };
 
-/// Takes T at the angles of the means of exp(i theta), scaled so that the mode exp(i theta) has the energy that it has
-/// for T(theta). In a circle domain the map is that mode on each loop, so other modes hardly matter.
-/// A mean's weights are hats, as wide as its places, times the arc around each node.
-/// @param angles as above @param places per mean: its nodes in order, the middle one nearest
+/// Projects functions on the loop to hats on every few of its vertices by least squares, and takes T there. The flux of
+/// a smooth function then reaches the loop's vertices by their arcs: a flux that alternates between nodes would leave
+/// an error of the first order in their spacing. T is scaled so that exp(i theta), which the map of a circle domain is
+/// on each loop, has the energy that it has for T(theta). A mean's weights are a hat times the arc around each vertex.
+/// @param angles as above @param places per mean: its nodes in order, between the vertices of the means beside it
 CoarseDisk coarse_disk(const VectorXd& angles, const std::vector<std::vector<Index>>& places);
 
 /// sum over j >= 1 of cos(j t) / j^3, for any t.

@@ -3,7 +3,6 @@
 #include "core/errors.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -14,7 +13,7 @@ namespace {
 constexpr double stiffness = 1e20;  // over the largest diagonal entry: its inverse vanishes beside rounding
 
 constexpr std::size_t most_dense = 500;                 // vertices of a loop: its disk's factor takes about 0.1 s
-constexpr Index fewest_nodes = 500, most_nodes = 1000;  // of a longer loop
+constexpr Index fewest_nodes = 500, most_nodes = 1000;  // of a longer loop, at most
 constexpr Index vertices_a_node = 25;                   // springs with more vertices cost more than a denser disk
 
 /// Of the springs, over K's entries. A node is then off its mean by a millionth of its potential at most.
@@ -68,12 +67,14 @@ std::vector<Index> joined(const std::vector<std::vector<Index>>& loops)
 std::vector<std::vector<Index>> FilledLaplacian::nodes(Index loop_size)
 {
     if (loop_size <= static_cast<Index>(most_dense)) return {};
-    const Index count = std::clamp(loop_size / vertices_a_node, fewest_nodes, most_nodes);
+    // Gaps of one length but for a run of longer ones: gaps that alternate would cost an order of accuracy.
+    const Index most = std::clamp(loop_size / vertices_a_node, fewest_nodes, most_nodes);
+    const Index gap = (loop_size + most - 1) / most, count = loop_size / gap, longer = loop_size % gap;
+    const auto node = [&](Index c) { return c * gap + std::min(c, longer); };
     std::vector<std::vector<Index>> ties(static_cast<std::size_t>(count));
-    const auto m = static_cast<std::int64_t>(loop_size), n = static_cast<std::int64_t>(count);
-    for (std::int64_t c = 0; c < n; ++c)
-        for (std::int64_t i = (c - 1) * m / n; i * n < (c + 1) * m; ++i)  // |i - c m / n| < m / n
-            if (i * n > (c - 1) * m) ties[static_cast<std::size_t>(c)].push_back(static_cast<Index>((i + m) % m));
+    for (Index c = 0; c < count; ++c)
+        for (Index i = c > 0 ? node(c - 1) : node(count - 1) - loop_size; ++i < node(c + 1);)
+            ties[static_cast<std::size_t>(c)].push_back(i < 0 ? i + loop_size : i);
     return ties;
 }
 

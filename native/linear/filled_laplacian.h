@@ -35,7 +35,8 @@ public:
     MatrixXd extend(const MatrixXd& boundary_values) override;
     InteriorSolution solve_interior(const VectorXd& load) override;
 
-    /// For each node of a loop the places on the loop of its mean's vertices: those less than a node's spacing away.
+    /// Nodes lie at every few vertices, from the first on. For each node the places on the loop of its mean's vertices,
+    /// in order: those between the nodes before and after it.
     /// Empty if the loop has few vertices, and no nodes.
     static std::vector<std::vector<Index>> nodes(Index loop_size);
 

@@ -138,20 +138,50 @@ std::vector<Circle> annulus_circles(double height)
     return {Circle{}, Circle{0.0, inner}};
 }
 
+constexpr double widest_gap = 1.2;  // upper over lower bound of a modulus that one pair of functions encloses
+
+/// The bounds of a modulus that the mesh does not resolve are far apart.
+bool far_apart(const ModulusBounds& bounds) { return !(bounds.upper <= widest_gap * bounds.lower); }
+
+/// Whether the bounds of the modulus would meet on a fine mesh: filled holes leave a gap.
+bool is_enclosed(const PeriodicSurface& domain, RingHoles holes)
+{
+    return domain.loops.size() == domain.first_hole || holes != RingHoles::circles;
+}
+
+/// Encloses the modulus. Where the bounds are apart, mollification may have made short edges longer: then the
+/// metric is taken with less of it, as little as lengths of double precision allow.
+ModulusBounds enclose_modulus(PeriodicSurface& domain, RingHoles holes)
+{
+    constexpr double least_margin = 1e-10;  // IntrinsicMetricOptions::margin
+    constexpr double fine_gap = 1.05;       // upper over lower bound where mollification has done no harm
+    ModulusBounds bounds = modulus_bounds(domain, holes);
+    if (!is_enclosed(domain, holes) || bounds.upper <= fine_gap * bounds.lower) return bounds;
+    PeriodicSurface finer = domain;
+    finer.metric_shifts = finer.shifts;
+    finer.metric = intrinsic_metric(finer.vertices, finer.surface, {.margin = least_margin}, &finer.metric_shifts);
+    const ModulusBounds own = modulus_bounds(finer, holes);
+    if (!(own.upper * bounds.lower < bounds.upper * own.lower)) return bounds;
+    domain = std::move(finer);
+    return own;
+}
+
 /// Compares the modulus with its bounds: circles lost in rounding, and a metric mollified beyond its shortest edges,
-/// give any modulus.
-void check_modulus(const PeriodicSurface& domain, double height, bool has_circles, TileResult& result)
+/// give any modulus. @param tight whether bounds that are far apart tell that the mesh is too coarse
+void check_modulus(const ModulusBounds& bounds, bool tight, double height, bool has_circles, TileResult& result)
 {
     constexpr double slack = 0.02;  // of the bounds: they hold for the polyhedron, circles for smooth rims
-    const ModulusBounds bounds = modulus_bounds(domain);
-    if (!(height < (1.0 - slack) * bounds.lower) && !(height > (1.0 + slack) * bounds.upper)) return;
+    const bool outside = height < (1.0 - slack) * bounds.lower || height > (1.0 + slack) * bounds.upper;
+    if (!outside && !(tight && far_apart(bounds))) return;
+    const bool lost = outside && has_circles;
     result.converged = false;
     result.warnings.push_back(
-        {has_circles ? WarningKind::lost_circles : WarningKind::thin_faces,
-         "the modulus " + formatted("%.5g", height) + " is not between its bounds, " + formatted("%.5g", bounds.lower) +
-             " and " + formatted("%.5g", bounds.upper) +
-             (has_circles ? ": the circles are lost in rounding" : ": the mesh is too coarse, or its faces too thin"),
-         has_circles ? std::vector<Index>{0, 1} : std::vector<Index>{}});
+        {lost ? WarningKind::lost_circles : WarningKind::thin_faces,
+         "the modulus " + formatted("%.5g", height) +
+             (outside ? " is not between its bounds, " : " is uncertain: its bounds are ") +
+             formatted("%.5g", bounds.lower) + " and " + formatted("%.5g", bounds.upper) +
+             (lost ? ": the circles are lost in rounding" : ": the mesh is too coarse, or its faces too thin"),
+         lost ? std::vector<Index>{0, 1} : std::vector<Index>{}});
 }
 
 /// A map of the ring, before it is a tile.
@@ -184,7 +214,8 @@ FlatRing by_circles(const Vertices& vertices, const Triangles& triangles, const 
 }
 
 TileResult ring_tile(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
-                     const TileOptions& options, HoleShape shape, FlatRing ring, ExecutionContext& context)
+                     const TileOptions& options, HoleShape shape, const ModulusBounds& bounds, FlatRing ring,
+                     ExecutionContext& context)
 {
     TileResult result = tile_result(vertices, triangles, domain, options, shape, ring.map, context);
     result.modulus = {0.0, ring.height};
@@ -193,7 +224,7 @@ TileResult ring_tile(const Vertices& vertices, const Triangles& triangles, const
         const double rise = z[domain.loops[1].front()].imag() - z[domain.loops[0].front()].imag();
         result.modulus = {0.0, std::abs(rise) / ring.map.periods[0].real()};
     }
-    check_modulus(domain, ring.height, ring.round.has_value(), result);
+    check_modulus(bounds, is_enclosed(domain, options.holes), ring.height, ring.round.has_value(), result);
     if (result.even == 0.0)
         for (std::size_t k = 0; k < ring.circles.size(); ++k) {
             result.loops[k].has_circle = true;
@@ -222,18 +253,19 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
     PeriodicSurface domain = periodic_ring(vertices, triangles, options.outer, options.inner);
     domain.polygon = options.polygon;
     clock.end(&StageSeconds::topology);
+    const ModulusBounds bounds = enclose_modulus(domain, options.holes);
     const HoleShape shape = options.holes == RingHoles::circles      ? HoleShape::open
                             : options.holes == RingHoles::concentric ? HoleShape::along_u
                                                                      : HoleShape::along_v;
     const auto tile = [&](FlatRing ring) {
         clock.end(&StageSeconds::iterate);
         context.begin_stage("finish", 0.9, 1.0);
-        return ring_tile(vertices, triangles, domain, options, shape, std::move(ring), context);
+        return ring_tile(vertices, triangles, domain, options, shape, bounds, std::move(ring), context);
     };
     // A tube without holes needs no circles. But harmonic functions lay parts that hang on a rim by one edge flat along
     // it; the disk with round holes has a place for these.
     std::optional<TileResult> result;
-    if (domain.loops.size() == domain.first_hole || shape != HoleShape::open) {
+    if (is_enclosed(domain, options.holes)) {
         context.begin_stage("iterate", 0.1, 0.9);
         result = tile(by_potentials(domain, options.holes));
     }

@@ -112,11 +112,11 @@ double energy_on_faces(const PeriodicSurface& domain, const VectorXd& u, double 
 
 }  // namespace
 
-ModulusBounds modulus_bounds(const PeriodicSurface& domain)
+ModulusBounds modulus_bounds(const PeriodicSurface& domain, RingHoles holes)
 {
-    const FloatingLoops floating(domain, true);
-    return {1.0 / energy_on_faces(domain, floating.between_rims(), 0.0),
-            energy_on_faces(domain, floating.round(), 1.0)};
+    const VectorXd f = FloatingLoops(domain, holes != RingHoles::radial).between_rims();
+    const VectorXd g = FloatingLoops(domain, holes != RingHoles::concentric).round();
+    return {1.0 / energy_on_faces(domain, f, 0.0), energy_on_faces(domain, g, 1.0)};
 }
 
 FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height)
