@@ -151,9 +151,11 @@ ClippedOverlay draw_clipped_outlines(const FlatSheet& filled, std::vector<DrawnO
                                      const std::vector<FlatSheet>& charts, bool cut_out)
 {
     LeftOut left_out;
+    double drawn = 0.0;
     while (true) {
         ClippedOverlay result;
-        result.overlay = draw_outlines(filled, std::move(outlines), charts);
+        result.overlay = draw_outlines(filled, std::move(outlines), charts, drawn);
+        drawn = result.overlay.drawn;
         left_out.add(result.overlay.left_out);
         TakenPieces pieces(filled, result.overlay);
         const std::vector<Index> wrong = wrong_outlines(result.overlay, pieces, cut_out);

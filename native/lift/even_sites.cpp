@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "execution/thread_share.h"
+#include "lift/outline.h"
 #include "transfer/nearest_triangles.h"
 
 #include <Eigen/Geometry>
@@ -16,9 +17,10 @@
 namespace koebe {
 namespace {
 
-constexpr int samples_of_a_site = 64, rounds = 40;  // dimensionless; more change the picture little
-constexpr double most_sites = 1e6;
-constexpr double rounding = 1.0 + 1e-6;  // dimensionless: no site is missed for it
+constexpr int samples_of_a_site = 64, rounds = 40, least_rounds = 8;  // dimensionless; more change the picture little
+constexpr double points_of_a_site = 160.0;  // of an outline: the work of a site, with 48 points of a circle
+constexpr double few_sites = 3000.0;        // fewer rounds for more of them, so that the work stays in proportion
+constexpr double rounding = 1.0 + 1e-6;     // dimensionless: no site is missed for it
 
 /// SplitMix64 [Steele, Lea, Flood 2014]: alike on every machine.
 class RandomNumbers {
@@ -215,13 +217,14 @@ double cell_area(const FlatSheet& sheet)
 std::vector<SurfacePoint> even_sites(const FlatSheet& sheet, double spacing, std::uint64_t seed)
 {
     const double wanted = std::round(cell_area(sheet) / (spacing * spacing * std::sqrt(0.75)));  // hexagonal lattice
-    if (!(wanted < most_sites)) throw InputError("the size is too small for the surface: over a million outlines");
+    require_few_outlines(wanted, wanted * points_of_a_site);
     const auto count = static_cast<std::size_t>(std::max(1.0, wanted));
     RandomNumbers random(seed);
     const std::vector<Sample> samples = random_samples(sheet, count * samples_of_a_site, random);
     std::vector<Sample> sites = first_sites(samples, count, spacing);
     std::vector<std::ptrdiff_t> site_of(samples.size(), -1);
-    for (int round = 0; round < rounds; ++round) relax(sites, samples, spacing, site_of);
+    const int enough = std::max(least_rounds, static_cast<int>(rounds * std::min(1.0, few_sites / wanted)));
+    for (int round = 0; round < enough; ++round) relax(sites, samples, spacing, site_of);
 
     Vertices positions(static_cast<Eigen::Index>(sites.size()), 3);
     for (std::size_t i = 0; i < sites.size(); ++i) positions.row(static_cast<Eigen::Index>(i)) = sites[i].position;

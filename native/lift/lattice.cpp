@@ -1,6 +1,7 @@
 #include "lift/lattice.h"
 
 #include "core/errors.h"
+#include "lift/outline.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 
 namespace koebe {
 namespace {
-
-constexpr double most_places = 1e6;
 
 std::vector<Complex> regular_polygon(int corners, double inner_radius, double turn, Complex middle)
 {
@@ -79,9 +78,12 @@ double bend_of(const Linear& map)
     return least > 0.0 ? (std::abs(turning) + std::abs(mirroring)) / least : INFINITY;
 }
 
-void require_few(double places)
+/// @param places of the lattice that will be laid
+void require_few(const Lattice& lattice, double places)
 {
-    if (!(places < most_places)) throw InputError("the size is too small for the surface: over a million outlines");
+    double points = 0.0;
+    for (const std::vector<Complex>& shape : lattice.shapes) points += static_cast<double>(shape.size());
+    require_few_outlines(places * static_cast<double>(lattice.shapes.size()), places * points);
 }
 
 struct Fit {
@@ -129,7 +131,7 @@ void cells_of_torus(Fit fit, const Lattice& lattice, LaidLattice& laid)
         std::swap(first, second);
     }
     const long columns = std::abs(first[0]), rows = std::abs(second[1]);
-    require_few(static_cast<double>(columns) * static_cast<double>(rows));
+    require_few(lattice, static_cast<double>(columns) * static_cast<double>(rows));
     for (long i = 0; i < columns; ++i)
         for (long j = 0; j < rows; ++j)
             laid.places.push_back(fit.map(static_cast<double>(i) * lattice.a + static_cast<double>(j) * lattice.b));
@@ -205,7 +207,7 @@ LaidLattice lay_lattice(const Lattice& lattice, const std::vector<Complex>& peri
         const Complex middle = 0.5 * (low + high);
         const double rows = std::ceil(0.5 * (high.imag() - low.imag()) / rise) + 1.0;
         const double reach = std::ceil(0.5 * (high.real() - low.real()) / run) + 1.0;
-        require_few(rows * (periods.empty() ? reach : last));
+        require_few(lattice, (2.0 * rows + 1.0) * (periods.empty() ? 2.0 * reach + 3.0 : last));
         for (double j = -rows; j <= rows; ++j) {
             if (periods.empty()) {
                 first = std::floor(-j * lean / run) - reach;

@@ -1,8 +1,11 @@
 // Outlines of a pattern in the UVs.
 #pragma once
 
+#include "core/errors.h"
 #include "core/types.h"
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace koebe {
@@ -16,5 +19,17 @@ struct DrawnOutline {
     Index group = -1;   ///< outlines of one group are lifted together or not at all
     bool hole = false;  ///< in an outline of its group: the faces inside it are the ground again
 };
+
+/// Bounds the work of a pattern before it is done.
+/// @param points of all outlines, counted as often as they are drawn @param faces where they lie, if that is known
+/// @throws InputError there are too many
+inline void require_few_outlines(double outlines, double points, std::vector<Index> faces = {})
+{
+    constexpr double most_points = 2e6;  // at about 10 µs a point
+    if (points <= most_points) return;
+    const std::string count = outlines < 1e15 ? std::to_string(static_cast<long long>(outlines)) : "over 1e15";
+    throw InputError("the size is too small for the surface: " + count + " outlines are too many to draw",
+                     ElementKind::faces, std::move(faces));
+}
 
 }  // namespace koebe

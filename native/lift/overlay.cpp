@@ -16,6 +16,8 @@
 namespace koebe {
 namespace {
 
+constexpr int rounds_one_by_one = 6;  // after which the neighbours of faulty outlines are left out too
+
 enum class Fault { border, too_fine, crossing };
 
 using Faults = std::vector<std::pair<Index, Fault>>;  // an outline, and why it cannot be drawn
@@ -30,8 +32,9 @@ using EdgesOfOutlines = std::unordered_map<std::uint64_t, std::pair<Index, std::
 
 class Drawing {
 public:
-    Drawing(const FlatSheet& sheet, const std::vector<FlatSheet>& charts, const std::vector<DrawnOutline>& outlines)
-        : sheet_(sheet), charts_(charts), outlines_(outlines)
+    Drawing(const FlatSheet& sheet, const std::vector<FlatSheet>& charts, const std::vector<DrawnOutline>& outlines,
+            double& drawn)
+        : sheet_(sheet), charts_(charts), outlines_(outlines), drawn_(drawn)
     {
     }
 
@@ -65,6 +68,10 @@ private:
             const int chart = outlines_[o].chart;
             const std::size_t first = nodes_.size();
             OutlinePath path = walk_outline(chart < 0 ? sheet_ : charts_[chart], outlines_[o], nodes_);
+            drawn_ += static_cast<double>(nodes_.size() - first);
+            const Index face = outlines_[o].face;
+            require_few_outlines(static_cast<double>(outlines_.size()), drawn_,
+                                 face >= 0 && sheet_.on_surface(face) ? std::vector{face} : std::vector<Index>());
             if (chart >= 0) bring_home(charts_[chart], first);
             if (path.end != WalkEnd::closed) {
                 blame(o, path.end == WalkEnd::border ? Fault::border : Fault::too_fine);
@@ -126,11 +133,13 @@ private:
         vertex_of_.assign(nodes_.size(), -1);
         Index count = static_cast<Index>(sheet_.vertices.rows());
         std::vector<Index> added;
-        for (const auto& steps : paths_)
-            for (const OutlineStep& step : steps) {
+        for (Index o = 0; o < static_cast<Index>(paths_.size()); ++o)
+            for (const OutlineStep& step : paths_[o]) {
                 const OutlineNode& node = nodes_[step.node];
                 vertex_of_[step.node] = node.vertex >= 0 ? node.vertex : count++;
-                if (node.vertex < 0) added.push_back(step.node);
+                if (node.vertex >= 0) continue;
+                added.push_back(step.node);
+                outline_of_.push_back(o);
             }
         result.vertices.resize(count, 3);
         result.normals.resize(count, 3);
@@ -220,14 +229,17 @@ private:
         polygon.insert(polygon.end(), inside.begin(), inside.end());
         for (Eigen::Index t = 0; t < pieces.rows(); ++t) {
             std::array<StoredPoint, 3> stored{};
+            Index outline = -1;  // at a corner of the piece
             for (int k = 0; k < 3; ++k) {
                 const Complex z = polygon[pieces(t, k)];
                 stored[k] = {as_stored(z.real()), as_stored(z.imag())};
+                if (const Index v = vertices[pieces(t, k)]; v >= sheet_.vertices.rows())
+                    outline = std::max(outline, outline_of_[v - sheet_.vertices.rows()]);
                 corners.push_back(vertices[pieces(t, k)]);
                 result.uv.push_back(z);
             }
             if (sheet_.on_surface(f) && StoredFace(stored[0], stored[1], stored[2]).doubtful())
-                blame(part.outline, Fault::too_fine);
+                blame(outline >= 0 ? outline : part.outline, Fault::too_fine);
             result.face.push_back(f);
         }
     }
@@ -322,19 +334,29 @@ private:
     const FlatSheet& sheet_;
     const std::vector<FlatSheet>& charts_;
     const std::vector<DrawnOutline>& outlines_;
+    double& drawn_;  // nodes, in all rounds
     std::vector<OutlineNode> nodes_;
     std::vector<std::vector<OutlineStep>> paths_;
     std::unordered_map<Index, std::vector<Index>> on_edge_;
     std::unordered_map<Index, FacePart> parts_;
     std::vector<Index> vertex_of_;
+    std::vector<Index> outline_of_;  // of added vertices
     Faults faults_;
 };
 
 /// Takes out the groups of the faulty outlines. Each group counts once.
-void leave_out(const Faults& faults, const FlatSheet& sheet, std::vector<DrawnOutline>& outlines, LeftOut& left_out)
+/// @param widely also the outlines that begin in the same faces
+void leave_out(const Faults& faults, const FlatSheet& sheet, bool widely, std::vector<DrawnOutline>& outlines,
+               LeftOut& left_out)
 {
-    std::unordered_map<Index, Fault> groups;
-    for (const auto& [outline, fault] : faults) groups.emplace(outlines[outline].group, fault);
+    std::unordered_map<Index, Fault> groups, faces;
+    for (const auto& [outline, fault] : faults) {
+        groups.emplace(outlines[outline].group, fault);
+        faces.emplace(outlines[outline].face, fault);
+    }
+    if (widely)
+        for (const DrawnOutline& o : outlines)
+            if (const auto face = faces.find(o.face); face != faces.end()) groups.emplace(o.group, face->second);
     for (const auto& [group, fault] : groups)
         ++(fault == Fault::border     ? left_out.at_border
            : fault == Fault::too_fine ? left_out.too_fine
@@ -355,19 +377,21 @@ void LeftOut::add(const LeftOut& others)
     faces.insert(faces.end(), others.faces.begin(), others.faces.end());
 }
 
-Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines, const std::vector<FlatSheet>& charts)
+Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines, const std::vector<FlatSheet>& charts,
+                      double drawn)
 {
     LeftOut left_out;
-    while (true) {
+    for (int round = 1;; ++round) {
         Overlay result;
-        const Faults faults = Drawing(sheet, charts, outlines).run(result);
+        const Faults faults = Drawing(sheet, charts, outlines, drawn).run(result);
         if (faults.empty()) {
             result.outlines = std::move(outlines);
+            result.drawn = drawn;
             sort_unique(left_out.faces);
             result.left_out = std::move(left_out);
             return result;
         }
-        leave_out(faults, sheet, outlines, left_out);
+        leave_out(faults, sheet, round > rounds_one_by_one, outlines, left_out);
     }
 }
 

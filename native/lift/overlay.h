@@ -30,6 +30,7 @@ struct Overlay {
     std::vector<DrawnOutline> outlines;     ///< the outlines that were drawn
     std::vector<std::vector<Index>> loops;  ///< the vertices of each outline, in order
     LeftOut left_out;
+    double drawn = 0.0;  ///< nodes of outlines, as often as they were drawn until now
 
     /// Whether a face lies inside an outline, and in no hole of it.
     bool in_pattern(Index f) const { return region[f] >= 0 && !outlines[region[f]].hole; }
@@ -41,7 +42,9 @@ struct Overlay {
 /// outlines inside: those inside an outline are holes, those inside a hole are none. Every new face is upright in
 /// 32-bit UVs. Faces that fill gaps of a filled sheet need not be.
 /// @param charts of the same faces, in which outlines are followed that name one
+/// @param drawn nodes of outlines that were drawn before
+/// @throws InputError more nodes would be drawn than require_few_outlines allows
 Overlay draw_outlines(const FlatSheet& sheet, std::vector<DrawnOutline> outlines,
-                      const std::vector<FlatSheet>& charts = {});
+                      const std::vector<FlatSheet>& charts = {}, double drawn = 0.0);
 
 }  // namespace koebe

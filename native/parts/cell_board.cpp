@@ -18,6 +18,9 @@ void CellBoard::clear() { std::ranges::fill(words_, 0); }
 
 void CellBoard::take(const CellShape& shape, int x, int y)
 {
+    // the words of all levels that may change: bits up to 2^levels before the shape
+    const auto first = static_cast<std::size_t>(std::max(0, x - (1 << levels)) / word_bits);
+    const std::size_t end = std::min(row_words_ - 2, static_cast<std::size_t>((x + shape.width) / word_bits) + 1);
     for (std::size_t i = 0; i < shape.runs.size();) {
         const int row = y + shape.runs[i].row;
         std::uint64_t* words = level(row, 0);
@@ -27,7 +30,7 @@ void CellBoard::take(const CellShape& shape, int x, int y)
             const int shift = 1 << k;
             const std::uint64_t* below = level(row, k);
             std::uint64_t* above = level(row, k + 1);
-            for (std::size_t word = 0; word + 2 < row_words_; ++word)
+            for (std::size_t word = first; word < end; ++word)
                 above[word] =
                     below[word] | (shift == word_bits ? below[word + 1]
                                                       : below[word] >> shift | below[word + 1] << (word_bits - shift));
@@ -55,10 +58,10 @@ std::uint64_t CellBoard::blocked(const CellRun& run, int y, int x) const
     return met;
 }
 
-int CellBoard::first_room(const CellShape& shape, const std::vector<CellRun>& order, int y) const
+int CellBoard::first_room(const CellShape& shape, const std::vector<CellRun>& order, int y, int from) const
 {
     const int last = side_ - shape.width;
-    for (int x = 0; x <= last; x += word_bits) {
+    for (int x = from; x <= last; x += word_bits) {
         std::uint64_t room = ~std::uint64_t{0};
         if (last - x < word_bits - 1) room = (std::uint64_t{1} << (last - x + 1)) - 1;
         for (const CellRun& run : order) {

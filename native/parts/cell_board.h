@@ -18,9 +18,9 @@ public:
     void clear();
     void take(const CellShape& shape, int x, int y);
 
-    /// The first column at which the shape has room if its lowest row is row y; -1: it has no room there.
+    /// The first column, from a column on, at which the shape has room if its lowest row is row y; -1: there is none.
     /// @param order the shape's runs, in the order in which they are tested
-    int first_room(const CellShape& shape, const std::vector<CellRun>& order, int y) const;
+    int first_room(const CellShape& shape, const std::vector<CellRun>& order, int y, int from = 0) const;
 
     std::int64_t tests() const { return tests_; }  ///< number of tests so far, each of a run at 64 columns
 

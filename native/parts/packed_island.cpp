@@ -1,6 +1,7 @@
 #include "parts/packed_island.h"
 
 #include "core/errors.h"
+#include "parts/bit_row.h"
 #include "planar/convex_hull.h"
 #include "planar/planar_predicates.h"
 
@@ -121,9 +122,8 @@ IslandPlace place_of_spot(const UprightIsland& island, const DrawnTurns& turns, 
 
 int board_side(std::size_t count)
 {
-    int side = least_side;
-    while (side < cells_an_island * std::sqrt(static_cast<double>(count))) side *= 2;
-    return side;
+    const double words = std::ceil(cells_an_island * std::sqrt(static_cast<double>(count)) / word_bits);
+    return std::max(least_side, word_bits * static_cast<int>(words));
 }
 
 void require_finite_outlines(const std::vector<Outline>& outlines)
