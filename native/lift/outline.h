@@ -25,7 +25,7 @@ struct DrawnOutline {
 /// @throws InputError there are too many
 inline void require_few_outlines(double outlines, double points, std::vector<Index> faces = {})
 {
-    constexpr double most_points = 2e6;  // at about 10 µs a point
+    constexpr double most_points = 4e6;  // at 3 to 10 µs a point
     if (points <= most_points) return;
     const std::string count = outlines < 1e15 ? std::to_string(static_cast<long long>(outlines)) : "over 1e15";
     throw InputError("the size is too small for the surface: " + count + " outlines are too many to draw",

@@ -134,6 +134,18 @@ TEST(Packing, slow_many_islands_have_room_and_less_margin)
     EXPECT_GT(2.0 * 5000.0 * packing.scale * packing.scale, 0.4);
 }
 
+TEST(Packing, crumbs_lie_apart_beside_large_islands)
+{
+    std::mt19937_64 random(8);
+    std::vector<Outline> outlines;
+    for (const double size : {40.0, 20.0, 20.0}) outlines.push_back(test::rectangle(size, 0.7 * size, 0.3));
+    while (outlines.size() < 1100) outlines.push_back(test::random_island(random));
+    const IslandPacking packing = pack_islands(outlines, margin);
+    EXPECT_GE(test::least_gap(outlines, packing), packing.margin);
+    outlines.erase(outlines.begin(), outlines.begin() + 3);
+    EXPECT_GE(test::least_gap(outlines, pack_islands(outlines, margin)), packing.margin);
+}
+
 TEST(Packing, a_point_has_a_place_and_what_is_not_finite_has_none)
 {
     std::vector<Outline> outlines = {test::rectangle(1.0, 1.0, 0.0), test::rectangle(0.0, 0.0, 0.0)};

@@ -246,6 +246,17 @@ def test_what_cannot_be_made_is_refused():
         koebe.lift(vertices, triangles, "circles", shape="ring", size=40.0, perforate=True)
 
 
+def test_a_pattern_far_too_fine_is_refused_with_the_number_of_its_outlines():
+    """A strip 132,000 long and 1 wide: the size is in the unit of its vertices."""
+    along = np.linspace(0, 132e3, 21)
+    vertices = np.concatenate([np.stack([along, np.full(21, y), np.zeros(21)], 1) for y in (-0.5, 0.5)])
+    i = np.arange(20)
+    triangles = np.concatenate([np.stack([i, i + 1, i + 22], 1), np.stack([i, i + 22, i + 21], 1)])
+    for size, said in ((16.7, "no outline of the pattern fits"), (0.5, r"[1-9]\d{6,} outlines are too many")):
+        with pytest.raises(koebe.InputError, match=said):
+            koebe.lift(vertices, triangles, "hexagons", shape="parts", perforate=True, rim="clip", size=size)
+
+
 def test_the_command_writes_obj_ply_and_stl(tmp_path):
     vertices, triangles = tube()
     (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
