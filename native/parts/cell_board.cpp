@@ -18,9 +18,11 @@ void CellBoard::clear() { std::ranges::fill(words_, 0); }
 
 void CellBoard::take(const CellShape& shape, int x, int y)
 {
-    // the words of all levels that may change: bits up to 2^levels before the shape
+    // The words of all levels that may change: bits up to 2^levels before the shape.
+    int right = x;
+    for (const CellRun& run : shape.runs) right = std::max(right, x + run.to);
     const auto first = static_cast<std::size_t>(std::max(0, x - (1 << levels)) / word_bits);
-    const std::size_t end = std::min(row_words_ - 2, static_cast<std::size_t>((x + shape.width) / word_bits) + 1);
+    const std::size_t end = std::min(row_words_ - 2, static_cast<std::size_t>(right / word_bits) + 1);
     for (std::size_t i = 0; i < shape.runs.size();) {
         const int row = y + shape.runs[i].row;
         std::uint64_t* words = level(row, 0);
