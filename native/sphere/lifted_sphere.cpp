@@ -14,7 +14,8 @@
 namespace koebe {
 namespace {
 
-constexpr double least_angle = 1e-7;  // between neighbours on a circle, seen from its middle
+constexpr double least_angle = 1e-7;           // between neighbours on a circle, seen from its middle
+constexpr std::size_t further_effort = 30000;  // of the repair of each further version (sphere_repair.h)
 
 /// Hangs a flap into its hole, mirrored at its hinge. In the disk the unit circle is convex, and the flap lies behind
 /// its hinge; on the sphere it would lie over its neighbours.
@@ -87,21 +88,21 @@ SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map
 SphericalMap lifted_sphere(const PeriodicSurface& domain, const PlaneMap& map, const PlaneSimilarity& balance,
                            bool& drawn, const ExecutionContext& context)
 {
-    const auto drawn_by = [&](double farther, bool repair) {
+    const auto drawn_by = [&](double farther, std::size_t effort) {
         SphericalMap sphere = lifted_to_sphere(domain, map, {balance.shift, balance.scale * std::exp(farther)});
-        if (repair) turn_back_on_sphere(domain, sphere, context);
+        if (effort > 0) turn_back_on_sphere(domain, sphere, context, effort);
         return sphere;
     };
     const auto whole = [&](const SphericalMap& sphere) {
         return !find_sphere_faults(domain.surface.triangles, domain.loops, sphere.points, sphere.caps).any();
     };
-    SphericalMap balanced = drawn_by(0.0, true);
+    SphericalMap balanced = drawn_by(0.0, whole_effort);
     drawn = false;
     if (domain.loops.empty() || domain.surface.triangles.rows() > most_drawn_faces || whole(balanced)) return balanced;
-    for (const bool repair : {false, true})
+    for (const std::size_t effort : {std::size_t{0}, further_effort})
         for (const double farther : {0.01, 0.04, 0.16, 0.64, 2.56}) {
-            if (repair && farther < 0.1) continue;
-            SphericalMap sphere = drawn_by(farther, repair);
+            if (effort > 0 && farther < 0.1) continue;
+            SphericalMap sphere = drawn_by(farther, effort);
             if (!whole(sphere)) continue;
             drawn = true;
             return sphere;

@@ -16,13 +16,15 @@ struct SphericalMap {
     std::vector<Index> off_circle;  ///< loop vertices off their circle, ascending
 };
 
+constexpr std::size_t whole_effort = 300000;  // steps of a face beside those of the whole surface (repair_effort.h)
+
 /// Moves the neighbourhoods of flipped faces by foldover-free minimization (foldover_free.h), 2, 4, 8 and 16 rings
 /// wide. Each is projected from the middle of the ball to the plane that touches the sphere there. So the sides of its
 /// faces are straight, and faces upright in the plane are upright on the sphere. First loops are held, then they slide
 /// along their circles, then the loop vertices in the neighbourhood are freed.
-/// @param effort in steps of a face beside those of the whole surface (repair_effort.h)
+/// @param effort in the unit of whole_effort
 /// @return the number of faces still flipped, except those below sphere_resolution
 std::size_t turn_back_on_sphere(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context,
-                                std::size_t effort = 300000);
+                                std::size_t effort = whole_effort);
 
 }  // namespace koebe

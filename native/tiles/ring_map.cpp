@@ -138,10 +138,11 @@ std::vector<Circle> annulus_circles(double height)
     return {Circle{}, Circle{0.0, inner}};
 }
 
-constexpr double widest_gap = 1.2;  // upper over lower bound of a modulus that one pair of functions encloses
+// Upper over lower bound of a modulus that one pair of functions encloses: above the first it is uncertain, which a
+// warning says; above the second the mesh does not resolve it.
+constexpr double certain_gap = 1.2, resolved_gap = 2.0;
 
-/// The bounds of a modulus that the mesh does not resolve are far apart.
-bool far_apart(const ModulusBounds& bounds) { return !(bounds.upper <= widest_gap * bounds.lower); }
+bool far_apart(const ModulusBounds& bounds, double gap) { return !(bounds.upper <= gap * bounds.lower); }
 
 /// Whether the bounds of the modulus would meet on a fine mesh: filled holes leave a gap.
 bool is_enclosed(const PeriodicSurface& domain, RingHoles holes)
@@ -172,9 +173,9 @@ void check_modulus(const ModulusBounds& bounds, bool tight, double height, bool 
 {
     constexpr double slack = 0.02;  // of the bounds: they hold for the polyhedron, circles for smooth rims
     const bool outside = height < (1.0 - slack) * bounds.lower || height > (1.0 + slack) * bounds.upper;
-    if (!outside && !(tight && far_apart(bounds))) return;
+    if (!outside && !(tight && far_apart(bounds, certain_gap))) return;
     const bool lost = outside && has_circles;
-    result.converged = false;
+    if (outside || far_apart(bounds, resolved_gap)) result.converged = false;
     result.warnings.push_back(
         {lost ? WarningKind::lost_circles : WarningKind::thin_faces,
          "the modulus " + formatted("%.5g", height) +
