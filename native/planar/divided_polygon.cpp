@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -32,10 +31,10 @@ std::vector<std::size_t> insertion_order(const std::vector<Complex>& points)
     std::vector<std::vector<std::size_t>> rounds(std::bit_width(points.size()) + 1);
     for (std::size_t i = 0; i < points.size(); ++i)
         rounds[std::min(rounds.size() - 1, static_cast<std::size_t>(std::countr_zero(i)))].push_back(i);
-    for (const std::vector<std::size_t>& round : std::views::reverse(rounds)) {
+    for (auto round = rounds.rbegin(); round != rounds.rend(); ++round) {
         std::vector<Complex> places;
-        for (const std::size_t i : round) places.push_back(points[i]);
-        for (const std::size_t k : detail::to_and_fro(places)) order.push_back(round[k]);
+        for (const std::size_t i : *round) places.push_back(points[i]);
+        for (const std::size_t k : detail::to_and_fro(places)) order.push_back((*round)[k]);
     }
     return order;
 }

@@ -73,7 +73,7 @@ private:
         for (const CountedSegment& one : segments) places.insert(places.end(), {one.lower, one.upper});
         const auto key = [](Complex z) { return std::pair(z.real(), z.imag()); };
         std::ranges::sort(places, {}, key);
-        places.erase(std::ranges::unique(places).begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
         std::vector<VertexHandle> vertices(places.size());
         FaceHandle near;
         for (const std::size_t i : detail::to_and_fro(places)) {

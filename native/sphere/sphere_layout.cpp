@@ -121,9 +121,9 @@ private:
                 }).empty();
     }
 
-    auto faces_around(Index v) const
+    std::span<const Index> faces_around(Index v) const
     {
-        return std::ranges::subrange(faces_of_.begin() + faces_begin_[v], faces_of_.begin() + faces_begin_[v + 1]);
+        return {faces_of_.data() + faces_begin_[v], static_cast<std::size_t>(faces_begin_[v + 1] - faces_begin_[v])};
     }
 
     SphereCorners corners(Index f) const
