@@ -196,7 +196,6 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
         for (std::size_t i = 0; i < count; ++i)
             if (second[rim[i]] >= 0) rim.push_back(second[rim[i]]);
     }
-    const VectorXd heights = least_heights(after);
     std::vector<char> moves(source.size(), 0);
     for (const Dart& dart : darts)
         for (std::size_t i = joins(dart) ? 0 : 1; i < dart.vertices.size(); ++i) {
@@ -204,25 +203,32 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
             moves[v] = 1;
             if (second[v] >= 0) moves[second[v]] = 1;
         }
-    const PlanarPoints before = after.points;
+    if (!draw_apart(after, moves)) return {};
+    for (const Dart& dart : darts) {
+        std::erase(after.tips, dart.vertices.back());
+        if (!joins(dart)) after.tips.push_back(dart.vertices.front());
+        (joins(dart) ? after.slit : after.dart_length) += dart.length;
+    }
+    flat = std::move(after);
+    return source;
+}
+
+bool draw_apart(FlatPart& flat, const std::vector<char>& moves)
+{
+    const VectorXd heights = least_heights(flat);
+    const PlanarPoints before = flat.points;
     for (double gap = first_gap; gap > 1e-4; gap *= 0.25) {
-        for (const VertexLoop& loop : after.surface.loops)
+        for (const VertexLoop& loop : flat.surface.loops)
             for (std::size_t i = 0; i < loop.size(); ++i) {
                 if (!moves[loop[i]]) continue;
                 const Complex z = drawn_in(before, loop[(i + loop.size() - 1) % loop.size()], loop[i],
                                            loop[(i + 1) % loop.size()], gap * heights[loop[i]]);
-                after.points.row(loop[i]) << z.real(), z.imag();
+                flat.points.row(loop[i]) << z.real(), z.imag();
             }
-        if (!lies_one_to_one(after, after.points)) continue;
-        for (const Dart& dart : darts) {
-            std::erase(after.tips, dart.vertices.back());
-            if (!joins(dart)) after.tips.push_back(dart.vertices.front());
-            (joins(dart) ? after.slit : after.dart_length) += dart.length;
-        }
-        flat = std::move(after);
-        return source;
+        if (lies_one_to_one(flat, flat.points)) return true;
     }
-    return {};
+    flat.points = before;
+    return false;
 }
 
 std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach)

@@ -34,6 +34,11 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
 /// @return (V) the old number of each vertex. No value if the darts cannot be opened: then nothing changes
 std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<Dart>& darts);
 
+/// Draws the two sides of open cuts a little apart, where they lie on each other.
+/// @param moves (V) 1 for vertices of the cuts, but not for their tips @return false: it cannot be done without
+/// overlaps, and nothing changes
+bool draw_apart(FlatPart& flat, const std::vector<char>& moves);
+
 /// For each face the dart nearest to it on the surface; -1 if no dart is within reach. @param reach (darts) the
 /// distance up to which each dart counts
 std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach);

@@ -3,6 +3,8 @@
 #include "circles/circle_fit.h"
 #include "even/even_map.h"
 #include "execution/side_by_side.h"
+#include "parts/carried_cuts.h"
+#include "parts/coarse_parts.h"
 #include "parts/dart_rounds.h"
 #include "parts/tension.h"
 #include "parts/through_rounds.h"
@@ -11,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -27,6 +30,11 @@ constexpr double roomy_piece = 0.1;                      // price of one more pa
 constexpr double step = 1.5;                             // factor from one E to the next
 constexpr double even_with_darts = 0.1;                  // E with darts, if no E is given,
 constexpr std::array less_even_with_darts{0.06, 0.03};   // and if angles are then worse
+constexpr Index coarse_faces = 4000;                     // on which the cuts of all parts are decided,
+constexpr std::size_t many_faces = 6000;                 // if they have more faces,
+constexpr std::size_t fewest_in_part = 20;               // and so many coarse ones in the mean
+constexpr EvenEffort carried_effort{12, 3, 24};          // for parts whose cuts were decided so
+constexpr double dearer_on_coarse = 2.0;                 // cuts: coarse parts bend less, and so overrate them
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -97,10 +105,17 @@ public:
 
     void relax(double even, const EvenEffort& effort)
     {
+        relax(even, [&](std::size_t) { return effort; });
+    }
+
+    template <typename EffortOf>
+    requires std::invocable<EffortOf, std::size_t>
+    void relax(double even, const EffortOf& effort_of)
+    {
         std::vector<char> moved(parts_.size(), 0);
         side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
             auto& [flat, round] = parts_[k];
-            moved[k] = make_even(flat_surface(flat, round), even, packed_side, own, effort).moved;
+            moved[k] = make_even(flat_surface(flat, round), even, packed_side, own, effort_of(k)).moved;
         });
         left_.clear();
         for (std::size_t k = 0; k < moved.size(); ++k)
@@ -153,6 +168,16 @@ public:
         return even;
     }
 
+    /// Relaxes parts whose cuts were decided on coarse parts. @param placed as in CarriedParts @param most of the sum
+    /// of angle errors: if it is exceeded, E becomes less @return E
+    double finish(const std::vector<char>& placed, double even, double most)
+    {
+        relax_cut(even, [&](std::size_t k) { return placed[k] ? carried_effort : search; });
+        for (const double less : less_even_with_darts)
+            if (angles() > most && less < even) relax_cut(even = less, carried_effort);
+        return even;
+    }
+
 private:
     /// @param piece price of one more part, in energy; without a value no part is split @return whether any part was
     /// cut
@@ -171,7 +196,8 @@ private:
     }
 
     /// Relaxes parts that are one to one as stored, and keeps them so.
-    void relax_cut(double even, const EvenEffort& effort)
+    template <typename Effort>
+    void relax_cut(double even, const Effort& effort)
     {
         const std::vector<HeldPart> before = parts_;
         relax(even, effort);
@@ -193,15 +219,50 @@ private:
     ExecutionContext& context_;
 };
 
-}  // namespace
-
-EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
+/// E and the cuts, decided on these parts.
+EvenParts decide(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
 {
     PartRelaxation parts(flats, options, context);
     if (options.even == 0.0) return {};
     if (options.even) parts.relax_with_darts(*options.even, {});
     const double even = options.even ? *options.even : parts.relax_freely();
     return {even, even > 0.0 ? parts.left() : std::vector<std::size_t>{}};
+}
+
+/// E and the cuts, decided on coarse parts. Then the fine parts are cut in the same places, and relaxed once.
+EvenParts decide_coarsely(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
+{
+    const CoarseParts before = coarse_parts(flats, coarse_faces, context);
+    std::vector<FlatPart> after = before.parts;
+    EvenOptions coarse_options = options;
+    coarse_options.darts /= dearer_on_coarse;
+    const double even = decide(after, coarse_options, context).even;
+    if (!(even > 0.0)) return {};
+    double most = std::numeric_limits<double>::infinity();  // an E that is given is kept
+    if (!options.even) {
+        most = 0.0;
+        for (const FlatPart& flat : flats) most += sum_of_angle_errors(flat);
+    }
+    CarriedParts cut = carried(flats, before, after, context);
+    flats = std::move(cut.parts);
+    PartRelaxation parts(flats, options, context);
+    return {parts.finish(cut.placed, even, most), parts.left()};
+}
+
+/// Whether parts are large enough for coarse ones: edges of a round loop must lie on the fine part's circle.
+bool has_many_faces(const std::vector<FlatPart>& flats, const EvenOptions& options)
+{
+    std::size_t faces = 0;
+    for (const FlatPart& flat : flats) faces += flat.faces.size();
+    return options.loops == LoopForm::free && options.even != 0.0 && faces > many_faces &&
+           flats.size() < coarse_faces / fewest_in_part;
+}
+
+}  // namespace
+
+EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
+{
+    return has_many_faces(flats, options) ? decide_coarsely(flats, options, context) : decide(flats, options, context);
 }
 
 double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, ExecutionContext& context)

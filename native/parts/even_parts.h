@@ -27,7 +27,11 @@ struct EvenParts {
 
 /// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, it also
 /// cuts parts through (through_rounds.h): first it joins loops, then it splits parts that darts did not help, and last
-/// it cuts for room (roomy_cuts.h). New parts come last. A part that is not one to one is not changed.
+/// it cuts for room (roomy_cuts.h). The pieces of a part come
+/// last, or after it. A part that is not one to one is not changed.
+///
+/// If there are many faces, all this is decided on coarse parts (coarse_parts.h). The cuts are carried to the fine
+/// parts (carried_cuts.h), which are relaxed once.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
 
 /// The cost of parts once they are even: their energy at this E, or at the E of parts with darts if none is given. To

@@ -100,7 +100,7 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
 std::vector<PartPointer> parts_by_coarse_surface(const CutSurface& whole, const SplitOptions& options,
                                                  ExecutionContext& context, SplitEffort& effort)
 {
-    const CoarseSurface coarse = coarse_surface(whole, coarse_faces, context);
+    const CoarseSurface coarse = coarse_surface(whole.vertices, whole.surface.triangles, coarse_faces, {}, context);
     const bool is_closed = whole.surface.loops.empty();
     const CutSurface surface =
         cut_surface(coarse.vertices, analyze_surface(coarse.triangles, static_cast<Index>(coarse.vertices.rows())), {});

@@ -171,6 +171,13 @@ FlatPart unopened(const PartMesh& mesh)
     return flat;
 }
 
+template <typename Value>
+void take(const std::vector<Value>& from, const std::vector<Index>& which, std::vector<Value>& to)
+{
+    if (from.empty()) return;
+    for (const Index i : which) to.push_back(from[i]);
+}
+
 /// A map that is one to one, for any part. The longest loop is the outer loop.
 PlanarPoints embedded_anew(const Vertices& vertices, const Surface& surface, const ExecutionContext& context)
 {
@@ -233,6 +240,23 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
 }
 
 }  // namespace
+
+void take_faces(const FlatPart& part, const std::vector<Index>& faces, FlatPart& piece)
+{
+    take(part.faces, faces, piece.faces);
+    take(part.polygon, faces, piece.polygon);
+    take(part.sizes, faces, piece.sizes);
+}
+
+void take_vertices(const FlatPart& part, const std::vector<Index>& vertices, FlatPart& piece)
+{
+    take(part.original, vertices, piece.original);
+    take(part.image, vertices, piece.image);
+    take(part.held, vertices, piece.held);
+    take(part.shown, vertices, piece.shown);
+    piece.vertices = part.vertices(vertices, Eigen::all);
+    piece.points = part.points(vertices, Eigen::all);
+}
 
 double sum_of_angle_errors(const FlatPart& part)
 {

@@ -47,6 +47,10 @@ inline EdgeEnds sorted_ends(Index a, Index b) { return std::minmax(a, b); }
 
 constexpr double packed_side = 1.25;  ///< about the side of a square that holds parts of total area 1
 
+/// Gives a piece what the part knows of these faces, and of these vertices. Its surface must be set by the caller.
+void take_faces(const FlatPart& part, const std::vector<Index>& faces, FlatPart& piece);
+void take_vertices(const FlatPart& part, const std::vector<Index>& vertices, FlatPart& piece);
+
 /// The sum of the angle errors of a part's faces, in degrees.
 double sum_of_angle_errors(const FlatPart& part);
 

@@ -235,7 +235,6 @@ void name_loops(FlatPart& flat)
 /// The part with some of its faces.
 std::optional<FlatPart> piece_of(const FlatPart& flat, const std::vector<Index>& faces)
 {
-    FlatPart piece;
     std::vector<Index> own(static_cast<std::size_t>(flat.surface.vertex_count), -1), source;
     Triangles triangles = flat.surface.triangles(faces, Eigen::all);
     for (Index& corner : triangles.reshaped()) {
@@ -246,28 +245,10 @@ std::optional<FlatPart> piece_of(const FlatPart& flat, const std::vector<Index>&
         }
         corner = number;
     }
-    try {
-        piece.surface = require_bordered_genus_zero(triangles, static_cast<Index>(source.size()));
-    } catch (const TopologyError&) {
-        return {};
-    }
-    const auto take = [](const auto& from, auto& to, const std::vector<Index>& which) {
-        if (from.empty()) return;
-        for (const Index i : which) to.push_back(from[i]);
-    };
-    take(flat.faces, piece.faces, faces);
-    take(flat.polygon, piece.polygon, faces);
-    take(flat.sizes, piece.sizes, faces);
-    take(flat.original, piece.original, source);
-    take(flat.image, piece.image, source);
-    take(flat.held, piece.held, source);
-    take(flat.shown, piece.shown, source);
-    piece.vertices = flat.vertices(source, Eigen::all);
-    piece.points = flat.points(source, Eigen::all);
+    auto piece = opened_piece(flat, faces, triangles, source);
+    if (!piece || face_areas(piece->vertices, piece->surface.triangles).sum() < least_piece) return {};
     for (const Index tip : flat.tips)
-        if (own[tip] >= 0) piece.tips.push_back(own[tip]);
-    if (face_areas(piece.vertices, piece.surface.triangles).sum() < least_piece) return {};
-    name_loops(piece);
+        if (own[tip] >= 0) piece->tips.push_back(own[tip]);
     return piece;
 }
 
@@ -290,6 +271,21 @@ std::array<std::vector<Index>, 2> sides_of(const Surface& surface, const std::ve
 }
 
 }  // namespace
+
+std::optional<FlatPart> opened_piece(const FlatPart& flat, const std::vector<Index>& faces, const Triangles& triangles,
+                                     const std::vector<Index>& source)
+{
+    FlatPart piece;
+    try {
+        piece.surface = require_bordered_genus_zero(triangles, static_cast<Index>(source.size()));
+    } catch (const TopologyError&) {
+        return {};
+    }
+    take_faces(flat, faces, piece);
+    take_vertices(flat, source, piece);
+    name_loops(piece);
+    return piece;
+}
 
 std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price)
 {

@@ -35,4 +35,11 @@ std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even
 /// @return empty if the cut cannot be opened, or if a piece would be too small
 std::vector<FlatPart> cut_through(const FlatPart& flat, const ThroughCut& cut);
 
+/// A piece of a part, in its place in the map: sides of cuts lie on each other. It has no tips, and no lengths of cuts.
+/// @param faces of the part @param triangles (F, 3) of the piece @param source (V) the part's vertex that each vertex
+/// is
+/// @return empty if the piece is no surface of genus 0 with a boundary
+std::optional<FlatPart> opened_piece(const FlatPart& flat, const std::vector<Index>& faces, const Triangles& triangles,
+                                     const std::vector<Index>& source);
+
 }  // namespace koebe

@@ -1,6 +1,8 @@
 #include "splitting/coarse_surface.h"
 
+#include "core/complex_places.h"
 #include "mesh/halfedge_mesh.h"
+#include "planar/planar_predicates.h"
 
 #include <algorithm>
 #include <functional>
@@ -14,87 +16,149 @@ using Vertex = HalfedgeMesh::VertexHandle;
 using Halfedge = HalfedgeMesh::HalfedgeHandle;
 
 constexpr double least_cosine = 0.2;  // of the angle by which a collapse turns a face
+constexpr double least_height = 0.1;  // of a face of the map, over its longest edge; or as much as before
 
 OpenMesh::Vec3d normal(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const OpenMesh::Vec3d& c)
 {
     return OpenMesh::cross(b - a, c - a);
 }
 
-/// Whether no face is turned over when the half-edge's origin goes to its target.
-bool stays_upright(const HalfedgeMesh& mesh, Halfedge h)
+/// The height of a triangle in the plane over its longest edge; negative if it is turned over.
+double slenderness(Complex a, Complex b, Complex c)
 {
-    const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
-    for (auto out = mesh.cvoh_iter(from); out.is_valid(); ++out) {
-        if (mesh.is_boundary(*out)) continue;
-        const Vertex b = mesh.to_vertex_handle(*out), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*out));
-        if (b == to || c == to) continue;
-        const OpenMesh::Vec3d before = normal(mesh.point(from), mesh.point(b), mesh.point(c));
-        const OpenMesh::Vec3d after = normal(mesh.point(to), mesh.point(b), mesh.point(c));
-        if (!(OpenMesh::dot(before, after) > least_cosine * before.norm() * after.norm())) return false;
+    const double longest = std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c)});
+    return cross(b - a, c - a) / std::max(longest, 1e-300);
+}
+
+class Coarsening {
+public:
+    Coarsening(const Vertices& vertices, const Triangles& triangles, const CoarseTogether& together)
+        : mesh(to_halfedge_mesh(vertices, triangles)),
+          parent(static_cast<std::size_t>(vertices.rows())),
+          together_(together),
+          reach_(parent.size(), 0.0)
+    {
+        mesh.request_vertex_status();
+        mesh.request_halfedge_status();
+        mesh.request_edge_status();
+        mesh.request_face_status();
+        for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<Index>(v);
     }
-    return true;
-}
 
-bool may_collapse(HalfedgeMesh& mesh, Halfedge h)
-{
-    if (mesh.is_boundary(mesh.from_vertex_handle(h)) && !mesh.is_boundary(mesh.edge_handle(h))) return false;
-    return mesh.is_collapse_ok(h) && stays_upright(mesh, h);
-}
-
-}  // namespace
-
-CoarseSurface coarse_surface(const CutSurface& whole, Index faces, ExecutionContext& context)
-{
-    HalfedgeMesh mesh = to_halfedge_mesh(whole.vertices, whole.surface.triangles);
-    mesh.request_vertex_status();
-    mesh.request_halfedge_status();
-    mesh.request_edge_status();
-    mesh.request_face_status();
-    std::vector<Index> parent(static_cast<std::size_t>(whole.vertices.rows()));
-    for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<Index>(v);
-
-    // How far a vertex has drawn others: without it a vertex would go along a row of equal edges to its end.
-    std::vector<double> reach(parent.size(), 0.0);
-    const auto first_choice = [&](HalfedgeMesh::EdgeHandle e) {
-        const Halfedge h = mesh.halfedge_handle(e, 0), t = mesh.halfedge_handle(e, 1);
-        return reach[mesh.from_vertex_handle(h).idx()] <= reach[mesh.from_vertex_handle(t).idx()] ? h : t;
-    };
-    const auto reach_after = [&](Halfedge h) {
-        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
-        return reach[from.idx()] + (mesh.point(from) - mesh.point(to)).norm();
-    };
-    using Entry = std::pair<double, int>;  // reach, edge; out of date where the edge has another one now
-    std::vector<Entry> entries;
-    for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e)
-        entries.emplace_back(reach_after(first_choice(HalfedgeMesh::EdgeHandle(e))), e);
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>(), std::move(entries));
-    auto left = static_cast<Index>(mesh.n_faces());
-    for (long step = 0; left > faces && !queue.empty(); ++step) {
-        if (step % 4096 == 0) context.checkpoint();
-        const auto [length, edge] = queue.top();
-        queue.pop();
-        const HalfedgeMesh::EdgeHandle e(edge);
-        if (mesh.status(e).deleted()) continue;
-        Halfedge h = first_choice(e);
-        if (reach_after(h) != length) continue;
-        if (!may_collapse(mesh, h)) {
-            h = mesh.opposite_halfedge_handle(h);
-            if (!may_collapse(mesh, h)) continue;
+    void run(Index faces, ExecutionContext& context)
+    {
+        std::vector<Entry> entries;
+        for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e)
+            entries.emplace_back(reach_after(first_choice(Edge(e))), e);
+        queue_ = Queue(std::greater<>(), std::move(entries));
+        left_ = static_cast<Index>(mesh.n_faces());
+        for (long step = 0; left_ > faces && !queue_.empty(); ++step) {
+            if (step % 4096 == 0) context.checkpoint();
+            const auto [length, edge] = queue_.top();
+            queue_.pop();
+            if (mesh.status(Edge(edge)).deleted()) continue;
+            Halfedge h = first_choice(Edge(edge));
+            if (reach_after(h) != length) continue;
+            if (!may_collapse(h)) {
+                h = mesh.opposite_halfedge_handle(h);
+                if (!may_collapse(h)) continue;
+            }
+            const auto [image, is_alone] = image_of(h);
+            if (!is_alone && (!image.is_valid() || !may_collapse(image))) continue;
+            collapse(h);
+            if (image.is_valid() && !mesh.status(mesh.edge_handle(image)).deleted() && may_collapse(image))
+                collapse(image);
         }
+    }
+
+    HalfedgeMesh mesh;
+    std::vector<Index> parent;  // (V) the vertex that a vertex went to; itself if it stayed
+
+private:
+    using Edge = HalfedgeMesh::EdgeHandle;
+    using Entry = std::pair<double, int>;  // reach, edge; out of date where the edge has another one now
+    using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+
+    Halfedge first_choice(Edge e) const
+    {
+        const Halfedge h = mesh.halfedge_handle(e, 0), t = mesh.halfedge_handle(e, 1);
+        return reach_[mesh.from_vertex_handle(h).idx()] <= reach_[mesh.from_vertex_handle(t).idx()] ? h : t;
+    }
+
+    double reach_after(Halfedge h) const
+    {
         const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
-        left -= mesh.is_boundary(e) ? 1 : 2;
-        double& reached = reach[to.idx()];
-        reached = std::max(reached, reach_after(h));
+        return reach_[from.idx()] + (mesh.point(from) - mesh.point(to)).norm();
+    }
+
+    /// Whether no face is turned over when the half-edge's origin goes to its target.
+    bool stays_upright(Halfedge h) const
+    {
+        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        for (auto out = mesh.cvoh_iter(from); out.is_valid(); ++out) {
+            if (mesh.is_boundary(*out)) continue;
+            const Vertex b = mesh.to_vertex_handle(*out), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*out));
+            if (b == to || c == to) continue;
+            const OpenMesh::Vec3d before = normal(mesh.point(from), mesh.point(b), mesh.point(c));
+            const OpenMesh::Vec3d after = normal(mesh.point(to), mesh.point(b), mesh.point(c));
+            if (!(OpenMesh::dot(before, after) > least_cosine * before.norm() * after.norm())) return false;
+            if (!together_.points) continue;
+            const auto at = [&](Vertex v) { return complex_at(*together_.points, v.idx()); };
+            const double least = std::min(least_height, slenderness(at(from), at(b), at(c)));
+            const double height = slenderness(at(to), at(b), at(c));
+            if (!(height > 0.0) || height < least) return false;
+        }
+        return true;
+    }
+
+    bool may_collapse(Halfedge h)
+    {
+        if (mesh.is_boundary(mesh.from_vertex_handle(h)) && !mesh.is_boundary(mesh.edge_handle(h))) return false;
+        return mesh.is_collapse_ok(h) && stays_upright(h);
+    }
+
+    /// The mirror image of a half-edge; and whether it has none because its vertices have none.
+    std::pair<Halfedge, bool> image_of(Halfedge h) const
+    {
+        if (together_.image.empty()) return {{}, true};
+        const Index from = together_.image[mesh.from_vertex_handle(h).idx()];
+        const Index to = together_.image[mesh.to_vertex_handle(h).idx()];
+        if (from < 0 || to < 0 || mesh.status(Vertex(from)).deleted() || mesh.status(Vertex(to)).deleted())
+            return {{}, true};
+        return {mesh.find_halfedge(Vertex(from), Vertex(to)), false};
+    }
+
+    void collapse(Halfedge h)
+    {
+        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        left_ -= mesh.is_boundary(mesh.edge_handle(h)) ? 1 : 2;
+        reach_[to.idx()] = std::max(reach_[to.idx()], reach_after(h));
         mesh.collapse(h);
         parent[from.idx()] = to.idx();
         for (auto out = mesh.cvoh_iter(to); out.is_valid(); ++out) {
-            const HalfedgeMesh::EdgeHandle next = mesh.edge_handle(*out);
-            queue.emplace(reach_after(first_choice(next)), next.idx());
+            const Edge next = mesh.edge_handle(*out);
+            queue_.emplace(reach_after(first_choice(next)), next.idx());
         }
     }
 
+    const CoarseTogether& together_;
+    // (V) how far a vertex has drawn others: without it a vertex would go along a row of equal edges to its end.
+    std::vector<double> reach_;
+    Queue queue_;
+    Index left_ = 0;  // faces
+};
+
+}  // namespace
+
+CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
+                             const CoarseTogether& together, ExecutionContext& context)
+{
+    Coarsening coarsening(vertices, triangles, together);
+    coarsening.run(faces, context);
+    const HalfedgeMesh& mesh = coarsening.mesh;
+    std::vector<Index>& parent = coarsening.parent;
     CoarseSurface coarse;
-    std::vector<Index> number(parent.size(), -1), kept;
+    std::vector<Index> number(parent.size(), -1);
     std::vector<Eigen::RowVector3i> rows;
     for (Index f = 0; f < static_cast<Index>(mesh.n_faces()); ++f) {
         const auto handle = mesh.face_handle(static_cast<unsigned>(f));
@@ -104,15 +168,15 @@ CoarseSurface coarse_surface(const CutSurface& whole, Index faces, ExecutionCont
         for (auto v = mesh.cfv_iter(handle); v.is_valid(); ++v, ++k) {
             Index& own = number[v->idx()];
             if (own < 0) {
-                own = static_cast<Index>(kept.size());
-                kept.push_back(v->idx());
+                own = static_cast<Index>(coarse.vertex.size());
+                coarse.vertex.push_back(v->idx());
             }
             row[k] = own;
         }
         rows.push_back(row);
         coarse.face.push_back(f);
     }
-    coarse.vertices = whole.vertices(kept, Eigen::all);
+    coarse.vertices = vertices(coarse.vertex, Eigen::all);
     coarse.triangles.resize(static_cast<Eigen::Index>(rows.size()), 3);
     for (std::size_t f = 0; f < rows.size(); ++f) coarse.triangles.row(static_cast<Eigen::Index>(f)) = rows[f];
     coarse.vertex_at.resize(parent.size());

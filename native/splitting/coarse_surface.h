@@ -11,12 +11,21 @@ namespace koebe {
 struct CoarseSurface {
     Vertices vertices;
     Triangles triangles;
+    std::vector<Index> vertex;     ///< for each coarse vertex the fine vertex that it is
     std::vector<Index> face;       ///< for each coarse face the fine face from which it came
     std::vector<Index> vertex_at;  ///< (V) for each fine vertex the coarse vertex that it was moved to
 };
 
+/// What must be coarsened with the surface.
+struct CoarseTogether {
+    const PlanarPoints* points = nullptr;  ///< (V, 2) a map: its faces stay upright, and no needles
+    std::vector<Index> image = {};         ///< (V) mirror images, -1 for none: an edge and its image go together
+};
+
 /// Collapses edges (OpenMesh), those first that move vertices least, until `faces` are left or no edge can go. Never
 /// turns a face over. Keeps the topology and the number of loops.
-CoarseSurface coarse_surface(const CutSurface& whole, Index faces, ExecutionContext& context);
+/// @param triangles (F, 3) manifold and oriented
+CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
+                             const CoarseTogether& together, ExecutionContext& context);
 
 }  // namespace koebe

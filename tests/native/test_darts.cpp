@@ -1,9 +1,12 @@
 #include "even/even_forces.h"
 #include "even/even_map.h"
 #include "mesh/topology.h"
+#include "parts/carried_cuts.h"
+#include "parts/coarse_parts.h"
 #include "parts/dart_rounds.h"
 #include "parts/darts.h"
 #include "planar/boundary_crossings.h"
+#include "planar/planar_predicates.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +48,7 @@ FlatPart cone(double angle)
             triangles.row(f++) << at(ring, k), at(ring + 1, k + 1), at(ring, k + 1);
         }
     part.surface = require_bordered_genus_zero(triangles, count);
+    for (Index face = 0; face < f; ++face) part.faces.push_back(face);
     for (Index v = 0; v < count; ++v) part.original.push_back(v);
     part.held.assign(static_cast<std::size_t>(count), 0);
     part.rims.push_back(part.surface.loops.front());
@@ -139,4 +143,60 @@ TEST(Darts, one_that_begins_at_a_round_loop_leaves_both_ends_on_the_circle)
     for (const Index v : part.round.front().vertices)
         EXPECT_NEAR(std::abs(Complex(part.flat.points(v, 0), part.flat.points(v, 1)) - round.center), round.radius,
                     1e-12);
+}
+
+TEST(CoarseParts, keep_places_loops_and_area)
+{
+    const FlatPart fine = cone(1.5 * pi);
+    ExecutionContext context;
+    const CoarseParts coarse = coarse_parts({fine, fine}, 400, context);
+    ASSERT_EQ(coarse.parts.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const FlatPart& part = coarse.parts[k];
+        EXPECT_LE(part.faces.size(), 202U);
+        EXPECT_GT(part.faces.size(), 150U);
+        EXPECT_EQ(part.surface.loops.size(), 1U);
+        EXPECT_TRUE(lies_one_to_one(part, part.points));
+        double area = 0.0, fine_area = 0.0;
+        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
+            area += signed_area(part.points, part.surface.triangles, f);
+        for (Eigen::Index f = 0; f < fine.surface.triangles.rows(); ++f)
+            fine_area += signed_area(fine.points, fine.surface.triangles, f);
+        EXPECT_NEAR(area, fine_area, 0.05 * fine_area);
+        for (std::size_t v = 0; v < part.original.size(); ++v) {
+            EXPECT_EQ(part.original[v], fine.original[coarse.vertex[k][v]]);
+            EXPECT_EQ(part.points.row(static_cast<Eigen::Index>(v)), fine.points.row(coarse.vertex[k][v]));
+        }
+    }
+}
+
+// The cuts of a coarse part lie in the fine part where they lay, and let it lie flat as they did there.
+TEST(CarriedCuts, a_dart_lays_the_fine_cone_flat_too)
+{
+    constexpr double even = 0.1;
+    FlatPart fine = cone(1.5 * pi);
+    relax(fine, even);
+    const double before = energy(fine, even);
+    ExecutionContext context;
+    const CoarseParts coarse = coarse_parts({fine}, 300, context);
+    std::vector<HeldPart> cut{{coarse.parts.front(), {}}};
+    relax(cut.front().flat, even);
+    cut_darts(cut, even, 1e-3, 1, context);
+    relax(cut.front().flat, even);
+    const FlatPart& after = cut.front().flat;
+    ASSERT_EQ(after.tips.size(), 1U);
+    EXPECT_EQ(after.original[after.tips.front()], 0);
+    const CarriedParts carried_parts = carried({fine}, coarse, {after}, context);
+    ASSERT_EQ(carried_parts.parts.size(), 1U);
+    EXPECT_EQ(carried_parts.placed, std::vector<char>{1});
+    FlatPart part = carried_parts.parts.front();
+    EXPECT_EQ(part.faces, fine.faces);
+    EXPECT_EQ(part.surface.loops.size(), 1U);
+    ASSERT_EQ(part.tips.size(), 1U);
+    EXPECT_EQ(part.original[part.tips.front()], 0);
+    EXPECT_NEAR(part.dart_length, std::sqrt(2.0 * area_of_cone / (1.5 * pi)), 0.25 * part.dart_length);
+    EXPECT_TRUE(lies_one_to_one(part, part.points));
+    EXPECT_LT(energy(part, even), 0.2 * before);  // it starts near the end,
+    relax(part, even);
+    EXPECT_LT(energy(part, even), 1e-5 * before);  // and reaches it
 }

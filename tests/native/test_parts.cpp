@@ -403,7 +403,7 @@ TEST(Parts, a_coarse_surface_keeps_loops_and_area)
     const CutSurface whole = cut_surface(mesh.vertices, mesh.triangles, {});
     ExecutionContext context;
     const Index faces = static_cast<Index>(mesh.triangles.rows()) / 6;
-    const CoarseSurface coarse = coarse_surface(whole, faces, context);
+    const CoarseSurface coarse = coarse_surface(mesh.vertices, mesh.triangles, faces, {}, context);
     EXPECT_LE(coarse.triangles.rows(), faces);
     EXPECT_GT(coarse.triangles.rows(), faces / 2);
     const CutSurface surface = cut_surface(coarse.vertices, coarse.triangles, {});
@@ -421,7 +421,8 @@ TEST(Parts, coarse_labels_become_fine_ones)
     const Mesh mesh = finger(10.0, 48);
     const CutSurface whole = cut_surface(mesh.vertices, mesh.triangles, {});
     ExecutionContext context;
-    const CoarseSurface coarse = coarse_surface(whole, static_cast<Index>(mesh.triangles.rows()) / 6, context);
+    const CoarseSurface coarse =
+        coarse_surface(mesh.vertices, mesh.triangles, static_cast<Index>(mesh.triangles.rows()) / 6, {}, context);
     std::vector<int> label;
     for (const auto& face : coarse.triangles.rowwise()) {
         const double height =
