@@ -111,11 +111,13 @@ std::vector<int> inverse_match(const OrderedDomain& a, const std::vector<Circle>
 /// @param number of the circles, for the refusal
 void require_wide_circles(const std::vector<Circle>& circles, const std::vector<Index>& number, const char* whose)
 {
+    std::optional<std::size_t> first;
     for (std::size_t k = 0; k < circles.size(); ++k)
-        if (!(circles[k].radius >= least_template_gap))
-            throw InputError(std::string(whose) + " circle " + std::to_string(number[k]) + " has the radius " +
-                                 formatted("%.3g", circles[k].radius) + ": an extremal map needs 1e-6 at least",
-                             ElementKind::loops, {number[k]});
+        if (!(circles[k].radius >= least_template_gap) && (!first || number[k] < number[*first])) first = k;
+    if (first)
+        throw InputError(std::string(whose) + " circle " + std::to_string(number[*first]) + " has the radius " +
+                             formatted("%.3g", circles[*first].radius) + ": an extremal map needs 1e-6 at least",
+                         ElementKind::loops, {number[*first]});
 }
 
 [[noreturn]] void refuse_teichmueller(double reached, std::vector<Index> blocked)

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace koebe;
 using namespace koebe::test;
@@ -311,7 +312,7 @@ TEST(KoebeMesh, disks_of_long_rims_have_faces_in_proportion_to_their_edges)
         Vertices loop = Vertices::Zero(count, 3);
         std::vector<Index> fixed;
         for (Index i = 0; i < count; ++i) {
-            rim[i] = std::polar(1.0, -2.0 * EIGEN_PI * i / count);
+            rim[i] = std::polar(1.0, -2.0 * std::numbers::pi * i / count);
             loop.row(i).head<2>() << rim[i].real(), rim[i].imag();
             fixed.push_back(i);
         }
