@@ -47,7 +47,7 @@ PatchedPolygons join(const MeshInput& input, FilledSurface filled)
 {
     const Eigen::Index first = input.triangulation.triangles.rows();
     PatchedPolygons result{input.polygons, {}, std::move(filled.warnings)};
-    result.mesh.vertices = std::move(filled.vertices);  // joined corners are those of the file
+    result.mesh.vertices = std::move(filled.vertices);
     result.patch.assign(static_cast<std::size_t>(input.polygons.face_count()), -1);
     std::vector<Index>& corners = result.mesh.corners;
     for (Eigen::Index t = first; t < filled.triangles.rows(); ++t) {
