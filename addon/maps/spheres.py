@@ -68,7 +68,7 @@ class SphereOutcome(DomainOutcome):
 
     def _row(self, one: SphereIsland) -> dict[str, Any]:
         own = {"layout": self.choice.layout, "density": one.density_ratio, "torn_faces": one.torn_faces.tolist()}
-        return {**super()._row(one), **own}
+        return {**super()._row(one), **own, "moved_faces": one.faces(one.result.layout["moved"])}
 
     def _loop_row(self, one: SphereIsland, number: int, of_loop: dict[str, Any]) -> dict[str, Any]:
         return {"radius": of_loop["radius"], "name": f"{number + 1}"}

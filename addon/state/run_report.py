@@ -79,6 +79,9 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     periods: StringProperty(description="Of a tile: its periods in the UVs")
     layout: StringProperty(description="Of a sphere: how it is laid out as UVs")
     torn_faces: StringProperty(description="Of a sphere: the faces that its layout cannot place in the UVs, as JSON")
+    moved_faces: StringProperty(
+        description="Of a sphere: the faces with corners that its layout moves so that no face is flipped, as JSON"
+    )
     handles: IntProperty(description="Of a fundamental domain: the handles that are cut open")
     by_circles: BoolProperty(description="Of a fundamental domain: whether the UVs are cut along circles, or edges")
     offer: StringProperty(description="The operators that take an island that this one does not, with spaces between")

@@ -21,7 +21,7 @@ VERSION = 1
 # Needed only for undo, and not saved.
 NOT_SAVED = ("rna_type", *COLLECTIONS, "corners", "history")
 # Texts that hold lists of whole numbers as JSON; cuts hold lists of such lists.
-NUMBERS = ("flipped_faces", "torn_faces", "cut_edges", "vertices", "elements")
+NUMBERS = ("flipped_faces", "torn_faces", "moved_faces", "cut_edges", "vertices", "elements")
 CUTS = "cuts"
 ELEMENTS = ("vertices", "edges", "faces")
 LARGEST = 2**31 - 1

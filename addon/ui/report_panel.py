@@ -166,10 +166,13 @@ def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         *(("Period" if not number else "", text) for number, text in enumerate(entry.periods.split(" and "))),
         sweeps,
     ]
-    torn = len(json.loads(entry.torn_faces or "[]"))
+    torn, moved, flipped = (
+        len(json.loads(faces or "[]")) for faces in (entry.torn_faces, entry.moved_faces, entry.flipped_faces)
+    )
     of_sphere = [
         ("Caps", f"{len(entry.loops)}"),
-        ("Torn", f"{torn}"),
+        ("Torn", counted(torn, "face")),
+        ("Moved", counted(moved, "face")),
         sweeps,
     ]
     of_handles = [
@@ -182,7 +185,7 @@ def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     for name, value in (
         *([("Even", f"{entry.even:.2f}")] if entry.even else []),
         *(of_parts if entry.parts else of_domain if entry.domain else of_circles),
-        ("Flipped", counted(len(json.loads(entry.flipped_faces or "[]")), "face")),
+        ("Flipped", counted(flipped, "face")),
         ("Time", f"{entry.seconds:.2f} s"),
     ):
         split = table.split(factor=0.45)

@@ -34,6 +34,23 @@
 namespace koebe {
 namespace {
 
+/// a's domain with its inner loops by their first vertices. Large powers of |mu| are nearly flat where faces bend less
+/// than others: Newton's method amplifies rounding there, so that no sum may depend on the given order of the loops.
+struct OrderedDomain : CompactDomain {
+    std::vector<Index> given;  ///< a's own numbers of the loops
+};
+
+OrderedDomain ordered(MappedSurface a)
+{
+    std::vector<Index> given(a.loops.size());
+    std::iota(given.begin(), given.end(), 0);
+    std::ranges::sort(given.begin() + 1, given.end(), {}, [&](Index k) { return a.loops[k].vertices; });
+    std::vector<LoopReport> loops;
+    for (const Index k : given) loops.push_back(a.loops[k]);
+    a.loops = std::move(loops);
+    return {compact(a), std::move(given)};
+}
+
 /// Landmarks in a's domain, and their places in b's.
 struct Held {
     std::vector<SurfacePoint> points;
@@ -70,8 +87,8 @@ void require_equally_many(const std::vector<Circle>& a, const std::vector<Circle
     require_circle_domain(b);
 }
 
-/// a's loop for each of b's.
-std::vector<int> inverse_match(const CompactDomain& a, const std::vector<Circle>& b, const std::vector<int>& match,
+/// The domain's loop for each of b's. @param match b's loop for each of a's as they are given, or empty
+std::vector<int> inverse_match(const OrderedDomain& a, const std::vector<Circle>& b, const std::vector<int>& match,
                                const Held& held, const ExecutionContext& context)
 {
     std::vector<int> inverse(b.size(), 0);
@@ -86,18 +103,21 @@ std::vector<int> inverse_match(const CompactDomain& a, const std::vector<Circle>
     std::iota(all.begin(), all.end(), 0);
     if (!std::is_permutation(all.begin(), all.end(), match.begin(), match.end()) || match[0] != 0)
         throw InputError("the match must name each of the loops of b once, the outer one first");
-    for (std::size_t k = 0; k < b.size(); ++k) inverse[match[k]] = static_cast<int>(k);
+    for (std::size_t k = 0; k < b.size(); ++k) inverse[match[a.given[k]]] = static_cast<int>(k);
     return inverse;
 }
 
 /// Circles that are too small take thousands of steps to shrink to, as no face fits beside them.
-void require_wide_circles(const std::vector<Circle>& circles, const char* whose)
+/// @param number of the circles, for the refusal
+void require_wide_circles(const std::vector<Circle>& circles, const std::vector<Index>& number, const char* whose)
 {
+    std::optional<std::size_t> first;
     for (std::size_t k = 0; k < circles.size(); ++k)
-        if (!(circles[k].radius >= least_template_gap))
-            throw InputError(std::string(whose) + " circle " + std::to_string(k) + " has the radius " +
-                                 formatted("%.3g", circles[k].radius) + ": an extremal map needs 1e-6 at least",
-                             ElementKind::loops, {static_cast<Index>(k)});
+        if (!(circles[k].radius >= least_template_gap) && (!first || number[k] < number[*first])) first = k;
+    if (first)
+        throw InputError(std::string(whose) + " circle " + std::to_string(number[*first]) + " has the radius " +
+                             formatted("%.3g", circles[*first].radius) + ": an extremal map needs 1e-6 at least",
+                         ElementKind::loops, {number[*first]});
 }
 
 [[noreturn]] void refuse_teichmueller(double reached, std::vector<Index> blocked)
@@ -107,15 +127,17 @@ void require_wide_circles(const std::vector<Circle>& circles, const char* whose)
                       blocked.empty() ? ElementKind::none : ElementKind::loops, std::move(blocked));
 }
 
-/// @param whose a or b @param circles in the order of a's loops
-void require_fine_gaps(const std::vector<Circle>& circles, const std::vector<VertexLoop>& loops, const PlanarPoints& uv,
+/// @param whose a or b @param circles in the order of the domain's loops
+void require_fine_gaps(const std::vector<Circle>& circles, const OrderedDomain& domain, const PlanarPoints& uv,
                        const char* whose)
 {
-    if (const auto gap = coarse_gap(circles, loops, uv))
-        throw SolverError("the mesh is too coarse for the gap between loops " + std::to_string(gap->first) + " and " +
-                              std::to_string(gap->second) + " in the domain of " + whose +
+    if (const auto gap = coarse_gap(circles, domain.loops, uv)) {
+        const Index first = domain.given[gap->first], second = domain.given[gap->second];
+        throw SolverError("the mesh is too coarse for the gap between loops " + std::to_string(first) + " and " +
+                              std::to_string(second) + " in the domain of " + whose +
                               ": the edges of their rims leave the circles by more than the gap is wide",
-                          ElementKind::loops, {gap->first, gap->second});
+                          ElementKind::loops, {first, second});
+    }
 }
 
 std::size_t newly_folded(const Triangles& triangles, const PlanarPoints& before, const PlanarPoints& after)
@@ -181,20 +203,22 @@ std::vector<Circle> in_order_of(const std::vector<int>& inverse, const std::vect
     return result;
 }
 
-TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circle>& b, const std::vector<int>& inverse,
+TeichmuellerMap extremal_map(const OrderedDomain& domain, const std::vector<Circle>& b, const std::vector<int>& inverse,
                              const Held& held, ExecutionContext& context)
 {
     const Triangles& triangles = domain.surface.triangles;
     const std::vector<Circle> goal = in_order_of(inverse, b);
     TeichmuellerMap result;
+    std::vector<Index> of_b(b.size());  // b's loop for each of the domain's
+    for (std::size_t k = 0; k < b.size(); ++k) of_b[static_cast<std::size_t>(inverse[k])] = static_cast<Index>(k);
     result.match.assign(b.size(), 0);
-    for (std::size_t k = 0; k < b.size(); ++k) result.match[static_cast<std::size_t>(inverse[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < b.size(); ++k) result.match[domain.given[k]] = of_b[k];
     PlanarPoints undistorted;
     const TemplateStart start = laid_over(domain, goal, held, undistorted, context);
     PlanarPoints uv = start.uv;
     if (!same_circles(start.circles, goal)) {
-        require_wide_circles(domain.circles, "a's");
-        require_wide_circles(b, "b's");
+        require_wide_circles(domain.circles, domain.given, "a's");
+        require_wide_circles(goal, of_b, "b's");
         const BendingInput input{triangles,
                                  domain.loops,
                                  domain.off_circle,
@@ -206,7 +230,11 @@ TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circ
         Extremal extremal{.powers = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0}, .free_rims = true};
         if (!held.points.empty()) extremal = {};
         BendingResult bent = bend_between(input, start.circles, goal, extremal, context);
-        if (!bent.arrived) refuse_teichmueller(bent.reached, std::move(bent.blocked));
+        if (!bent.arrived) {
+            for (Index& k : bent.blocked) k = domain.given[k];
+            std::ranges::sort(bent.blocked);
+            refuse_teichmueller(bent.reached, std::move(bent.blocked));
+        }
         uv = std::move(bent.uv);
         result.straight = bent.straight;
         result.newton_steps = bent.newton_steps;
@@ -237,8 +265,8 @@ TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circ
     if (const auto exact = dilatation_by_modulus(domain, b, mesh, from, uv)) {
         result.lower = result.dilatation = *exact;
     } else {
-        require_fine_gaps(domain.circles, domain.loops, domain.surface.uv, "a");
-        require_fine_gaps(goal, domain.loops, uv, "b");
+        require_fine_gaps(domain.circles, domain, domain.surface.uv, "a");
+        require_fine_gaps(goal, domain, uv, "b");
         DilatationBounds bounds;
         if (!mesh.vertex.empty()) {
             std::vector<Index> marks = mesh.vertex;
@@ -259,7 +287,7 @@ TeichmuellerMap extremal_map(const CompactDomain& domain, const std::vector<Circ
 }
 
 /// The least K of all matches. Maps are computed by rising lower bounds, until no bound is below the least K.
-TeichmuellerMap least_map(const CompactDomain& domain, const std::vector<Circle>& b, ExecutionContext& context)
+TeichmuellerMap least_map(const OrderedDomain& domain, const std::vector<Circle>& b, ExecutionContext& context)
 {
     constexpr std::size_t most_maps = 100;
     std::optional<TeichmuellerMap> best;
@@ -268,28 +296,31 @@ TeichmuellerMap least_map(const CompactDomain& domain, const std::vector<Circle>
     std::size_t tried = 0;
     context.begin_stage("fit", 0.0, 1.0);
     ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
-    const auto attempt = [&](const std::vector<int>& inverse) {
-        context.advance(static_cast<double>(tried) / most_maps);
-        if (++tried > most_maps) refuse_long_search();
+    /// Calls a function. @return whether it was not refused
+    const auto succeeds = [&error](auto&& call) {
         try {
-            TeichmuellerMap map = extremal_map(domain, b, inverse, {}, inner);
-            if (!best || map.dilatation < best->dilatation) best = std::move(map);
+            call();
+            return true;
         } catch (const OutOfMemory&) {
             throw;
         } catch (const SolverError&) {
             if (!error) error = std::current_exception();
-            refused.push_back(inverse);
+            return false;
         }
     };
+    const auto attempt = [&](const std::vector<int>& inverse) {
+        context.advance(static_cast<double>(tried) / most_maps);
+        if (++tried > most_maps) refuse_long_search();
+        const bool found = succeeds([&] {
+            TeichmuellerMap map = extremal_map(domain, b, inverse, {}, inner);
+            if (!best || map.dilatation < best->dilatation) best = std::move(map);
+        });
+        if (!found) refused.push_back(inverse);
+    };
     const auto may_beat = [&](double dilatation, const std::vector<int>& inverse) {
-        try {
-            const DilatationBounds bounds = domain_dilatation(domain.circles, in_order_of(inverse, b), inner);
-            return std::sqrt(bounds.lower * bounds.upper) < dilatation;
-        } catch (const OutOfMemory&) {
-            throw;
-        } catch (const SolverError&) {
-            return true;
-        }
+        DilatationBounds bounds{.lower = 0.0, .upper = 0.0};
+        succeeds([&] { bounds = domain_dilatation(domain.circles, in_order_of(inverse, b), inner); });
+        return std::sqrt(bounds.lower * bounds.upper) < dilatation;
     };
     const std::vector<int> first = inverse_match(domain, b, {}, {}, context);
     attempt(first);
@@ -315,7 +346,7 @@ TeichmuellerMap teichmueller_map(const MappedSurface& a, const std::vector<Circl
         require_own_circles(a.loops);
         if (options.least_match && !(options.match.empty() && options.landmarks.empty()))
             throw InputError("the search for the least match has neither a match nor landmarks");
-        const CompactDomain domain = compact(a);
+        const OrderedDomain domain = ordered(a);
         require_equally_many(domain.circles, b);
         const Held held = held_points(options.landmarks);
         TeichmuellerMap map =

@@ -7,8 +7,9 @@
 namespace koebe {
 
 struct DiskPatchOptions {
-    /// In mean edges of the rim. 1 keeps second order (the paper gives no value); the disk of loop 0 may then have more
-    /// faces than the surface. With 1.5 the error is up to ten times larger, with 3 it stops falling.
+    /// In mean edges of the rim, or of a rim of 128 edges if this one has more. 1 keeps second order up to that (the
+    /// paper gives no value); the disk of loop 0 may then have more faces than the surface. With 1.5 the error is up to
+    /// ten times larger, with 3 it stops falling.
     double longest_edge = 1.0;
     double gradation = 0.25;   ///< growth of the edge length per distance from the rim, dimensionless
     double worst_angle = 0.5;  ///< a mesh is made anew when its smallest angle falls below this share of its first one

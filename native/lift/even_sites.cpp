@@ -217,7 +217,7 @@ double cell_area(const FlatSheet& sheet)
 std::vector<SurfacePoint> even_sites(const FlatSheet& sheet, double spacing, std::uint64_t seed)
 {
     const double wanted = std::round(cell_area(sheet) / (spacing * spacing * std::sqrt(0.75)));  // hexagonal lattice
-    require_few_outlines(wanted, wanted * points_of_a_site);
+    require_few_outlines(wanted, wanted * points_of_a_site, "the distance of the outlines' middles");
     const auto count = static_cast<std::size_t>(std::max(1.0, wanted));
     RandomNumbers random(seed);
     const std::vector<Sample> samples = random_samples(sheet, count * samples_of_a_site, random);

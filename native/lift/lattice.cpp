@@ -83,7 +83,8 @@ void require_few(const Lattice& lattice, double places)
 {
     double points = 0.0;
     for (const std::vector<Complex>& shape : lattice.shapes) points += static_cast<double>(shape.size());
-    require_few_outlines(places * static_cast<double>(lattice.shapes.size()), places * points);
+    require_few_outlines(places * static_cast<double>(lattice.shapes.size()), places * points,
+                         "the size of the lattice's cells");
 }
 
 struct Fit {

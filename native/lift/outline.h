@@ -21,15 +21,16 @@ struct DrawnOutline {
 };
 
 /// Bounds the work of a pattern before it is done.
-/// @param points of all outlines, counted as often as they are drawn @param faces where they lie, if that is known
+/// @param points of all outlines, counted as often as they are drawn @param size the words for the size that is too
+/// small @param face where outlines lie; -1: they lie everywhere
 /// @throws InputError there are too many
-inline void require_few_outlines(double outlines, double points, std::vector<Index> faces = {})
+inline void require_few_outlines(double outlines, double points, const char* size, Index face = -1)
 {
     constexpr double most_points = 4e6;  // at 3 to 10 µs a point
     if (points <= most_points) return;
     const std::string count = outlines < 1e15 ? std::to_string(static_cast<long long>(outlines)) : "over 1e15";
-    throw InputError("the size is too small for the surface: " + count + " outlines are too many to draw",
-                     ElementKind::faces, std::move(faces));
+    throw InputError(size + (" is too small for the surface: " + count + " outlines are too many to draw"),
+                     ElementKind::faces, face >= 0 ? std::vector{face} : std::vector<Index>());
 }
 
 }  // namespace koebe

@@ -70,8 +70,8 @@ private:
             OutlinePath path = walk_outline(chart < 0 ? sheet_ : charts_[chart], outlines_[o], nodes_);
             drawn_ += static_cast<double>(nodes_.size() - first);
             const Index face = outlines_[o].face;
-            require_few_outlines(static_cast<double>(outlines_.size()), drawn_,
-                                 face >= 0 && sheet_.on_surface(face) ? std::vector{face} : std::vector<Index>());
+            require_few_outlines(static_cast<double>(outlines_.size()), drawn_, "the size",
+                                 face >= 0 && sheet_.on_surface(face) ? face : -1);
             if (chart >= 0) bring_home(charts_[chart], first);
             if (path.end != WalkEnd::closed) {
                 blame(o, path.end == WalkEnd::border ? Fault::border : Fault::too_fine);

@@ -62,6 +62,8 @@ private:
     struct Shown {
         Role role = Role::drawing;
         bool visible = true, filled = true, stroked = false;
+        bool opaque = true;                         // not in an element of opacity 0
+        bool measured = false;                      // in an element that is cut, perhaps in units of its bounding box
         bool coloured = true, translucent = false;  // what is not plain white in a mask
     };
 
@@ -105,7 +107,7 @@ private:
         set(node, "style", "");
     }
 
-    /// Takes over what an element says of itself. @return false if neither it nor its children are drawn
+    /// Takes over what an element says of itself. @return false if neither it nor its children are drawn or measured
     static bool inherit(const SvgNode& node, Shown& shown)
     {
         const auto take = [&](std::string_view name, bool& flag, auto off) {
@@ -124,7 +126,9 @@ private:
         const std::string_view filter = value_of(node, "filter");
         if (opacity("opacity") < 1.0 || opacity("fill-opacity") < 1.0 || !(filter.empty() || filter == "none"))
             shown.translucent = true;
-        return value_of(node, "display") != "none" && (shown.role == Role::clip || opacity("opacity") > 0.0);
+        if (shown.role == Role::drawing && (is_cut(node, "clip-path") || is_cut(node, "mask"))) shown.measured = true;
+        if (shown.role != Role::clip && !(opacity("opacity") > 0.0)) shown.opaque = false;
+        return value_of(node, "display") != "none" && (shown.opaque || shown.measured);
     }
 
     /// The conditional attributes (SVG 1.1, 5.8). No extension is known, and the language is English.
@@ -284,6 +288,15 @@ private:
         return group;
     }
 
+    /// A group of which nothing is drawn: its shape only counts in bounding boxes (SVG 2, 8.10).
+    SvgNode* measured_group(const SvgNode& shape)
+    {
+        SvgNode* group = new_group();
+        group->append_node(copy_of(shape));
+        group->append_node(new_clip(new_group(), ""));
+        return group;
+    }
+
     /// @return false if the element goes
     bool resolve_element(SvgNode& parent, SvgNode* child, Shown shown, Size size, int depth)
     {
@@ -318,7 +331,10 @@ private:
         constexpr std::array shapes{"path", "rect", "circle", "ellipse", "polyline", "polygon", "line"};
         const bool is_shape = std::ranges::find(shapes, name) != shapes.end();
         const bool is_painted = shown.role == Role::clip || shown.filled || shown.stroked;
-        if (!shown.visible || (is_shape && !is_painted)) return false;
+        if (!shown.visible || !shown.opaque || (is_shape && !is_painted)) {
+            if (is_shape && shown.measured) parent.insert_node(child, measured_group(*child));
+            return false;
+        }
         if (!is_shape || (shown.role == Role::mask && (shown.coloured || shown.stroked || shown.translucent)))
             plain_ = false;
         return true;

@@ -110,6 +110,28 @@ DrawnTurns draw_island(const UprightIsland& island, double scale, std::int64_t r
     return turns;
 }
 
+std::vector<DrawnTurns> draw_islands(const std::vector<UprightIsland>& islands, double scale, double unit,
+                                     double margin)
+{
+    const auto reach = static_cast<std::int64_t>(std::ceil(0.5 * margin * unit)) + 1;  // points are rounded
+    std::vector<DrawnTurns> drawn;
+    for (const UprightIsland& island : islands) drawn.push_back(draw_island(island, scale * unit, reach));
+    return drawn;
+}
+
+double largest_scale(const std::vector<UprightIsland>& islands, double margin)
+{
+    double area = 0.0, along = 0.0, extent = 0.0;
+    for (const UprightIsland& island : islands) {
+        area += std::max(island.area, 0.0);
+        along += margin * island.extent;
+        extent = std::max(extent, island.extent);
+    }
+    if (!(extent > 0.0)) return 1.0;
+    const double rest = 1.0 - static_cast<double>(islands.size()) * EIGEN_PI / 4.0 * margin * margin;
+    return std::min((1.0 - margin) / extent, 2.0 * rest / (along + std::sqrt(along * along + 4.0 * area * rest)));
+}
+
 IslandPlace place_of_spot(const UprightIsland& island, const DrawnTurns& turns, const CellSpot& spot, double unit,
                           double scale)
 {

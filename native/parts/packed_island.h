@@ -34,6 +34,14 @@ using DrawnTurns = std::array<DrawnTurn, 4>;
 /// @param scale grid units of a unit of the points @param reach of the margin, in grid units
 DrawnTurns draw_island(const UprightIsland& island, double scale, std::int64_t reach);
 
+/// All islands at one scale, each with half the margin round it. @param unit grid units of the square's side
+std::vector<DrawnTurns> draw_islands(const std::vector<UprightIsland>& islands, double scale, double unit,
+                                     double margin);
+
+/// The largest scale at which islands can have room in the square: each takes at least its area, half the margin along
+/// its extent on both sides, and a disk of the margin's width.
+double largest_scale(const std::vector<UprightIsland>& islands, double margin);
+
 /// A place on a board, in cells.
 struct CellSpot {
     int turn = 0, x = 0, y = 0;

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "parts/packed_island.h"
+#include "parts/shelf_packing.h"
 #include "parts/tight_packing.h"
 
 #include <algorithm>
@@ -24,13 +25,9 @@ constexpr int most_scales = 600;
 constexpr double first_step = 0.04, last_step = 0.0005;  // larger by that share, halved where that has no room,
 constexpr double last_step_of_many = 0.008;
 constexpr std::size_t many_islands = 200;
-constexpr std::size_t crumbs = 1000;  // islands: each goes on where a similar one found room; no further attempts,
-constexpr double least_factor_of_crumbs = 0.4, step_of_crumbs = 0.02;  // and fewer scales;
-constexpr double worth_a_board = 0.65;    // of the largest scale: if rows of boxes reach it, they are taken
-constexpr double units_of_rows = 0x1p40;  // along the square
-constexpr int halvings_of_rows = 40;      // of the scales between which rows have room
-constexpr double least_gain = 0.002;      // and what a further attempt has to bring
-constexpr int attempts_an_order = 24;     // before a new order is begun
+constexpr std::size_t islands_on_shelves = 1000;  // so many islands are packed by shelf_packing.h
+constexpr double least_gain = 0.002;              // what a further attempt has to bring
+constexpr int attempts_an_order = 24;             // before a new order is begun
 constexpr int most_attempts = 400;
 constexpr std::int64_t tests_a_point = 1200;  // tests on the board, after which no further attempt is made
 constexpr std::int64_t fewest_tests = 1'000'000, most_tests = 40'000'000;
@@ -51,9 +48,8 @@ public:
     Packer(const std::vector<Outline>& outlines, double margin)
         : side_(board_side(outlines.size())),
           unit_(static_cast<double>(side_) * grid_cell),
-          margin_(std::min(margin, share_of_margins / std::sqrt(static_cast<double>(outlines.size())))),
+          margin_(margin),
           is_many_(outlines.size() >= many_islands),
-          are_crumbs_(outlines.size() >= crumbs),
           board_(side_)
     {
         std::int64_t points = 0;
@@ -67,15 +63,13 @@ public:
 
     IslandPacking pack()
     {
-        if (are_crumbs_ && pack_in_rows()) return result();
         std::vector<std::size_t> order = by_size(0);
-        double scale = largest_scale();
-        const double least = are_crumbs_ ? least_factor_of_crumbs : least_factor;
+        double scale = largest_scale(islands_, margin_);
         for (int k = 0; !fits(order, rules[0], scale);
-             scale *= is_many_ || failed_ == 0 ? std::clamp(std::sqrt(room_), least, next_scale) : next_scale)
+             scale *= is_many_ || failed_ == 0 ? std::clamp(std::sqrt(room_), least_factor, next_scale) : next_scale)
             if (++k == most_scales) throw SolverError("the islands have no room in the square");
-        grow(order, rules[0], are_crumbs_ ? step_of_crumbs : first_step);
-        std::int64_t work = are_crumbs_ ? allowed_ : board_.tests();
+        grow(order, rules[0], first_step);
+        std::int64_t work = board_.tests();
         for (int k = 1; k < most_attempts && islands_.size() > 1 && work < allowed_; ++k) {
             const Rule rule = rules[static_cast<std::size_t>(k) % rules.size()];
             if (k == static_cast<int>(rules.size()) || k % attempts_an_order == 0) order = by_size(k);
@@ -97,21 +91,6 @@ private:
         return random_ >> 33;
     }
 
-    /// The largest scale that can have room: each island takes at least its area, half the margin along its extent on
-    /// both sides, and a disk of the margin's width.
-    double largest_scale() const
-    {
-        double area = 0.0, along = 0.0, extent = 0.0;
-        for (const UprightIsland& island : islands_) {
-            area += std::max(island.area, 0.0);
-            along += margin_ * island.extent;
-            extent = std::max(extent, island.extent);
-        }
-        if (!(extent > 0.0)) return 1.0;
-        const double rest = 1.0 - static_cast<double>(islands_.size()) * EIGEN_PI / 4.0 * margin_ * margin_;
-        return std::min((1.0 - margin_) / extent, 2.0 * rest / (along + std::sqrt(along * along + 4.0 * area * rest)));
-    }
-
     /// The order: first by falling area, then by falling extent, then by areas with random factors.
     std::vector<std::size_t> by_size(int round)
     {
@@ -126,59 +105,12 @@ private:
         return order;
     }
 
-    /// Islands in their boxes side by side, in rows, the highest first. @return whether that is about as good as a
-    /// board
-    bool pack_in_rows()
-    {
-        std::vector<Eigen::RowVector2d> boxes;
-        for (const UprightIsland& island : islands_) boxes.emplace_back(island.points.colwise().maxCoeff());
-        std::vector<std::size_t> order(islands_.size());
-        std::iota(order.begin(), order.end(), 0);
-        std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return boxes[k][1]; });
-        constexpr auto side = static_cast<std::int64_t>(units_of_rows);
-        const auto gap = static_cast<std::int64_t>(std::ceil(margin_ * units_of_rows));
-        std::vector<std::array<std::int64_t, 2>> corners(islands_.size());
-        const auto have_room = [&](double scale) {
-            std::int64_t x = 0, y = 0, row = 0;
-            for (const std::size_t k : order) {
-                const auto width = static_cast<std::int64_t>(std::ceil(scale * boxes[k][0] * units_of_rows)) + gap;
-                const auto height = static_cast<std::int64_t>(std::ceil(scale * boxes[k][1] * units_of_rows)) + gap;
-                if (x + width > side) {
-                    y += row;
-                    x = row = 0;
-                }
-                row = std::max(row, height);
-                if (width > side || y + height > side) return false;
-                corners[k] = {x, y};
-                x += width;
-            }
-            return true;
-        };
-        const double most = largest_scale();
-        double high = most;
-        best_scale_ = worth_a_board * most;
-        if (!have_room(best_scale_)) return false;
-        for (int k = 0; k < halvings_of_rows; ++k)
-            if (const double middle = 0.5 * (best_scale_ + high); have_room(middle))
-                best_scale_ = middle;
-            else
-                high = middle;
-        have_room(best_scale_);
-        for (std::size_t k = 0; k < islands_.size(); ++k) {
-            const auto place = [&](int c) {
-                return (static_cast<double>(corners[k][c]) / units_of_rows) + 0.5 * margin_;
-            };
-            const Complex corner(islands_[k].corner[0], islands_[k].corner[1]);
-            places_.push_back({islands_[k].turn, Complex(place(0), place(1)) - best_scale_ * corner});
-        }
-        return true;
-    }
-
     void grow(const std::vector<std::size_t>& order, Rule rule, double step)
     {
         const double last = is_many_ ? last_step_of_many : last_step;
         while (step > last)
-            if (const double scale = best_scale_ * (1.0 + step); scale > largest_scale() || !fits(order, rule, scale))
+            if (const double scale = best_scale_ * (1.0 + step);
+                scale > largest_scale(islands_, margin_) || !fits(order, rule, scale))
                 step *= 0.5;
     }
 
@@ -187,9 +119,7 @@ private:
     {
         failed_ = 0;
         if (scale != drawn_scale_) {
-            const auto reach = static_cast<std::int64_t>(std::ceil(0.5 * margin_ * unit_)) + 1;  // points are rounded
-            drawn_.clear();
-            for (const UprightIsland& island : islands_) drawn_.push_back(draw_island(island, scale * unit_, reach));
+            drawn_ = draw_islands(islands_, scale, unit_, margin_);
             drawn_scale_ = scale;
         }
         std::int64_t cells = 0, taken = 0;
@@ -205,7 +135,6 @@ private:
             if (islands_[k].area < similar * area) {
                 area = islands_[k].area;
                 from = 0;
-                reached_ = {};
             }
             if (!place(drawn_[k], rule, from, spots[k])) {
                 room_ = static_cast<double>(taken) / static_cast<double>(cells);
@@ -213,7 +142,7 @@ private:
             }
             taken += drawn_[k][0].shape.cells();
             // Lower rows are full for the next island.
-            if (!are_crumbs_) from = is_many_ ? spots[k].y : std::max(0, spots[k].y - drawn_[k][0].shape.height / 2);
+            from = is_many_ ? spots[k].y : std::max(0, spots[k].y - drawn_[k][0].shape.height / 2);
         }
         places_.clear();
         for (std::size_t k = 0; k < islands_.size(); ++k)
@@ -229,12 +158,10 @@ private:
         const int tried = islands_.size() == 1 ? 1 : 4;  // one alone stands upright
         for (int t = 0; t < tried; ++t) {
             const CellShape& shape = turns[t].shape;
-            CellSpot& reached = reached_[static_cast<std::size_t>(t)];
-            for (int y = std::max(from, reached.y); y + shape.height <= side_; ++y) {
+            for (int y = from; y + shape.height <= side_; ++y) {
                 const int top = y + shape.height;
                 if ((rule == Rule::lowest ? y : top) > best[0]) break;
-                const int x = board_.first_room(shape, turns[t].order, y, y == reached.y ? reached.x : 0);
-                if (are_crumbs_) reached = {t, std::max(x, 0), x < 0 ? y + 1 : y};
+                const int x = board_.first_room(shape, turns[t].order, y, 0);
                 if (x < 0) continue;
                 const int right = x + shape.width;
                 std::array<int, 3> score = {top, right, t};
@@ -257,11 +184,10 @@ private:
     const int side_;     // cells
     const double unit_;  // grid units
     const double margin_;
-    const bool is_many_, are_crumbs_;
+    const bool is_many_;
     std::vector<UprightIsland> islands_;
     CellBoard board_;
-    std::array<CellSpot, 4> reached_;  // of crumbs: by turns, up to where similar islands found no room
-    std::int64_t allowed_ = 0;         // work
+    std::int64_t allowed_ = 0;  // work
     std::vector<DrawnTurns> drawn_;
     double drawn_scale_ = 0.0, best_scale_ = 0.0;
     std::vector<IslandPlace> places_;
@@ -299,6 +225,8 @@ IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin)
 {
     if (outlines.empty()) return {{}, 1.0, margin};
     require_finite_outlines(outlines);
+    margin = std::min(margin, share_of_margins / std::sqrt(static_cast<double>(outlines.size())));
+    if (outlines.size() >= islands_on_shelves) return pack_on_shelves(outlines, margin);
     IslandPacking best = Packer(outlines, margin).pack();
     if (outlines.size() <= most_tight) tighten(outlines, best);
     return best;

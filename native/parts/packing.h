@@ -32,9 +32,8 @@ struct IslandPacking {
 /// only where they make all islands larger by 2.5 %. Islands that lie along the axes already keep to quarter turns.
 /// Outlines are drawn on a grid of cells, with half the margin round them. Large islands are placed first, each in the
 /// lowest free place; small islands go into hollows and holes. Several orders and rules are tried. Up to 100 islands
-/// are then moved closer together (tight_packing.h). From 1,000 islands on, their boxes are put in rows where that is
-/// about as good. All decisions are on integers, so the result is the same on every
-/// system.
+/// are then moved closer together (tight_packing.h). From 1,000 islands on, their boxes are put on shelves where that
+/// is about as good (shelf_packing.h). All decisions are on integers, so the result is the same on every system.
 /// @param margin distance of two islands, and twice the distance from the border, in sides of the square. It is made
 /// smaller for many islands, so that they have room
 /// @throws SolverError points that are NaN or infinite

@@ -131,11 +131,16 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
     if (!tiny.empty())
         result.warnings.push_back(
             {WarningKind::below_resolution, counted(tiny.size(), "face") + " flipped, too small for 32-bit UVs", tiny});
-    if (const std::vector<Index> misplaced = misplaced_faces(result.layout); !misplaced.empty())
+    if (const std::vector<Index> misplaced = misplaced_faces(result.layout); !misplaced.empty()) {
+        std::string hint = "The other layout, or finer faces, may have room for them";
+        if (result.layout.kind == SphereLayout::octahedral)
+            hint =
+                "Four vertices lie at the middles of the square's sides, and faces are straight between them. " + hint;
         result.warnings.push_back(
             {WarningKind::flipped,
              counted(misplaced.size(), "face") + " flipped or torn in the UVs, upright on the sphere", misplaced,
-             "The other layout, or finer faces, may have room for them"});
+             std::move(hint)});
+    }
     if (!faults.any()) return;
     warn_not_one_to_one(faults.flipped, faults.below_resolution,
                         {faults.holes.empty() ? "" : counted(faults.holes.size(), "loop") + " out of shape",

@@ -23,6 +23,7 @@ namespace {
 constexpr int sphere_ring_counts[] = {2, 4, 8, 16};
 constexpr double least_depth =
     0.2;  // of a patch in the direction of its middle: what lies lower is far off in the plane
+constexpr std::size_t effort_of_a_face = 50;  // a flipped one takes 67 on a tube of which two fifths are folded
 constexpr double least_repaired_area = 1e-7;  // area of a face turned back, over its wanted area
 
 enum class LoopFreedom { held, sliding, freed };
@@ -34,14 +35,16 @@ public:
           triangles_(domain.surface.triangles),
           map_(map),
           context_(context),
-          effort_(triangles_.rows(), effort)
+          effort_(triangles_.rows(), effort),
+          most_(effort < whole_effort ? std::min(2 * effort, effort_.most()) : effort_.most())
     {
+        effort_.set_limit(most_);
     }
 
     std::size_t run()
     {
         std::vector<Index> left = all_tangled();
-        if (left.empty()) return 0;
+        if (left.empty() || effort_of_a_face * left.size() > most_) return left.size();
         prepare();
         for (const LoopFreedom loops : {LoopFreedom::held, LoopFreedom::sliding, LoopFreedom::freed}) {
             if (loops != LoopFreedom::held && domain_.loops.empty()) break;
@@ -52,7 +55,7 @@ public:
                         work_ += patch.size();
                         repair(patch, shape, loops);
                     }
-                    left = tangled(left);
+                    left = all_tangled();
                 }
         }
         map_.off_circle.clear();
@@ -77,8 +80,8 @@ private:
 
     bool is_tangled(Index f) const
     {
-        return !upright_on_sphere(triangles_, map_.points, f) &&
-               longest_edge_on_sphere(triangles_, map_.points, f) >= sphere_resolution;
+        return longest_edge_on_sphere(triangles_, map_.points, f) >= sphere_resolution &&
+               !upright_on_sphere(triangles_, map_.points, f);
     }
 
     std::vector<Index> all_tangled() const
@@ -296,6 +299,7 @@ private:
     SphericalMap& map_;
     const ExecutionContext& context_;
     RepairEffort effort_;
+    const std::size_t most_;  // effort
     std::vector<int> loop_of_;
     std::vector<std::vector<Index>> faces_of_;
     std::vector<char> off_;

@@ -22,8 +22,10 @@ constexpr std::size_t whole_effort = 300000;  // steps of a face beside those of
 /// wide. Each is projected from the middle of the ball to the plane that touches the sphere there. So the sides of its
 /// faces are straight, and faces upright in the plane are upright on the sphere. First loops are held, then they slide
 /// along their circles, then the loop vertices in the neighbourhood are freed.
-/// @param effort in the unit of whole_effort
-/// @return the number of faces still flipped, except those below sphere_resolution
+/// @param effort in the unit of whole_effort. With less than that, a repair takes at most twice the effort on any
+/// surface
+/// @return the number of faces still flipped, except those below sphere_resolution. All stay where so many are flipped
+/// that the effort would not do
 std::size_t turn_back_on_sphere(const PeriodicSurface& domain, SphericalMap& map, const ExecutionContext& context,
                                 std::size_t effort = whole_effort);
 

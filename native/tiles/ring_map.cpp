@@ -150,30 +150,35 @@ bool is_enclosed(const PeriodicSurface& domain, RingHoles holes)
     return domain.loops.size() == domain.first_hole || holes != RingHoles::circles;
 }
 
+/// The modulus of the ring, enclosed.
+struct EnclosedModulus : ModulusBounds {
+    bool tight = false;  ///< whether bounds that are far apart tell that the mesh is too coarse: see is_enclosed
+};
+
 /// Encloses the modulus. Where the bounds are apart, mollification may have made short edges longer: then the
 /// metric is taken with less of it, as little as lengths of double precision allow.
-ModulusBounds enclose_modulus(PeriodicSurface& domain, RingHoles holes)
+EnclosedModulus enclose_modulus(PeriodicSurface& domain, RingHoles holes)
 {
     constexpr double least_margin = 1e-10;  // IntrinsicMetricOptions::margin
     constexpr double fine_gap = 1.05;       // upper over lower bound where mollification has done no harm
-    ModulusBounds bounds = modulus_bounds(domain, holes);
-    if (!is_enclosed(domain, holes) || bounds.upper <= fine_gap * bounds.lower) return bounds;
+    const EnclosedModulus bounds{modulus_bounds(domain, holes), is_enclosed(domain, holes)};
+    if (!bounds.tight || bounds.upper <= fine_gap * bounds.lower) return bounds;
     PeriodicSurface finer = domain;
     finer.metric_shifts = finer.shifts;
     finer.metric = intrinsic_metric(finer.vertices, finer.surface, {.margin = least_margin}, &finer.metric_shifts);
     const ModulusBounds own = modulus_bounds(finer, holes);
     if (!(own.upper * bounds.lower < bounds.upper * own.lower)) return bounds;
     domain = std::move(finer);
-    return own;
+    return {own, true};
 }
 
 /// Compares the modulus with its bounds: circles lost in rounding, and a metric mollified beyond its shortest edges,
-/// give any modulus. @param tight whether bounds that are far apart tell that the mesh is too coarse
-void check_modulus(const ModulusBounds& bounds, bool tight, double height, bool has_circles, TileResult& result)
+/// give any modulus.
+void check_modulus(const EnclosedModulus& bounds, double height, bool has_circles, TileResult& result)
 {
     constexpr double slack = 0.02;  // of the bounds: they hold for the polyhedron, circles for smooth rims
     const bool outside = height < (1.0 - slack) * bounds.lower || height > (1.0 + slack) * bounds.upper;
-    if (!outside && !(tight && far_apart(bounds, certain_gap))) return;
+    if (!outside && !(bounds.tight && far_apart(bounds, certain_gap))) return;
     const bool lost = outside && has_circles;
     if (outside || far_apart(bounds, resolved_gap)) result.converged = false;
     result.warnings.push_back(
@@ -215,7 +220,7 @@ FlatRing by_circles(const Vertices& vertices, const Triangles& triangles, const 
 }
 
 TileResult ring_tile(const Vertices& vertices, const Triangles& triangles, const PeriodicSurface& domain,
-                     const TileOptions& options, HoleShape shape, const ModulusBounds& bounds, FlatRing ring,
+                     const TileOptions& options, HoleShape shape, const EnclosedModulus& bounds, FlatRing ring,
                      ExecutionContext& context)
 {
     TileResult result = tile_result(vertices, triangles, domain, options, shape, ring.map, context);
@@ -225,7 +230,7 @@ TileResult ring_tile(const Vertices& vertices, const Triangles& triangles, const
         const double rise = z[domain.loops[1].front()].imag() - z[domain.loops[0].front()].imag();
         result.modulus = {0.0, std::abs(rise) / ring.map.periods[0].real()};
     }
-    check_modulus(bounds, is_enclosed(domain, options.holes), ring.height, ring.round.has_value(), result);
+    check_modulus(bounds, ring.height, ring.round.has_value(), result);
     if (result.even == 0.0)
         for (std::size_t k = 0; k < ring.circles.size(); ++k) {
             result.loops[k].has_circle = true;
@@ -254,7 +259,7 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
     PeriodicSurface domain = periodic_ring(vertices, triangles, options.outer, options.inner);
     domain.polygon = options.polygon;
     clock.end(&StageSeconds::topology);
-    const ModulusBounds bounds = enclose_modulus(domain, options.holes);
+    const EnclosedModulus bounds = enclose_modulus(domain, options.holes);
     const HoleShape shape = options.holes == RingHoles::circles      ? HoleShape::open
                             : options.holes == RingHoles::concentric ? HoleShape::along_u
                                                                      : HoleShape::along_v;
@@ -266,7 +271,7 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
     // A tube without holes needs no circles. But harmonic functions lay parts that hang on a rim by one edge flat along
     // it; the disk with round holes has a place for these.
     std::optional<TileResult> result;
-    if (is_enclosed(domain, options.holes)) {
+    if (bounds.tight) {
         context.begin_stage("iterate", 0.1, 0.9);
         result = tile(by_potentials(domain, options.holes));
     }

@@ -40,6 +40,7 @@ def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
     entry = last_run()
     assert entry.mapped and entry.converged and entry.domain == "sphere" and entry.layout == layout
     assert json.loads(entry.torn_faces) == torn.tolist()
+    assert json.loads(entry.moved_faces) == np.unique(polygon[ball.layout["moved"]]).tolist()
     assert not len(torn) and entry.flipped == ball.flipped == 0
     assert entry.angle_error == pytest.approx(ball.angle_error_stored_deg["mean"], rel=1e-6)
     down = signed_areas(uv, scenes.triangles(obj.data)[1]) <= 0.0

@@ -177,6 +177,10 @@ TEST(SvgDrawing, ClipPathsAndWhiteMasksCut)
         double area;
     };
     const std::string square = "<rect width='6' height='6' clip-path='url(#c)'/>";
+    const auto beside = [](const std::string& how) {
+        return "<g clip-path='url(#half)'><rect width='6' height='6'/><rect x='9' width='3' height='1' " + how +
+               "/></g>";
+    };
     for (const Case& one : std::vector<Case>{
              {"<clipPath id='c'><rect width='4' height='9'/></clipPath>", square, 24.0},
              {"<clipPath id='c' transform='scale(.5)'><rect width='4' height='9'/></clipPath>", square, 9.0},
@@ -196,6 +200,11 @@ TEST(SvgDrawing, ClipPathsAndWhiteMasksCut)
                      "0h1v1h-1z'/></clipPath>",
               square, 13.0},
              {half, "<g clip-path='url(#half)'><g clip-path='url(#half)'><path d='M0 0h8v1h-8z'/></g></g>", 4.0},
+             // bounding boxes have what is not painted, but not what is not there (SVG 2, 8.10)
+             {half, beside("fill='none'"), 36.0},
+             {half, beside("visibility='hidden'"), 36.0},
+             {half, beside("opacity='0'"), 36.0},
+             {half, beside("display='none'"), 18.0},
              {"", square, 36.0},  // what is not there cuts nothing
              {"<mask id='m'><rect fill='white' width='4' height='4'/></mask>",
               "<rect mask='url(#m)' width='6' height='3'/>", 12.0},

@@ -3,10 +3,12 @@
 #include "circles/moebius.h"
 #include "iteration/koebe_mesh.h"
 #include "pipeline/uniformize.h"
+#include "surface/harmonic_map.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 using namespace koebe;
 using namespace koebe::test;
@@ -300,6 +302,29 @@ TEST(KoebeMesh, two_loops_are_one_step)
     EXPECT_TRUE(result.outcome.converged);
     EXPECT_EQ(result.outcome.steps, 1);
     EXPECT_LT(error_of(annulus, result), 1e-3);
+}
+
+/// Between two edges of one length the disk's faces grow, but what it maps is still the disk.
+TEST(KoebeMesh, disks_of_long_rims_have_faces_in_proportion_to_their_edges)
+{
+    for (const Index count : {400, 2000}) {
+        VectorXcd rim(count);
+        Vertices loop = Vertices::Zero(count, 3);
+        std::vector<Index> fixed;
+        for (Index i = 0; i < count; ++i) {
+            rim[i] = std::polar(1.0, -2.0 * std::numbers::pi * i / count);
+            loop.row(i).head<2>() << rim[i].real(), rim[i].imag();
+            fixed.push_back(i);
+        }
+        DiskPatch patch(loop);
+        patch.refill(rim);
+        EXPECT_LT(patch.triangles().rows(), 16 * count);
+        const auto extended = [&](const VectorXcd& values) {
+            return harmonic_map(patch.triangles(), patch.lengths(), patch.vertex_count(), fixed, values);
+        };
+        const VectorXcd z = extended(rim);
+        EXPECT_LT((extended(rim.array().cube()) - VectorXcd(z.array().cube())).cwiseAbs().maxCoeff(), 5e-3);
+    }
 }
 
 TEST(KoebeMesh, edges_between_vertices_of_one_loop_do_no_harm)

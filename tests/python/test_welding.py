@@ -155,3 +155,86 @@ def test_a_saved_result_keeps_the_vertices(tmp_path):
     loaded.export(tmp_path / "out.obj")
     vertices, corners, _ = written(tmp_path / "out.obj")
     assert len(vertices) == len(points) and np.array_equal(corners, own)
+
+
+def test_shapes_are_those_of_the_joined_surface(tmp_path):
+    """Numbers of a soup, in every command that compares, carries or moves a surface, are those of its surface."""
+    points, own = soup(TRIANGLES, CRACK)
+    for name, surface in (("soup", (points, own)), ("whole", (VERTICES, TRIANGLES))):
+        (tmp_path / f"{name}.obj").write_text(obj_text(*surface))
+    (tmp_path / "template.json").write_text(
+        json.dumps({"circles": [{"center": [0.1, 0.2], "radius": 0.3}], "outer": {"pin": {"vertex": 1, "angle": 30}}})
+    )
+    (tmp_path / "marks.txt").write_text(f"{int(np.flatnonzero(own.ravel() == own[40, 0])[0])} {TRIANGLES[40, 0]}\n")
+    weld = ["--weld", 2 * CRACK]
+
+    def said(*words):
+        done = run(*words, cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    modules = [json.loads(said("module", f"{name}.obj", *weld))["module"] for name in ("soup", "whole")]
+    assert np.allclose(*modules, atol=1e-3)
+    bounds = json.loads(said("module", "soup.obj", "--certified", *weld))["modulus"]
+    assert bounds["upper"] - bounds["lower"] < 0.1 and len(bounds) == 2
+    assert float(said("compare", "soup.obj", "whole.obj", *weld).split()[1]) < 1e-3
+    said("transfer", "soup.obj", "whole.obj", "moved.obj", "--landmarks", "marks.txt", *weld)
+    assert np.abs(written_vertices(tmp_path / "moved.obj") - points).max() < 0.02  # of edges of 1/12
+    said("fit", "soup.obj", "template.json", "fit.obj", *weld)
+    said("sequence", "soup.obj", "--output", "all", *weld)
+    for file in ("fit.obj", "all/soup.obj"):
+        vertices, corners, uv = written(tmp_path / file)
+        assert np.array_equal(vertices, points) and np.array_equal(corners, own)
+        flat = uv.reshape(-1, 2)[np.argsort(own.ravel())]
+        assert np.array_equal(flat, flat[koebe.weld(points, 2 * CRACK)])
+
+
+def written_vertices(path):
+    return np.array([line.split()[1:4] for line in path.read_text().splitlines() if line.startswith("v ")], float)
+
+
+def test_a_sequence_keeps_the_joins_of_its_first_file(tmp_path):
+    points, own = soup(TRIANGLES)
+    shear = points + points[:, [1]] * [0.2, 0, 0]
+    apart = shear + RANDOM.uniform(-0.01, 0.01, shear.shape)  # none of them in one place
+    for name, place in (("a", points), ("b", shear), ("c", apart)):
+        (tmp_path / f"{name}.obj").write_text(obj_text(place, own))
+    done = run("sequence", "a.obj", "b.obj", "c.obj", "--output", "all", "--weld", 0, cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    surface = koebe.Surface(points, own, weld=0)
+    for name, place in (("a", None), ("b", shear), ("c", apart)):
+        uv = written(tmp_path / "all" / f"{name}.obj")[2].reshape(-1, 2)
+        result = surface.uniformize(place)
+        assert np.array_equal(uv, uv[koebe.weld(points)]) and result.flipped == 0
+        assert np.allclose(2 * uv - 1, result.uv, atol=1e-6)
+
+
+@pytest.mark.parametrize("fair", [False, True])
+def test_holes_of_the_joined_surface_are_filled_and_the_file_stays(tmp_path, fair):
+    points, own = soup(TRIANGLES, CRACK)
+    thin = np.concatenate([own, own[:1, [0, 1, 1]] + [[0, 0, own.size - own[0, 1]]]]) if fair else own
+    points = np.concatenate([points, points[[own[0, 1]]]])
+    vertices, faces, label = koebe.fill_holes(points, thin, fair=fair, weld=2 * CRACK)
+    assert np.array_equal(vertices[: len(points)], points) and np.array_equal(faces[: len(thin)], thin)
+    assert (label[: len(thin)] == -1).all() and set(label[len(thin) :]) == {0, 1}
+    first = koebe.weld(vertices, 2 * CRACK)[faces]
+    first = first[(first != np.roll(first, 1, axis=1)).all(axis=1)]
+    pairs = np.sort(np.concatenate([first[:, [0, 1]], first[:, [1, 2]], first[:, [2, 0]]]), axis=1)
+    assert (np.unique(pairs, axis=0, return_counts=True)[1] == 2).all()  # closed
+    if fair:
+        return
+    (tmp_path / "soup.obj").write_text(obj_text(points, thin))
+    done = run("fill", "soup.obj", "out.obj", "--all", "--weld", 2 * CRACK, cwd=tmp_path)
+    assert done.returncode == 0 and "2 loops filled" in done.stdout, done.stderr + done.stdout
+    assert np.allclose(written_vertices(tmp_path / "out.obj"), vertices)
+
+
+def test_python_has_it_where_surfaces_are_read():
+    points, own = soup(TRIANGLES, CRACK)
+    weld, named = 2 * CRACK, int(np.flatnonzero(TRIANGLES.ravel() == 0)[-1])  # a joined vertex of the outer rim
+    fit = koebe.fit_circles(points, own, [(0.1, 0.2)], [0.3], pins={-1: (named, 30.0)}, weld=weld)
+    assert fit.flipped == 0 and np.isclose(np.angle(complex(*fit.uv[named]), deg=True), 30.0, atol=1e-4)
+    low, high = koebe.certified_moduli(points, own, weld=weld).modulus
+    ring = koebe.uniformize(points, own, weld=weld)
+    moved = koebe.transfer(ring, koebe.uniformize(VERTICES, TRIANGLES), landmarks=[(named, 0)])
+    assert low < high and np.isfinite(moved.points).all()

@@ -1,9 +1,11 @@
 // koebe fill IN OUT
 #include "cli/commands/subcommand.h"
+#include "cli/files/file_options.h"
 #include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
 #include "cli/options/loop_options.h"
 #include "cli/options/map_request.h"
+#include "cli/options/option_table.h"
 #include "cli/options/validators.h"
 #include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
@@ -27,6 +29,7 @@ struct FillRequest {
     std::string input, output, outer = "longest";
     WrittenFormat format = WrittenFormat::obj;
     std::vector<Index> loops;
+    FileOptions of_files;
     bool all = false, quiet = false;
 
     std::vector<OutputFile> files() const { return {{"OUT", output}}; }
@@ -94,7 +97,8 @@ int run_fill(const FillRequest& request)
     const Stopwatch run;
     const CancelToken token = cancel_on_signal();
     require_writable_files(request.files(), !request.quiet);
-    const auto input = std::make_shared<const MeshInput>(read_mesh_input(request.input, token));
+    const auto input =
+        std::make_shared<const MeshInput>(read_mesh_input(request.input, token, {.weld = request.of_files.weld}));
     ExecutionContext context({}, token);
     const PatchedPolygons filled =
         run_detachable<PatchedPolygons>(context, [request, input](ExecutionContext&) { return fill(request, *input); });
@@ -146,6 +150,7 @@ Subcommand add_fill(CLI::App& app)
         ->excludes(outer)
         ->excludes(all);
     outer->excludes(all);
+    add_options(*options, "shapes", request->of_files);
     options->add_flag("--quiet", request->quiet, "no result line");
     options->callback([request] { check(*request); });
     return {options, [request] { return run_fill(*request); }};

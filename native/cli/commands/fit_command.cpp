@@ -9,6 +9,7 @@
 #include "pipeline/convex_disk.h"
 #include "report/fit_json.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -27,12 +28,19 @@ int run_fit(const FitRequest& request)
     const MapKind<UniformizeResult> disk = disk_map(request);
     MapKind<FitResult> kind;
     kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
+        CircleTemplate named = wanted;
+        const auto name_mapped = [&input](TemplateRim& rim) {
+            if (rim.pin) rim.pin->vertex = input.mapped(rim.pin->vertex);
+        };
+        name_mapped(named.outer);
+        std::ranges::for_each(named.rims, name_mapped);
         FitResult result = with_filed_faces(input, [&] {
-            return fit_circles(input.polygons.vertices, input.triangulation.triangles, wanted,
+            return fit_circles(input.polygons.vertices, input.triangulation.triangles, named,
                                {.map = request.options, .extremal = request.extremal}, context);
         });
         make_polygons_convex(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, result,
                              context, false);  // the fit's |mu| is least as it is
+        input.give_to_joined(result.uv);
         add_input_warnings(input, result.warnings);
         return result;
     };
@@ -63,11 +71,13 @@ Subcommand add_fit(CLI::App& app)
         ->required();
     options->add_flag("--extremal", request->extremal, "least largest |mu|, nearly; takes longer");
     add_options(*options, "shapes", request->options);
+    add_options(*options, "shapes", request->of_files);
     add_report_options(*options, *request, "write a picture of the template there");
     options->callback([request] {
         check_map_files(*request);
         require_different_files(map_files(*request), {request->input, request->wanted}, !request->quiet);
         request->entries["options"] = option_report("shapes", request->options);
+        request->entries["options"].update(option_report("shapes", request->of_files));
         request->entries["options"]["extremal"] = request->extremal;
     });
     return {options, [request] { return run_fit(*request); }};

@@ -92,7 +92,8 @@ Condenser condenser_of(const std::string& words)
 
 int run_certified(const ModuleRequest& request, const CancelToken& token)
 {
-    const MeshInput input = read_mesh_input(request.input, token, {.keep_file = false});
+    const MeshInput input =
+        read_mesh_input(request.input, token, {.keep_file = false, .weld = request.options.of_files.weld});
     ProgressLine progress(false);
     ExecutionContext context(progress.callback(), token);
     std::vector<Condenser> condensers;
@@ -145,7 +146,8 @@ void add_certified_options(CLI::App& app, ModuleRequest& request)
                                           "proved bounds for the capacities between loops, for a ring's "
                                           "modulus, and for the module of up to four loops");
     for (CLI::Option* option : of_map)
-        if (const std::string name = option->get_name(); name != "IN" && name != "--help" && name != "--threads")
+        if (const std::string name = option->get_name();
+            name != "IN" && name != "--help" && name != "--threads" && name != "--weld")
             certified->excludes(option);
     add_value(app, *find_row("certified", "width"), request.bounds.width)->needs(certified);
     add_value(app, *find_row("certified", "max_faces"), request.bounds.max_faces)->needs(certified);

@@ -92,7 +92,7 @@ private:
     {
         const Stopwatch run;
         const MapRequest request = request_of(all_, file);
-        MeshInput input = read_mesh_input(file, token_);
+        MeshInput input = read_mesh_input(file, token_, {.weld = all_.of_files.weld, .first = first_.joins});
         UniformizeResult result;
         {
             ProgressLine progress(all_.quiet);
@@ -114,9 +114,11 @@ private:
     UniformizeResult mapped(const std::string& file, MeshInput& input, ExecutionContext& context)
     {
         if (!surface_) {
-            require_fitting_vertices(input, all_.options);
-            surface_.emplace(input.polygons.vertices, input.triangulation.triangles, all_.options);
-            first_ = {file, input.polygons.corners, input.polygons.face_begin, input.triangulation};
+            UniformizeOptions options = all_.options;
+            name_mapped_vertices(input, options);
+            require_fitting_vertices(input, options);
+            surface_.emplace(input.polygons.vertices, input.triangulation.triangles, options);
+            first_ = {file, input.polygons.corners, input.polygons.face_begin, input.triangulation, input.first};
         } else if (input.polygons.corners != first_.corners || input.polygons.face_begin != first_.face_begin ||
                    input.polygons.vertices.rows() != surface_->vertex_count()) {
             throw InputError("it has other faces than " + first_.file +
@@ -126,6 +128,7 @@ private:
         UniformizeResult result = surface_->uniformize(input.polygons.vertices, context);
         make_polygons_convex(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, result,
                              context);
+        input.give_to_joined(result.uv);
         return result;
     }
 
@@ -133,6 +136,7 @@ private:
         std::string file;
         std::vector<Index> corners, face_begin;
         Triangulation triangulation;
+        std::vector<Index> joins;  ///< see MeshInput::first
     };
 
     const SequenceRequest& all_;
@@ -159,11 +163,13 @@ Subcommand add_sequence(CLI::App& app)
         ->check(CLI::IsMember({"obj", "ply"}))
         ->capture_default_str();
     add_options(*options, "sequence", request->options);
+    add_options(*options, "sequence", request->of_files);
     options->add_flag("--quiet", request->quiet, "no progress and no result lines");
     options->callback([request] {
         check_center(request->options);
         check_files(*request);
         request->entries["options"] = option_report("sequence", request->options);
+        request->entries["options"].update(option_report("sequence", request->of_files));
     });
     return {options, [request] {
                 make_folder(request->folder);

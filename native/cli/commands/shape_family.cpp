@@ -91,6 +91,7 @@ void add_family_options(CLI::App& app, FamilyRequest& request, const std::string
                    "with --csv: the file whose loops are matched to those of all other files, by default the first")
         ->type_name("NAME");
     app.add_flag("--error", request.options.with_error, "also bars of the error that " + bars);
+    add_options(app, "shapes", request.options.of_files);
     add_choice(app, *find_row("module", "rims"), static_cast<int>(request.options.rims),
                [&request](int k) { request.options.rims = static_cast<RimKind>(k); });
 }

@@ -65,7 +65,7 @@ void take_circles(ShapeInput& shape, const UniformizeResult& result, const Verti
 
 ShapeInput read_shape(const std::string& path, const ShapeOptions& options, const CancelToken& token)
 {
-    const MeshInput input = read_mesh_input(path, token, {.keep_file = false});
+    const MeshInput input = read_mesh_input(path, token, {.keep_file = false, .weld = options.of_files.weld});
     ProgressLine progress(false);
     ExecutionContext context(progress.callback(), token);
     const Triangles& triangles = input.triangulation.triangles;

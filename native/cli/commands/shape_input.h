@@ -3,6 +3,7 @@
 
 #include "certified/polygonal_circles.h"
 #include "cli/commands/subcommand.h"
+#include "cli/files/file_options.h"
 #include "execution/execution.h"
 #include "pipeline/result.h"
 #include "transfer/landmark_map.h"
@@ -16,6 +17,7 @@ namespace koebe::cli {
 
 struct ShapeOptions {
     UniformizeOptions map;
+    FileOptions of_files;
     RimKind rims = RimKind::smooth;
     bool with_error = false;  ///< also what error bars need: another map, of a finer mesh
 };

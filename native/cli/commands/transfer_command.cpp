@@ -1,6 +1,7 @@
 // koebe transfer A B OUT
 #include "cli/commands/map_kind.h"
 #include "cli/commands/subcommand.h"
+#include "cli/files/file_options.h"
 #include "cli/files/landmark_file.h"
 #include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
@@ -34,6 +35,7 @@ struct TransferRequest {
     WrittenFormat format = WrittenFormat::obj;
     bool aligned_only = false, extremal = false, quiet = false;
     UniformizeOptions options;
+    FileOptions of_files;
 
     std::vector<OutputFile> files() const { return {{"OUT", output}, {"--json", json}}; }
 };
@@ -47,7 +49,7 @@ struct MappedInput {
 
 MappedInput read_and_map(const std::string& path, const TransferRequest& request, const CancelToken& token)
 {
-    MappedInput input{read_mesh_input(path, token), {}, false, {}};
+    MappedInput input{read_mesh_input(path, token, {.weld = request.of_files.weld}), {}, false, {}};
     ProgressLine progress(request.quiet);
     ExecutionContext context(progress.callback(), token);
     const Vertices& vertices = input.mesh.polygons.vertices;
@@ -55,6 +57,7 @@ MappedInput read_and_map(const std::string& path, const TransferRequest& request
     const UniformizeResult result =
         with_filed_faces(input.mesh, [&] { return uniformize(vertices, triangles, request.options, context); });
     input.surface = conformal_surface(vertices, triangles, result);
+    input.mesh.give_to_joined(input.surface.uv);
     input.converged = result.converged;
     std::ranges::copy_if(result.warnings, std::back_inserter(input.warnings),
                          [](const Warning& warning) { return warning.kind == WarningKind::reoriented_faces; });
@@ -121,12 +124,14 @@ int run_transfer(const TransferRequest& request)
 {
     const CancelToken token = cancel_on_signal();
     require_writable_files(request.files(), !request.quiet);
-    const NamedLandmarks named = request.landmarks.empty() ? NamedLandmarks{} : read_landmarks(request.landmarks);
+    NamedLandmarks named = request.landmarks.empty() ? NamedLandmarks{} : read_landmarks(request.landmarks);
     const auto a = std::make_shared<const MappedInput>(read_and_map(request.first, request, token));
     const auto b = std::make_shared<const MappedInput>(read_and_map(request.second, request, token));
     const ExecutionContext context({}, token);
     CorrespondenceOptions options{
         .match = {}, .fit_holes = !request.aligned_only, .landmarks = {}, .extremal = request.extremal};
+    for (NamedPoint& point : named.on_a) point.vertex = a->mesh.mapped(point.vertex);
+    for (NamedPoint& point : named.on_b) point.vertex = b->mesh.mapped(point.vertex);
     if (!request.landmarks.empty()) {
         const auto on_a = surface_points(a->surface.vertices, a->surface.triangles, named.on_a);
         const auto on_b = surface_points(b->surface.vertices, b->surface.triangles, named.on_b);
@@ -177,6 +182,7 @@ Subcommand add_transfer(CLI::App& app)
                    "with landmarks: the largest |mu| becomes nearly as small as it can be. Takes longer")
         ->needs("--landmarks");
     add_options(*options, "shapes", request->options);
+    add_options(*options, "shapes", request->of_files);
     options
         ->add_option("--json", request->json,
                      "write there in which triangle of B each point lies, and how far the holes miss")

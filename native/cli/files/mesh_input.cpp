@@ -31,9 +31,9 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     return input;
 }
 
-void join_vertices(MeshInput& input, double distance)
+void join_vertices(MeshInput& input, const ReadOptions& options)
 {
-    input.first = weld(input.polygons.vertices, distance);
+    input.first = options.first.empty() ? weld(input.polygons.vertices, *options.weld) : options.first;
     input.joined = input.polygons;
     for (Index& corner : input.joined->corners) corner = input.mapped(corner);
     std::vector<Index> joined;
@@ -56,7 +56,7 @@ std::string input_hash(const std::filesystem::path& path)
 
 void triangulate_input(MeshInput& input, const ReadOptions& options)
 {
-    if (options.weld) join_vertices(input, *options.weld);
+    if (options.weld) join_vertices(input, options);
     input.triangulation = triangulate(input.mapped_polygons(), !options.any_polygon);
     const std::vector<Index>& collapsed = input.triangulation.collapsed;
     if (!collapsed.empty())

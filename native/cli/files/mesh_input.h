@@ -61,7 +61,8 @@ struct ReadOptions {
     bool any_polygon = false;  ///< polygons that cannot be cut into triangles are a warning, not an error
     bool hash = false;         ///< computes sha256: takes as long as reading
     std::optional<double> weld = {};
-    int threads = 1;  ///< at most; 0: all cores
+    std::vector<Index> first = {};  ///< with weld: joins as they were found in another file of a sequence
+    int threads = 1;                ///< at most; 0: all cores
 };
 
 /// @throws FileError, InputError, Cancelled

@@ -230,12 +230,14 @@ def fill_holes(
     loops: Sequence[int] | None = None,
     fair: bool = False,
     mask: Any = None,
+    weld: float | None = None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fill boundary loops.
 
     loops   indices in the list that boundary_loops returns; None for all loops
     fair    False: fans around the means of the loops' vertices (paper, section 4.4). True: triangles as long as those
             around the hole, on a surface that continues its curvature [Liepa 2003; Botsch and Kobbelt 2004], by CGAL
+    weld    distance of vertices that are joined to find the loops, as for `parts`
     Returns vertices (V + K, 3), triangles (F', 3) and a label per face: -1 in the input, k in the patch of loop k.
     Faces of the input stay as they are. Patches have the orientation of most faces; the other faces give a
     koebe.Warning. Lengths are in the input's unit.
@@ -245,11 +247,17 @@ def fill_holes(
     >>> print(len(koebe.boundary_loops(triangles)), (label >= 0).sum())  # one new triangle for each edge of a hole
     1 71
     """
-    source = surface_of(vertices, triangles, mask=mask)
+    given = source = surface_of(vertices, triangles, mask=mask)
+    if weld is not None:
+        source = surface_of(vertices, triangles, mask=mask, weld=number(weld, rows("parts")["weld"]))
     ranks = None if loops is None else as_indices(loops, "loops", source.triangles.size, "loops")
-    *filled, told = source.call(_koebe.fill_holes, ranks, flag(fair, "fair"))
+    points, faces, label, told = source.call(_koebe.fill_holes, ranks, flag(fair, "fair"))
     _tell(told)
-    return tuple(filled)
+    own = len(source.triangles)
+    return (
+        points, np.concatenate([given.triangles, faces[own:]]),
+        np.concatenate([np.full(len(given.triangles), -1, label.dtype), label[own:]]),
+    )  # fmt: skip
 
 
 def harmonic_map(

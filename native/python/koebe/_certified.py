@@ -103,7 +103,7 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     if given["between"] is not None and not between:
         raise InputError("between must have at least one pair of loops at 0 and loops at 1")
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles, mask=given["mask"])
+    source = surface_of(vertices, triangles, mask=given["mask"], weld=said["weld"])
     report = source.call(_koebe.certified_capacities, between, options, progress, cancel)
     del said["threads"]
     return CertifiedModuli({**report, "options": said})

@@ -140,13 +140,15 @@ def fit_circles(
         triangles = None
     if centers is None or radii is None:
         raise TypeError("fit_circles needs the centers and the radii of the circles: fit_circles(mesh, centers, radii)")
-    source = surface_of(mesh, triangles, mask=given.pop("mask"))
+    source = surface_of(mesh, triangles, mask=given.pop("mask"), weld=said["weld"])
     places, sizes = _holes(centers, radii)
     count = len(sizes)
     ranks = [] if loops is None else as_indices(loops, "loops", max(len(source.triangles), 1), "loops").tolist()
     if loops is not None and len(ranks) != count:
         raise InputError(f"there are {len(ranks)} loops for {count} circles")
-    wanted = _koebe.CircleTemplate(places, sizes, _words(names, count), ranks, *_rims(pins, fixed, count))
+    rotates, pinned, angles = _rims(pins, fixed, count)
+    pinned = [source.mapped(one) for one in pinned]
+    wanted = _koebe.CircleTemplate(places, sizes, _words(names, count), ranks, rotates, pinned, angles)
     native = source.call(_koebe.fit_circles, wanted, options, extremal, progress, cancel)
     source.call(_koebe.make_polygons_convex, native, polygons_of(None, source), False, cancel)
     report = with_origin(native.report(), source, {**said, "extremal": extremal})

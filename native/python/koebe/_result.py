@@ -148,12 +148,16 @@ class Source:
         text = f"{len(joined)} vertices joined to earlier ones in the map"
         return [{"kind": "coincident", "elements": joined, "text": text}] if joined else []
 
+    def mapped(self, vertex: int) -> int:
+        """The vertex that stands for a vertex in the map; also -1 for none."""
+        return int(self.first[vertex]) if self.first is not None and 0 <= vertex < len(self.first) else vertex
+
     def name_mapped_vertices(self, options: Any) -> None:
         """Change the vertices that native options name to those that they are joined to."""
         for name in ("outer_vertex", "center", "point", "outer", "inner", "around"):
             vertex = getattr(options, name, None)
-            if self.first is not None and isinstance(vertex, int) and 0 <= vertex < len(self.first):
-                setattr(options, name, int(self.first[vertex]))
+            if isinstance(vertex, int):
+                setattr(options, name, self.mapped(vertex))
 
     def call(self, function: Callable[..., Any], *others: Any) -> Any:
         """The native function of vertices, triangles and the others. Faces of errors have the input's numbers."""

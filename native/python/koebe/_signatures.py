@@ -47,6 +47,7 @@ class SequenceOptions(SweepOptions, total=False):
     polygon: Any
     polish: bool
     threads: int
+    weld: float | None
 
 
 class UniformizeOptions(SequenceOptions, RunOptions, total=False):
@@ -55,7 +56,6 @@ class UniformizeOptions(SequenceOptions, RunOptions, total=False):
     engine: Literal["condensed", "mesh"]
     even: float
     loops: Literal["auto", "round", "free"]
-    weld: float | None
     partners: Literal["fixed", "changing"]
     schedule: Sequence[Sequence[int]] | None
     metric: Literal["first", "planar", "reflected", "reflected-last"]
@@ -155,6 +155,7 @@ class LiftOptions(RunOptions, total=False):
 class CertifiedOptions(RunOptions, total=False):
     """Options of `certified_moduli`."""
 
+    weld: float | None
     width: float | None
     max_faces: int
     threads: int
@@ -167,6 +168,7 @@ class FitOptions(RunOptions, total=False):
     tolerance: float
     max_sweeps: int
     threads: int
+    weld: float | None
     names: Sequence[str] | None
     pins: Mapping[int, tuple[int, float]] | None
     fixed: Sequence[int]

@@ -42,7 +42,9 @@ class Surface:
     @takes("sequence", polygon=None)
     def __init__(self, vertices: Any, triangles: Any = None, **given: "Unpack[SequenceOptions]") -> None:
         options, self._options = solver_options("sequence", given)
-        self._source = surface_of(vertices, triangles, mask=given["mask"])
+        self._faces = _faces(surface_of(vertices, triangles, mask=given["mask"]))
+        self._source = surface_of(vertices, triangles, mask=given["mask"], weld=self._options["weld"])
+        self._source.name_mapped_vertices(options)
         options.importance = importance_of(given["importance"], self._options, len(self._source.vertices))
         self._polygon = polygons_of(given["polygon"], self._source)
         self._native = self._source.call(_koebe.Surface, options)
@@ -70,14 +72,14 @@ class Surface:
         kept = self._source
         if not is_surface(vertices):
             points = as_points(vertices, "vertices", 3, len(kept.vertices))
-            return Source(points, kept.triangles, kept=kept.kept, mask=kept.mask)
+            return replace(kept, vertices=points, mesh=None, polygons=None, polygon=None)
         if len(surface_of(vertices).vertices) != len(kept.vertices):
             raise InputError("the mesh has other faces than the surface")
         moved = surface_of(vertices, mask=kept.mask)
-        if not all(map(np.array_equal, _faces(moved), _faces(kept))):
+        if not all(map(np.array_equal, _faces(moved), self._faces)):
             raise InputError("the mesh has other faces than the surface")
         polygon = moved.polygon if kept.polygon is None else kept.polygon
-        return replace(moved, triangles=kept.triangles, polygon=polygon)
+        return replace(kept, vertices=moved.vertices, mesh=moved.mesh, polygons=moved.polygons, polygon=polygon)
 
     def __repr__(self) -> str:
         return f"<koebe.Surface {len(self._source.vertices)} vertices, {len(self._source.triangles)} faces>"

@@ -242,7 +242,7 @@ def places(result: UniformizeResult, points: list[Any]) -> "list[_koebe.SurfaceP
     numbers, positions = np.full(len(points), -1, np.int32), np.zeros((len(points), 3))
     for number, point in enumerate(points):
         if isinstance(point, Integral):
-            numbers[number] = vertex(point, "landmarks")
+            numbers[number] = result._source.mapped(vertex(point, "landmarks"))
             continue
         position = as_numbers(point, "landmarks")
         if len(position) != 3:
