@@ -82,8 +82,8 @@ $(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) native/op
 	$(VENV)/bin/python scripts/package_extension.py
 	@touch $@
 
-# One wheel a platform, for every Python, and its zip: from pinned sources, cross compiling (CONTRIBUTING.md). An hour of
-# two cores for the first of all five, a quarter of that for one.
+# One wheel a platform, for every Python, and its zip: from pinned sources, cross compiling (docs/developers/releases.md).
+# An hour of two cores for the first of all five, a quarter of that for one.
 PLATFORMS ?= linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
 PYTHONS ?= 3.10 3.11 3.12 3.13 3.14
 

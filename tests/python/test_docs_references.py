@@ -13,7 +13,7 @@ SOURCES = [
     for path in sorted((ROOT / folder).rglob(suffix))
     if path != Path(__file__).resolve()
 ]
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
 TO_PAGE = re.compile(r'docs/(\w+\.md)(?:, "([^"]+)")?')
 TO_FILE = re.compile(r"`((?:[\w.-]+/)+[\w.-]+\.(?:h|cpp|py|sh|json|txt|obj))`")
 MADE = ("build/", "out/", "dist/", "shared/")  # not in the repository
