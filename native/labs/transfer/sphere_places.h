@@ -11,14 +11,14 @@
 namespace koebe {
 
 /// A walk over edges, from a triangle nearby, into the triangle whose sides all have the point on the left.
-class KOEBE_API SpherePlaces {
+class SpherePlaces {
 public:
     /// @param points (V, 3) unit vectors @param triangles (F, 3) closed; each point of the sphere is covered once
-    SpherePlaces(Vertices points, Triangles triangles);
+    KOEBE_API SpherePlaces(Vertices points, Triangles triangles);
 
     /// The triangle that a direction goes through, and the barycentric coordinates of the flat triangle's point there.
     /// @param start a triangle nearby, or -1 @throws SolverError if no triangle holds it, to 1e-6 of its size
-    SurfacePoint at(const Eigen::Vector3d& place, Index start = -1) const;
+    KOEBE_API SurfacePoint at(const Eigen::Vector3d& place, Index start = -1) const;
 
 private:
     Eigen::Vector3d sides(const Eigen::Vector3d& place, Index face) const;

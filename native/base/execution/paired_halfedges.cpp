@@ -1,5 +1,5 @@
+// The half-edges of core/connectivity.h, paired on several threads, which core does not know.
 #include "core/connectivity.h"
-
 #include "core/errors.h"
 #include "execution/thread_share.h"
 
@@ -9,7 +9,6 @@
 #include <vector>
 
 namespace koebe {
-
 namespace {
 
 /// A half-edge in the bucket of its smaller vertex.
