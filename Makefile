@@ -57,11 +57,11 @@ native: build/build.ninja ## the command and the Python package
 programs: native ## these, the native tests and the benchmarks
 	$(ccache) cmake --build build
 
-# What the command and the Python module have of their own is compiled without the extras, whose headers are not seen then.
-# The layers below them are compiled by `make native`, the same.
-core: $(VENV)/.done ## the core without its extras making and labs: configured, and its fronts compiled
-	$(configure) -B build/core -DKOEBE_MAKING=OFF -DKOEBE_LABS=OFF -DCMAKE_CXX_FLAGS_RELEASE=-O0 >build/core.log
-	ninja -C build/core $$(ninja -C build/core -t inputs koebe _koebe | grep -E '(apps|python)/.*[.]o$$')
+# Reports, the command and the Python module are read by the compiler without the extras, whose headers are not seen then.
+# The layers below them are the same as in `make native`.
+core: $(VENV)/.done ## the core without its extras making and labs: configured, and what stands on it checked
+	$(configure) -B build/core -DKOEBE_MAKING=OFF -DKOEBE_LABS=OFF -DCMAKE_CXX_FLAGS_RELEASE=-fsyntax-only >build/core.log
+	ninja -C build/core $$(ninja -C build/core -t inputs koebe _koebe | grep -E '(koebe_apps[.]dir|cli|python)/.*[.]o$$')
 
 wheel: $(WHEEL) ## dist/koebe-*.whl, for PYTHON=... (default: Debian's); `make package` takes all there are
 
