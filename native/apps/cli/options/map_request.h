@@ -1,18 +1,27 @@
 // The files and options of a sub-command that maps a surface to a circle domain.
 #pragma once
 
-#include "cli/files/file_options.h"
 #include "cli/files/output_files.h"
+#include "core/option_list.h"
 #include "io/mesh_writer.h"
 #include "pipeline/options.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace koebe::cli {
+
+/// Options of how files are read and written, of several commands.
+struct FileOptions {
+    std::optional<double> weld = {};  ///< distance of vertices that are joined in the map (io/welding.h)
+    int uv_channel = 0;               ///< the set of UVs that is written, where a file has several
+
+    KOEBE_OPTIONS(FileOptions, weld, uv_channel)
+};
 
 struct MapRequest {
     std::string input, output, json, svg;
