@@ -23,7 +23,7 @@ VENV  := build/venv$(if $(filter-out /usr/bin/python3,$(PYTHON)),-$(notdir $(PYT
 DONE  := build/.done
 WHEEL := $(DONE)/wheel-$(notdir $(VENV))
 
-NATIVE_SOURCES := CMakeLists.txt pyproject.toml $(shell find native -type f -not -path '*/__pycache__/*' -not -path 'native/web/*')
+NATIVE_SOURCES := CMakeLists.txt pyproject.toml $(shell find native -type f -not -path '*/__pycache__/*' -not -path 'native/apps/web/*')
 ADDON_SOURCES  := $(shell find addon -type f -not -path '*/__pycache__/*')
 
 # ccache, if present, spares the wheel what the command has compiled already. It learns of headers from the compiler, so
@@ -41,7 +41,7 @@ ifndef AT_ONCE
 endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
-.PHONY: help build native programs wheel package dist matrix docs paper listing web lint lint-python lint-native lint-workflows check check-native check-form \
+.PHONY: help build native programs core wheel package dist matrix docs paper listing web lint lint-python lint-native lint-workflows check check-native check-form \
         test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon bench-many figures guide-pictures reliability samples clean distclean
 
 help: ## this list
@@ -56,6 +56,12 @@ native: build/build.ninja ## the command and the Python package
 
 programs: native ## these, the native tests and the benchmarks
 	$(ccache) cmake --build build
+
+# Reports, the command and the Python module are read by the compiler without the extras, whose headers are not seen then.
+# The layers below them are the same as in `make native`.
+core: $(VENV)/.done ## the core without its extras making and labs: configured, and what stands on it checked
+	$(configure) -B build/core -DKOEBE_MAKING=OFF -DKOEBE_LABS=OFF -DCMAKE_CXX_FLAGS_RELEASE=-fsyntax-only >build/core.log
+	ninja -C build/core $$(ninja -C build/core -t inputs koebe _koebe | grep -E '(koebe_apps[.]dir|cli|python)/.*[.]o$$')
 
 wheel: $(WHEEL) ## dist/koebe-*.whl, for PYTHON=... (default: Debian's); `make package` takes all there are
 
@@ -76,8 +82,8 @@ $(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) native/op
 	$(VENV)/bin/python scripts/package_extension.py
 	@touch $@
 
-# One wheel a platform, for every Python, and its zip: from pinned sources, cross compiling (CONTRIBUTING.md). An hour of
-# two cores for the first of all five, a quarter of that for one.
+# One wheel a platform, for every Python, and its zip: from pinned sources, cross compiling (docs/developers/releases.md).
+# An hour of two cores for the first of all five, a quarter of that for one.
 PLATFORMS ?= linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
 PYTHONS ?= 3.10 3.11 3.12 3.13 3.14
 

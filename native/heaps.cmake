@@ -3,19 +3,13 @@
 # namespaces. A name there that a header has too would hide that one, silently: tests/python/test_native_rooms.py looks for
 # such names. <windows.h> makes macros of words like "near", so that the sources that include it are by themselves.
 
-# Puts SOURCES of a target into COUNT heaps. Which heap, a file's name tells, so that a new file moves no other. What
-# includes CGAL has two heaps of its own, as its headers alone take four seconds.
+# Puts SOURCES of a target into COUNT heaps. Which heap, a file's name tells, so that a new file moves no other.
 function(koebe_heaps target name count)
   foreach(source IN LISTS ARGN)
     string(MD5 hash ${source})
     string(SUBSTRING ${hash} 6 4 digits)
     math(EXPR heap "0x${digits} % ${count}")
     file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${source} windows REGEX "#include <windows.h>")
-    file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${source} cgal REGEX "#include (<CGAL/|\"planar/(planar_region|meeting_boxes).h\")")
-    if(cgal)
-      math(EXPR heap "${heap} % 2")
-      string(PREPEND heap _cgal)
-    endif()
     if(NOT windows)
       set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${name}${heap})
     endif()
@@ -25,9 +19,10 @@ function(koebe_heaps target name count)
   endif()
 endfunction()
 
-# Moves those SOURCES that have an include of this form into one heap: what it reads takes seconds to read, and to
-# instantiate.
-function(koebe_heap_of target name include)
+# Moves those SOURCES into one heap that include CGAL, Boost's graphs or JSON, which take seconds to read, and to instantiate.
+function(koebe_heavy_heap target name)
+  string(CONCAT include "(<CGAL/|\"planar/(planar_region|meeting_boxes)[.]h\"|\"cut/(edge_graph|disjoint_sets)[.]h\""
+    "|<nlohmann/|\"(report/([a-z]+_)?json|io/glb_(container|editor))[.]h\")")
   foreach(source IN LISTS ARGN)
     file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${source} found REGEX "#include ${include}")
     if(found)

@@ -86,7 +86,9 @@ def local(module: Path, command: Path) -> dict[str, Path]:
 
 def members(compiled: dict[str, Path], tag: str, version: str) -> dict[str, bytes]:
     """What the wheel holds but for its RECORD: path -> content."""
-    files = {f"koebe/{path.name}": path.read_bytes() for path in [*PACKAGE.glob("*.py"), PACKAGE / "py.typed", TABLE]}
+    sources = [*PACKAGE.rglob("*.py"), PACKAGE / "py.typed"]
+    files = {f"koebe/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes() for path in sources}
+    files[f"koebe/{TABLE.name}"] = TABLE.read_bytes()
     files |= {f"koebe/{name}": path.read_bytes() for name, path in compiled.items()}
     info = f"koebe-{version}.dist-info"
     files[f"{info}/METADATA"] = metadata(version).encode()

@@ -17,12 +17,12 @@ cmake --build "$build" --target koebe_web
 
 packages=$build/page
 mkdir -p "$packages"
-if ! cmp --silent native/web/page/package-lock.json "$packages/installed"; then
-    cp native/web/page/package.json native/web/page/package-lock.json "$packages"
+if ! cmp --silent native/apps/web/page/package-lock.json "$packages/installed"; then
+    cp native/apps/web/page/package.json native/apps/web/page/package-lock.json "$packages"
     npm ci --prefix "$packages" --ignore-scripts --no-audit --no-fund --loglevel=error
-    cp native/web/page/package-lock.json "$packages/installed"
+    cp native/apps/web/page/package-lock.json "$packages/installed"
 fi
-node native/web/page/build.mjs "$build/command" "$packages" "$out"
+node native/apps/web/page/build.mjs "$build/command" "$packages" "$out"
 
 bytes=$(for file in "$out"/*; do gzip --best --stdout "$file"; done | wc --bytes)
 echo "$out: $bytes bytes compressed"

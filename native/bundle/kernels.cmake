@@ -1,9 +1,9 @@
 # Dense kernels, compiled once for each set of instructions, the same bits from all: koebe_kernels.
-add_library(koebe_kernels STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/native/bundle/kernels/chosen_kernels.cpp)
-target_include_directories(koebe_kernels PRIVATE ${PROJECT_SOURCE_DIR}/native)
+add_library(koebe_kernels STATIC EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/native/base/kernels/chosen_kernels.cpp)
+target_include_directories(koebe_kernels PRIVATE ${PROJECT_SOURCE_DIR}/native/base)
 function(koebe_kernels_for set)
-  add_library(koebe_kernels_${set} OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/native/bundle/kernels/dense_kernels.cpp)
-  target_include_directories(koebe_kernels_${set} PRIVATE ${PROJECT_SOURCE_DIR}/native)
+  add_library(koebe_kernels_${set} OBJECT EXCLUDE_FROM_ALL ${PROJECT_SOURCE_DIR}/native/base/kernels/dense_kernels.cpp)
+  target_include_directories(koebe_kernels_${set} PRIVATE ${PROJECT_SOURCE_DIR}/native/base)
   target_compile_definitions(koebe_kernels_${set} PRIVATE KOEBE_INSTRUCTION_SET=${set})
   target_compile_options(koebe_kernels_${set} PRIVATE -O3 -ffp-contract=off ${ARGN})
   target_sources(koebe_kernels PRIVATE $<TARGET_OBJECTS:koebe_kernels_${set}>)

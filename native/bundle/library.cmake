@@ -1,7 +1,8 @@
 # The shared library of the wheels: everything inside, only KOEBE_API seen, no system library but the C library's.
 target_sources(koebe_core PRIVATE bundle/exception_memory.cpp)
 target_link_libraries(koebe_core PRIVATE koebe_kernels)
-target_compile_definitions(koebe_core PUBLIC KOEBE_SHARED)
+target_include_directories(koebe_core PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})  # of bundle/
+target_compile_definitions(koebe_base PUBLIC KOEBE_SHARED)
 set_target_properties(koebe_core PROPERTIES
   OUTPUT_NAME koebe
   LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/koebe
@@ -14,5 +15,5 @@ endif()
 if(WIN32)
   set_target_properties(koebe_core PROPERTIES PREFIX "")
   target_link_libraries(koebe_core PRIVATE psapi)
-  target_compile_definitions(koebe_core PRIVATE WIN32_LEAN_AND_MEAN NOMINMAX)
+  target_compile_definitions(koebe_base PUBLIC WIN32_LEAN_AND_MEAN NOMINMAX)
 endif()

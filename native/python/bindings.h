@@ -14,13 +14,15 @@ void bind_even_dial(pybind11::module_& m);
 /// Maps to domains other than the disk, and to parts.
 void bind_domains(pybind11::module_& m);
 
-/// Maps to given circle domains.
-void bind_fit(pybind11::module_& m);
-/// Patterns on surfaces.
-void bind_lift(pybind11::module_& m);
-/// Single steps: loops, holes, triangles, harmonic, disk and annulus maps, distortion.
+/// Single steps: loops, holes, triangles, harmonic, disk and annulus maps, distortion; disks, mirrors.
 void bind_steps(pybind11::module_& m);
-/// Conformal modules and alignments of circle domains; packed disks; mirror images.
+
+// Of the extra making: patterns on surfaces, and patterns to sew.
+void bind_lift(pybind11::module_& m);
+void bind_flatten(pybind11::module_& m);
+
+// Of the extra labs: conformal modules and alignments of circle domains, points carried; maps to given circle domains.
 void bind_shapes(pybind11::module_& m);
+void bind_fit(pybind11::module_& m);
 
 }  // namespace koebe::python

@@ -25,8 +25,13 @@ PYBIND11_MODULE(_koebe, m)
     bind_surface(m);
     bind_even_dial(m);
     bind_domains(m);
-    bind_fit(m);
-    bind_lift(m);
     bind_steps(m);
+#ifdef KOEBE_MAKING
+    bind_lift(m);
+    bind_flatten(m);
+#endif
+#ifdef KOEBE_LABS
     bind_shapes(m);
+    bind_fit(m);
+#endif
 }

@@ -7,9 +7,7 @@
 
 #include "certified/capacities.h"
 #include "certified/polygonal_circles.h"
-#include "circles/circle_fit.h"
 #include "linear/dense_spd.h"
-#include "opened/disk_packing.h"
 #include "pipeline/uniformize.h"
 #include "report/capacity_json.h"
 #include "report/json.h"
@@ -18,11 +16,10 @@
 #include "shape/loop_matching.h"
 #include "shape/module_error.h"
 #include "shape/separation_distance.h"
-#include "surface/mirror.h"
+#include "surface/surface_point.h"
 #include "transfer/correspondence.h"
 #include "transfer/sphere_places.h"
 #include "transfer/sphere_registration.h"
-#include "transfer/surface_point.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -216,11 +213,6 @@ void bind_shapes(py::module_& m)
               parts["settled"] = found.settled;
               return parts;
           });
-    m.def("places_in_domain", [](const PlanarPoints& uv, const Triangles& triangles, const PlanarPoints& points) {
-        PlacesInTriangles found =
-            detached([uv, triangles, points] { return nearest_triangles(uv, triangles, points); });
-        return py::make_tuple(found.face, found.weights, found.distance);
-    });
     m.def("align_domains",
           [](const PlanarPoints& source_centers, const VectorXd& source_radii, const PlanarPoints& target_centers,
              const VectorXd& target_radii, const std::vector<int>& match) {
@@ -228,21 +220,6 @@ void bind_shapes(py::module_& m)
                                target = circles_of(target_centers, target_radii),
                                match] { return align_domains(source, target, match); });
           });
-    m.def("mirror_image", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                             const std::vector<Index>& polygon) {
-        return array_of(detached([points = Vertices(vertices), faces = Triangles(triangles), polygon] {
-                            return find_mirror(points, faces, polygon);
-                        }).vertex);
-    });
-    m.def("pack_disks", [](const std::vector<double>& radii, double margin) {
-        return arrays_of(detached([radii, margin] { return pack_disks(radii, margin); }));
-    });
-    m.def("fit_circle", [](const Eigen::Ref<const PlanarPoints>& points) {
-        const VectorXcd all = complex(points);
-        const Circle circle = fit_circle_least_squares(all);
-        const double off = ((all.array() - circle.center).abs() - circle.radius).abs().maxCoeff();
-        return py::make_tuple(circle.center, circle.radius, off);
-    });
 }
 
 }  // namespace koebe::python

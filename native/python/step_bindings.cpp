@@ -4,6 +4,7 @@
 #include "native_call.h"
 #include "report_object.h"
 
+#include "circles/circle_fit.h"
 #include "conformal/annulus_map.h"
 #include "conformal/disk_map.h"
 #include "holes/fair_filling.h"
@@ -13,11 +14,14 @@
 #include "io/welding.h"
 #include "linear/dense_spd.h"
 #include "mesh/topology.h"
+#include "opened/disk_packing.h"
 #include "quality/distortion.h"
 #include "quality/shared_warnings.h"
 #include "report/json.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
+#include "surface/mirror.h"
+#include "surface/nearest_triangles.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -140,6 +144,26 @@ void bind_steps(py::module_& m)
             return Distortion{measure_distortion(positions, faces, points), judge_disk(positions, faces, points)};
         };
         return to_object(to_json(detached(measure, triangles.rows() < small_mesh)));
+    });
+    m.def("places_in_domain", [](const PlanarPoints& uv, const Triangles& triangles, const PlanarPoints& points) {
+        PlacesInTriangles found =
+            detached([uv, triangles, points] { return nearest_triangles(uv, triangles, points); });
+        return py::make_tuple(found.face, found.weights, found.distance);
+    });
+    m.def("mirror_image", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
+                             const std::vector<Index>& polygon) {
+        return array_of(detached([points = Vertices(vertices), faces = Triangles(triangles), polygon] {
+                            return find_mirror(points, faces, polygon);
+                        }).vertex);
+    });
+    m.def("pack_disks", [](const std::vector<double>& radii, double margin) {
+        return arrays_of(detached([radii, margin] { return pack_disks(radii, margin); }));
+    });
+    m.def("fit_circle", [](const Eigen::Ref<const PlanarPoints>& points) {
+        const VectorXcd all = complex(points);
+        const Circle circle = fit_circle_least_squares(all);
+        const double off = ((all.array() - circle.center).abs() - circle.radius).abs().maxCoeff();
+        return py::make_tuple(circle.center, circle.radius, off);
     });
 }
 

@@ -1,6 +1,7 @@
 """The reference of the C++ library: a page for each room, from the public headers by Doxygen and Breathe.
 
-The public headers are koebe.h, the headers that it includes, and theirs, as native/package/CMakeLists.txt copies them.
+The public headers are koebe.h, the headers that it includes, and theirs, as native/apps/package/CMakeLists.txt copies
+them.
 """
 
 import hashlib
@@ -13,8 +14,8 @@ from pathlib import Path
 from markup import escaped, title, toctree
 
 ROOT = Path(__file__).resolve().parents[2]
-NATIVE = ROOT / "native"
-FIRST = NATIVE / "package" / "koebe.h"
+LAYERS = sorted(path for path in (ROOT / "native").iterdir() if path.is_dir())
+FIRST = ROOT / "native" / "apps" / "package" / "koebe.h"
 EXAMPLES = ROOT / "tests" / "consumer" / "examples.cpp"
 MARK = re.compile(r"^ *// \[(\w+)\]$", re.MULTILINE)
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
@@ -35,6 +36,11 @@ PREDEFINED=KOEBE_API= "KOEBE_OPTIONS(...)=" "KOEBE_OPTIONS_OVER(...)="
 FILTER = Path(__file__).with_name("doxygen.sed")
 
 
+def header(name):
+    """The file of a header, in the folder of its layer."""
+    return next(layer / name for layer in LAYERS if (layer / name).is_file())
+
+
 def included(path):
     return INCLUDE.findall(path.read_text(encoding="utf-8"))
 
@@ -43,13 +49,13 @@ def headers():
     """All public headers by their names, those that koebe.h includes first."""
     found = included(FIRST)
     for name in found:
-        found += [other for other in included(NATIVE / name) if other not in found]
+        found += [other for other in included(header(name)) if other not in found]
     return found
 
 
 def subject(name):
     """The comment at the head of a header."""
-    lines = (NATIVE / name).read_text(encoding="utf-8").splitlines()
+    lines = header(name).read_text(encoding="utf-8").splitlines()
     said = []
     for line in lines:
         if not line.startswith("// "):
@@ -60,8 +66,9 @@ def subject(name):
 
 def doxygen(folder):
     """Doxygen's XML of the public headers, in folder/xml. It stays while they stay: Sphinx goes by the files' times."""
-    inputs = [NATIVE / name for name in headers()]
-    settings = f"OUTPUT_DIRECTORY={folder}\nSTRIP_FROM_PATH={NATIVE}\n{SETTINGS}INPUT_FILTER=sed -E -f {FILTER}\n"
+    inputs = [header(name) for name in headers()]
+    settings = f"OUTPUT_DIRECTORY={folder}\n{SETTINGS}INPUT_FILTER=sed -E -f {FILTER}\n"
+    settings += "STRIP_FROM_PATH=" + " ".join(f'"{layer}"' for layer in LAYERS) + "\n"
     settings += "INPUT=" + " ".join(f'"{path}"' for path in inputs) + "\n"
     digest, stamp = hashlib.sha256(settings.encode()), folder / "inputs.sha256"
     for path in (FILTER, Path(__file__), *inputs):
@@ -88,8 +95,8 @@ def said(node):
 
 def faults(folder):
     """Headers without a subject, and functions of koebe.h's own headers of whose overloads none has a comment."""
-    made = [f"native/{name} does not say what it is for" for name in headers() if not subject(name)]
-    own = {str(NATIVE / name) for name in included(FIRST)}
+    made = [f"{name} does not say what it is for" for name in headers() if not subject(name)]
+    own = included(FIRST)
     tree = ElementTree.parse(folder / "xml" / "namespacekoebe.xml")
     functions = [member for member in tree.iter("memberdef") if member.get("kind") == "function"]
     names = {member.findtext("name") for member in functions} | {"SurfaceSolver"}
@@ -97,8 +104,8 @@ def faults(folder):
     described = {member.findtext("name") for member in functions if said(member)}
     for member in functions:
         place, name = member.find("location").get("file"), member.findtext("name")
-        if str(NATIVE / place) in own and name not in described:
-            made.append(f"native/{place}: {name} has no comment")
+        if place in own and name not in described:
+            made.append(f"{place}: {name} has no comment")
     return made
 
 

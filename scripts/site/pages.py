@@ -7,28 +7,30 @@ ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "docs" / "site"
 PROJECT = ("CHANGELOG.md", "CONTRIBUTING.md", "THIRD_PARTY.md")
 LINK = re.compile(r"(\]\()(?!https?:|#)([^)\s]+)(\))")
-FILE_NAME = re.compile(r"\[(?:docs/)?(\w+)\.(?:md|ipynb)\](\(\1\.)")
+PLACE = re.compile(r"^(?:\.\./)*(?:docs/)?(?:developers/)?")
+FILE_NAME = re.compile(r"\[(?:docs/)?(?:developers/)?(\w+)\.(?:md|ipynb)\](\(\1\.)")
 CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
 PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
 CODE = {"main.cpp", "examples.cpp", "CMakeLists.txt"}
 
 
 def documents():
-    """The pages and notebooks of docs/."""
-    return sorted([*(ROOT / "docs").glob("*.md"), *(ROOT / "docs").glob("*.ipynb")])
+    """The pages and notebooks of docs/, and the pages for developers."""
+    docs = ROOT / "docs"
+    return sorted([*docs.glob("*.md"), *docs.glob("*.ipynb"), *docs.glob("developers/*.md")])
 
 
-def flat(text, prefix):
+def flat(text):
     """The text with its links as they are where all pages lie side by side. A link named by its file gets a name."""
     titles = dict(contents())
-    text = LINK.sub(lambda link: link[1] + link[2].removeprefix(prefix) + link[3], text)
+    text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]) + link[3], text)
     return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
 
 
-def linked_files(text):
+def linked_files(page):
     """Files other than pages that a page of docs/ links: their names on the site, and the files."""
-    found = sorted({link[1].partition("#")[0] for link in LINK.findall(text)})
-    return {name.removeprefix("../"): ROOT / "docs" / name for name in found if not name.endswith((".md", ".ipynb"))}
+    found = sorted({link[1].partition("#")[0] for link in LINK.findall(page.read_text(encoding="utf-8"))})
+    return {PLACE.sub("", name): page.parent / name for name in found if not name.endswith((".md", ".ipynb"))}
 
 
 def contents():
@@ -55,12 +57,12 @@ def gallery():
 
 def texts():
     """The pages: name -> text."""
-    front = flat((ROOT / "README.md").read_text(encoding="utf-8"), "docs/")
+    front = flat((ROOT / "README.md").read_text(encoding="utf-8"))
     made = {"index.md": front + "\n" + (SITE / "contents.md").read_text(encoding="utf-8"), "gallery.md": gallery()}
     for path in documents():
-        made[path.name] = flat(path.read_text(encoding="utf-8"), "../")
+        made[path.name] = flat(path.read_text(encoding="utf-8"))
     for name in PROJECT:
-        made[name] = flat((ROOT / name).read_text(encoding="utf-8"), "docs/")
+        made[name] = flat((ROOT / name).read_text(encoding="utf-8"))
     return made
 
 
@@ -69,5 +71,5 @@ def files():
     made = {f"code/{name}": ROOT / "tests" / "consumer" / name for name in sorted(CODE)}
     made |= {f"images/{path.name}": path for path in sorted((ROOT / "docs" / "images").iterdir())}
     for path in documents():
-        made |= linked_files(path.read_text(encoding="utf-8"))
+        made |= linked_files(path)
     return made

@@ -10,7 +10,9 @@ import typing
 
 import koebe
 from docstrings import linked
-from koebe import _fit, _report_entries, _result
+from koebe import _report_entries
+from koebe.labs import fit as _fit
+from koebe.maps import result as _result
 from markup import escaped, indented, title, toctree
 
 PAGES = {

@@ -254,7 +254,7 @@ def test_what_a_warning_counts_beside_its_elements_are_triangles(addon, koebe):
     in_mesh = addon("maps.wording").in_mesh
 
     def said(kind, elements, text):
-        made = in_mesh(island, koebe._result.Warning(kind=kind, elements=elements, text=text))
+        made = in_mesh(island, koebe.maps.result.Warning(kind=kind, elements=elements, text=text))
         return made["elements"], made["text"]
 
     assert said("flipped", [6, 7, 9], "3 faces flipped, 2 of them too small; the first face is 6") == (

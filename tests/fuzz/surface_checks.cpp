@@ -3,11 +3,11 @@
 #include "surface_facts.h"
 
 #include "canonical/canonical_form.h"
+#include "core/connectivity.h"
 #include "core/errors.h"
 #include "flaps/flaps.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
-#include "mesh/connectivity.h"
 #include "mesh/halfedge_mesh.h"
 #include "mesh/topology.h"
 #include "surface/intrinsic_metric.h"

@@ -2,8 +2,8 @@
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
 #include "conformal/annulus_map.h"
+#include "core/connectivity.h"
 #include "core/errors.h"
-#include "mesh/connectivity.h"
 
 #include <gtest/gtest.h>
 

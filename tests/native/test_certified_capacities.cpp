@@ -1,7 +1,7 @@
 #include "certified/bisected_surface.h"
 #include "certified/capacities.h"
 #include "certified/interval.h"
-#include "mesh/connectivity.h"
+#include "core/connectivity.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "circle_domain.h"
-#include "mesh/connectivity.h"
+#include "core/connectivity.h"
 #include "mesh/topology.h"
 #include "surface/curvature_weights.h"
 

@@ -1,5 +1,5 @@
 // The dense kernels of releases against their definitions, in every form, in every set of instructions that runs here.
-#include "bundle/kernels/dense_kernels.h"
+#include "kernels/dense_kernels.h"
 
 #include <Eigen/Dense>
 

@@ -1,5 +1,5 @@
 #include "circle_domain.h"
-#include "mesh/connectivity.h"
+#include "core/connectivity.h"
 #include "surface/intrinsic_metric.h"
 #include "surface/one_form.h"
 

@@ -1,9 +1,9 @@
 #include "transfer/correspondence.h"
 
+#include "core/connectivity.h"
 #include "core/errors.h"
 #include "loop_circles.h"
 #include "mapped_domain.h"
-#include "mesh/connectivity.h"
 
 #include <gtest/gtest.h>
 

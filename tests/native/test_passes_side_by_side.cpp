@@ -3,6 +3,7 @@
 #include "temporary_folder.h"
 
 #include "canonical/canonical_form.h"
+#include "core/connectivity.h"
 #include "core/errors.h"
 #include "execution/thread_share.h"
 #include "io/file_error.h"
@@ -11,7 +12,6 @@
 #include "io/polygon_triangulation.h"
 #include "linear/condensed_laplacian.h"
 #include "linear/dense_spd.h"
-#include "mesh/connectivity.h"
 #include "mesh/topology.h"
 #include "surface/intrinsic_metric.h"
 #include "surface/laplacian.h"

@@ -1,5 +1,5 @@
+#include "core/connectivity.h"
 #include "core/errors.h"
-#include "mesh/connectivity.h"
 #include "planar/planar_mesh.h"
 
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 #include "baselines/ricci_uniformize.h"
 #include "circle_domain.h"
 #include "circles/circle_fit.h"
+#include "core/connectivity.h"
 #include "flow/curvature.h"
 #include "flow/flat_layout.h"
-#include "mesh/connectivity.h"
 #include "surface/edge_flip.h"
 
 #include <gtest/gtest.h>

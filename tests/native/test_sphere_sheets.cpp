@@ -1,7 +1,7 @@
 #include "lift/sphere_sheets.h"
 
+#include "core/connectivity.h"
 #include "mesh/connected_pieces.h"
-#include "mesh/connectivity.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,5 +1,5 @@
+#include "core/connectivity.h"
 #include "core/errors.h"
-#include "mesh/connectivity.h"
 #include "mesh/topology.h"
 
 #include <gtest/gtest.h>

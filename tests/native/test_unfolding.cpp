@@ -1,7 +1,7 @@
 // Laws of unfolding: lengths stay, nothing overlaps, and the cuts of simple solids are known.
 #include "parts/unfolding.h"
 
-#include "mesh/connectivity.h"
+#include "core/connectivity.h"
 #include "mesh/topology.h"
 
 #include <gtest/gtest.h>

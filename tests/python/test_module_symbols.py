@@ -10,7 +10,7 @@ import pytest
 
 BUILD = Path(__file__).resolve().parents[2] / "build"
 LIBRARY = BUILD / "native" / "libkoebe.a"
-OBJECTS = sorted((BUILD / "native" / "python" / "CMakeFiles" / "_koebe.dir").glob("*.o"))
+OBJECTS = sorted((BUILD / "native" / "python" / "CMakeFiles" / "_koebe.dir").rglob("*.o"))
 pytestmark = pytest.mark.skipif(sys.platform != "linux" or not OBJECTS, reason="reads what `make build` has compiled")
 
 

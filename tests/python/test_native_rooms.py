@@ -1,4 +1,7 @@
-"""The rooms of native/: includes run one way, and each room is on the map in CONTRIBUTING.md."""
+"""The rooms of native/, folders of its layers: includes run one way, and each room is on the map in CONTRIBUTING.md.
+
+That a layer includes only the layers below it, the compiler sees (native/CMakeLists.txt).
+"""
 
 import collections
 import re
@@ -9,10 +12,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = ROOT / "native"
-ROOMS = sorted(path.name for path in NATIVE.iterdir() if path.is_dir())
-FRONTS = {"cli", "python", "web"}  # nothing includes them, but the command is in the page too
-OTHERS = {"bundle", "options"}  # what the library is built from, where that is built too; the table of options
-WITH_THE_COMMAND = {"batch"}  # built with it
+NO_LAYERS = {"bundle", "options", "python"}  # what the library is built from; the table of options; the package
+ROOMS = {path.name: path for path in sorted(NATIVE.glob("*/*")) if path.is_dir() and path.parent.name not in NO_LAYERS}
+FRONTS = {"cli", "web"}  # nothing includes them, but the command is in the page too
 
 
 def included(source):
@@ -23,11 +25,17 @@ def included(source):
 def arrows():
     """room -> the other rooms that its files include."""
     graph = {room: set() for room in ROOMS}
-    for room in ROOMS:
-        for path in (NATIVE / room).rglob("*"):
+    for room, folder in ROOMS.items():
+        for path in folder.rglob("*"):
             if path.suffix in {".h", ".cpp"}:
                 graph[room] |= set(included(path.read_text(encoding="utf-8"))) - {room}
     return graph
+
+
+def test_a_room_has_one_layer():
+    # Otherwise an include would name the folders of two.
+    folders = [path.name for path in NATIVE.glob("*/*") if path.is_dir() and path.parent.name not in NO_LAYERS]
+    assert "core" in folders and sorted(folders) == sorted(ROOMS)
 
 
 def test_includes_run_one_way():
@@ -36,36 +44,34 @@ def test_includes_run_one_way():
         order = list(TopologicalSorter(graph).static_order())
     except CycleError as error:
         pytest.fail(f"rooms that include each other: {' -> '.join(error.args[1])}")
-    assert order[0] == "core" and "pipeline" in order
-    assert graph["core"] == set()
-    assert all(graph[room] for room in ROOMS if room not in {"core", *OTHERS})
+    assert graph["core"] == set() and {"kernels", "pipeline"} <= set(order) == set(ROOMS)
 
 
 def test_nothing_includes_a_front():
     assert {room: others & FRONTS for room, others in arrows().items() if others & FRONTS} == {"web": {"cli"}}
-    assert [room for room, others in arrows().items() if others & WITH_THE_COMMAND] == ["cli"]
+    assert [room for room, others in arrows().items() if "batch" in others] == ["cli"]
 
 
 def test_nothing_but_linear_includes_the_factor():
     sources = [path for path in NATIVE.rglob("*.[ch]*") if '"linear/factor/' in path.read_text(encoding="utf-8")]
-    assert {path.relative_to(NATIVE).parts[0] for path in sources} == {"linear"}
+    assert {path.relative_to(NATIVE).parts[:2] for path in sources} == {("base", "linear")}
 
 
 def test_the_folders_of_the_command_are_one_upon_the_other():
     folders = ["process", "files", "options", "commands"]
     for k, folder in enumerate(folders):
-        text = "".join(path.read_text(encoding="utf-8") for path in (NATIVE / "cli" / folder).glob("*.[ch]*"))
+        text = "".join(path.read_text(encoding="utf-8") for path in (ROOMS["cli"] / folder).glob("*.[ch]*"))
         included_folders = set(re.findall(r'^#include "cli/(\w+)/', text, re.MULTILINE))
         assert folder in included_folders and included_folders <= set(folders[: k + 1])
 
 
-def test_circles_know_no_mesh():
-    assert arrows()["circles"] == {"core"}
-
-
 def test_every_room_is_on_the_map():
     page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"\bnative/(\w+)/", page)) == set(ROOMS)
+    shown = re.search(r"^```\n(native/.*?)^```$", page, re.MULTILINE | re.DOTALL)[1]
+    layers = re.split(r"^native/(\w+)/", shown, flags=re.MULTILINE)
+    named = {name for layer, text in zip(layers[1::2], layers[2::2]) if layer not in NO_LAYERS
+             for name in re.findall(r"^  (\w+) ", text, re.MULTILINE)}  # fmt: skip
+    assert named == set(ROOMS)
 
 
 NAMED = re.compile(

@@ -166,7 +166,7 @@ def test_labels_are_carried_as_labels():
 
 def test_of_three_labels_the_heaviest_wins_together():
     """Two corners of one label outweigh a third that is heavier than each of them."""
-    from koebe._transfer_carry import carried
+    from koebe.maps.carry import carried
 
     triangles, weights = np.array([[0, 1, 2]]), np.array([[0.4, 0.3, 0.3]])
     assert carried([5, 8, 8], triangles, np.array([0]), weights, 3, None).tolist() == [8]

@@ -9,7 +9,7 @@ import pytest
 from cli_support import USAGE, obj_text, triangles_of
 from cli_support import koebe as command
 from koebe._native import _koebe
-from koebe._shapes import mapped_surface
+from koebe.labs.shapes import mapped_surface
 from test_certified import square_in_square
 from test_module_error import round_domain
 

@@ -107,9 +107,9 @@ def test_operators_without_a_description_are_seen():
 
 
 def test_a_link_that_is_named_by_its_file_gets_the_title_of_the_contents():
-    text = "[parts.md](parts.md#darts), [here](parts.md), [docs/lift.md](docs/lift.md), [t](../THIRD_PARTY.md)"
-    assert pages.flat(text, "docs/") == (
-        "[Parts](parts.md#darts), [here](parts.md), [Patterns on surfaces](lift.md), [t](../THIRD_PARTY.md)"
+    text = "[parts.md](parts.md#darts), [here](../parts.md), [docs/lift.md](docs/lift.md), [t](../../THIRD_PARTY.md)"
+    assert pages.flat(text) == (
+        "[Parts](parts.md#darts), [here](parts.md), [Patterns on surfaces](lift.md), [t](THIRD_PARTY.md)"
     )
 
 

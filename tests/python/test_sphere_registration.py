@@ -5,8 +5,8 @@ import pickle
 import koebe
 import numpy as np
 import pytest
-from koebe import _sphere_alignment as alignment
-from koebe import _sphere_transfer as inner
+from koebe.labs import sphere_alignment as alignment
+from koebe.labs import sphere_transfer as inner
 from test_sphere_transfer import FACES, POINTS, ROUND, SPHERE, TURN, depth, moved, potato
 
 

@@ -6,8 +6,8 @@ import warnings
 import koebe
 import numpy as np
 import pytest
-from koebe import _sphere_alignment as alignment
-from koebe import _sphere_transfer as inner
+from koebe.labs import sphere_alignment as alignment
+from koebe.labs import sphere_transfer as inner
 
 
 def potato(rounds, seed=3):

@@ -63,8 +63,8 @@ def addon_messages():
 
 def native_messages():
     thrown = re.compile(r"throw (?:Input|Topology|Solver)Error\((.*?)\)?;", re.DOTALL)
-    for folder in sorted(path for path in (ROOT / "native").iterdir() if path.is_dir()):
-        if folder.name in NOT_CALLED_FROM_BLENDER:
+    for folder in sorted(path for path in (ROOT / "native").glob("*/*") if path.is_dir()):
+        if NOT_CALLED_FROM_BLENDER & {folder.name, folder.parent.name}:
             continue
         for path in sorted(folder.rglob("*.*")):
             for match in thrown.finditer(path.read_text(encoding="utf-8")):
@@ -77,7 +77,7 @@ def native_messages():
 
 
 def topology_kinds():
-    source = (ROOT / "native" / "core" / "errors.cpp").read_text(encoding="utf-8")
+    source = (ROOT / "native" / "base" / "core" / "errors.cpp").read_text(encoding="utf-8")
     words = re.search(r"to_string\(TopologyKind .*?\n}", source, re.DOTALL)
     kinds = re.findall(r'"(\w+)"', words.group())
     return [kind for kind in kinds if kind != "disconnected"]  # parts are islands, each mapped by itself

@@ -11,15 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from ._corner_mesh import mesh_with_corner_uv
-from ._export import CUT_TEXT, export, has_one_place_a_vertex, obj_of
-from ._files import whole_file
-from ._formats import GIFTI, MESHIO, NATIVE, PYVISTA, is_foreign_surface, is_freesurfer_name, is_patch_name
-from ._input import surface_of
-from ._meshes import SPHERE
-from ._result import MapReport, Source
-from ._vertex_fields import read_region
 from .errors import Cancelled, InputError, KoebeError, OptionError
+from .io.corner_mesh import mesh_with_corner_uv
+from .io.export import CUT_TEXT, export, has_one_place_a_vertex, obj_of
+from .io.files import whole_file
+from .io.formats import GIFTI, MESHIO, NATIVE, PYVISTA, is_foreign_surface, is_freesurfer_name, is_patch_name
+from .io.meshes import SPHERE
+from .io.vertex_fields import read_region
+from .maps.input import surface_of
+from .maps.result import MapReport, Source
 
 _WRITE_NO_MESH = ("module", "compare", "batch", "sequence", "flatten")
 _MAKE_CUTS = ("parts", "ring", "torus", "schottky")

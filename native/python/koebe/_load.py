@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ._cut_result import CutResult
-from ._domain_map import DomainMap
-from ._fit import FitResult
-from ._parts import PartsResult
-from ._result import Source, UniformizeResult
-from ._sphere_transfer import loaded_correspondence
 from .errors import InputError
+from .labs.fit import FitResult
+from .labs.sphere_transfer import loaded_correspondence
+from .maps.cut_result import CutResult
+from .maps.domain_map import DomainMap
+from .maps.parts import PartsResult
+from .maps.result import Source, UniformizeResult
 
 
 def load(path: str | os.PathLike[str]) -> Any:

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 
 from ._fields import face_angle_error_deg, log_scale_of_corners
-from ._lift import LiftResult
 from ._options import choice_of
-from ._result import MapReport, UniformizeResult
 from .errors import InputError
+from .making.lift import LiftResult
+from .maps.result import MapReport, UniformizeResult
 
 _FIELDS = {
     "checker": "checker of the map",

@@ -1,0 +1,276 @@
+#include "parts/through_rounds.h"
+
+#include "core/connectivity.h"
+#include "even/even_forces.h"
+#include "execution/side_by_side.h"
+#include "parts/roomy_cuts.h"
+#include "parts/tension.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr EvenEffort trial_effort{6, 2};
+constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room
+
+/// A cut as vertices of the whole: cuts of other parts have numbers of their own.
+struct NamedCut {
+    std::vector<Index> vertices;
+    double cost = 0.0;
+};
+
+/// The cut along these vertices of the whole, if it runs through this part.
+std::optional<ThroughCut> cut_in(const FlatPart& flat, const NamedCut& named)
+{
+    std::map<EdgeEnds, std::size_t> wanted;
+    for (std::size_t i = 0; i + 1 < named.vertices.size(); ++i)
+        wanted.emplace(sorted_ends(named.vertices[i], named.vertices[i + 1]), i);
+    const Triangles& triangles = flat.surface.triangles;
+    ThroughCut cut{std::vector<Index>(named.vertices.size(), -1), std::vector<Index>(wanted.size(), no_twin)};
+    if (wanted.size() + 1 != named.vertices.size()) return {};
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
+        if (flat.surface.twin[h] < h) continue;
+        const Index a = origin(triangles, h), b = target(triangles, h);
+        const auto found = wanted.find(sorted_ends(flat.original[a], flat.original[b]));
+        if (found == wanted.end()) continue;
+        const std::size_t i = found->second;
+        const bool along = flat.original[a] == named.vertices[i];
+        cut.halfedges[i] = h;
+        for (const auto& [place, v] : {std::pair(i, along ? a : b), std::pair(i + 1, along ? b : a)}) {
+            if (cut.vertices[place] >= 0 && cut.vertices[place] != v) return {};
+            cut.vertices[place] = v;
+        }
+    }
+    if (std::ranges::count(cut.halfedges, no_twin) > 0) return {};
+    const std::vector<char> outside = boundary_mask(flat.surface);
+    for (std::size_t i = 0; i < cut.vertices.size(); ++i)
+        if ((outside[cut.vertices[i]] != 0) != (i == 0 || i + 1 == cut.vertices.size())) return {};
+    return cut;
+}
+
+struct CutGroup {
+    std::vector<HeldPart> parts;
+    int cuts = 0;
+};
+
+/// A part and its mirror image, which may be the part itself, or a part without one. And the pieces cut from them.
+class MirrorGroup {
+public:
+    MirrorGroup(std::vector<HeldPart> parts, const ThroughPrice& price) : price_(price)
+    {
+        for (HeldPart& part : parts) pieces_.push_back({std::move(part.flat), false});
+    }
+
+    /// Cuts by what they release in parts that are relaxed for this E.
+    CutGroup cut(double even, ExecutionContext& context)
+    {
+        return cut_while([&](std::size_t k) { return release_once(k, even, context); });
+    }
+
+    /// Cuts by the room that they save.
+    CutGroup cut_for_room(double square)
+    {
+        return cut_while([&](std::size_t k) { return save_room_once(k, square); });
+    }
+
+private:
+    struct Piece {
+        FlatPart flat;
+        bool settled = false;  ///< no cut pays
+    };
+    struct Trial {
+        std::vector<Piece> pieces;
+        std::vector<char> changed;  ///< (pieces)
+        double surplus = 0.0;
+    };
+
+    template <typename CutOnce>
+    CutGroup cut_while(const CutOnce& cut_once)
+    {
+        for (std::size_t k = 0; k < pieces_.size();)
+            if (pieces_[k].settled || !cut_once(k)) pieces_[k++].settled = true;
+        CutGroup group{{}, cuts_};
+        for (Piece& piece : pieces_) group.parts.push_back({std::move(piece.flat), {}});
+        return group;
+    }
+
+    static double energy(const FlatPart& flat, double even) { return forces_in(flat, even).energy.sum(); }
+
+    /// Makes the best cut of a piece, and its mirror image. @return whether a cut pays
+    bool release_once(std::size_t k, double even, ExecutionContext& context)
+    {
+        std::optional<Trial> best;
+        for (const ThroughCut& cut : promising_through_cuts(pieces_[k].flat, even, price_)) {
+            if (best && best->surplus >= cut.forecast - cut.cost) break;  // the cuts come by falling forecasts
+            std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut));
+            if (!trial || !release(*trial, even, context)) continue;
+            if (trial->surplus > (best ? best->surplus : 0.0)) best = std::move(trial);
+        }
+        if (best) take(std::move(*best));
+        return best.has_value();
+    }
+
+    /// Makes the first cut that can be made, and its mirror image. @return whether there is one
+    bool save_room_once(std::size_t k, double square)
+    {
+        for (const ThroughCut& cut : roomy_cuts(pieces_[k].flat, square, price_))
+            if (std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut)); trial && !has_crumbs(*trial)) {
+                take(std::move(*trial));
+                return true;
+            }
+        return false;
+    }
+
+    static bool has_crumbs(const Trial& trial)
+    {
+        for (std::size_t k = 0; k < trial.pieces.size(); ++k)
+            if (trial.changed[k] && trial.pieces[k].flat.faces.size() < fewest_faces) return true;
+        return false;
+    }
+
+    void take(Trial trial)
+    {
+        pieces_ = std::move(trial.pieces);
+        ++cuts_;
+    }
+
+    static std::vector<NamedCut> named_cuts(const FlatPart& flat, const ThroughCut& cut)
+    {
+        NamedCut named{{}, cut.cost}, image{{}, cut.cost};
+        for (const Index v : cut.vertices) {
+            named.vertices.push_back(flat.original[v]);
+            if (!flat.image.empty()) image.vertices.push_back(flat.image[v]);
+        }
+        const bool is_own =
+            image.vertices == named.vertices ||
+            std::equal(image.vertices.rbegin(), image.vertices.rend(), named.vertices.begin(), named.vertices.end());
+        if (flat.image.empty() || is_own) return {std::move(named)};
+        return {std::move(named), std::move(image)};
+    }
+
+    /// The pieces after these cuts, not relaxed yet; nothing if one of the cuts cannot be made.
+    std::optional<Trial> opened(const std::vector<NamedCut>& cuts) const
+    {
+        Trial trial{pieces_, std::vector<char>(pieces_.size(), 0)};
+        for (const NamedCut& named : cuts) {
+            std::vector<FlatPart> parts;
+            for (std::size_t k = 0; k < trial.pieces.size() && parts.empty(); ++k) {
+                const auto cut = cut_in(trial.pieces[k].flat, named);
+                if (!cut) continue;
+                parts = cut_through(trial.pieces[k].flat, *cut);
+                if (parts.empty()) return {};
+                trial.pieces[k] = {std::move(parts.front()), false};
+                trial.changed[k] = 1;
+            }
+            if (parts.empty()) return {};
+            if (parts.size() > 1) {
+                trial.pieces.push_back({std::move(parts.back()), false});
+                trial.changed.push_back(1);
+            }
+            trial.surplus -= named.cost;
+        }
+        return trial;
+    }
+
+    /// Relaxes the pieces that are new, and adds the energy that they release. @return whether they are one to one
+    bool release(Trial& trial, double even, ExecutionContext& context) const
+    {
+        for (std::size_t k = 0; k < trial.pieces.size(); ++k) {
+            if (!trial.changed[k]) continue;
+            if (k < pieces_.size()) trial.surplus += energy(pieces_[k].flat, even);
+            FlatPart& flat = trial.pieces[k].flat;
+            std::vector<RoundLoop> none;
+            if (!make_even(flat_surface(flat, none), even, packed_side, context, trial_effort).moved ||
+                !survives_storing(flat))
+                return false;
+            trial.surplus -= energy(flat, even);
+        }
+        return true;
+    }
+
+    std::vector<Piece> pieces_;
+    int cuts_ = 0;
+    ThroughPrice price_;
+};
+
+/// The groups of parts, by their numbers. A part with an image that is no part by itself is in no group.
+std::vector<std::vector<std::size_t>> mirror_groups(const std::vector<HeldPart>& parts)
+{
+    std::map<EdgeEnds, std::size_t> part_at;  // inner edges
+    const auto inner_edges = [](const FlatPart& flat, const std::vector<Index>& names, auto visit) {
+        for (Index h = 0; h < static_cast<Index>(flat.surface.triangles.size()); ++h)
+            if (flat.surface.twin[h] > h)
+                visit(sorted_ends(names[origin(flat.surface.triangles, h)], names[target(flat.surface.triangles, h)]));
+    };
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        if (!parts[k].flat.image.empty())
+            inner_edges(parts[k].flat, parts[k].flat.original, [&](EdgeEnds edge) { part_at.emplace(edge, k); });
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (!parts[k].round.empty()) continue;
+        if (parts[k].flat.image.empty()) {
+            groups.push_back({k});
+            continue;
+        }
+        std::optional<std::size_t> image;
+        bool is_one = true;
+        inner_edges(parts[k].flat, parts[k].flat.image, [&](EdgeEnds edge) {
+            const auto found = part_at.find(edge);
+            is_one = is_one && found != part_at.end() && (!image || *image == found->second);
+            if (is_one) image = found->second;
+        });
+        if (!is_one || !image || *image < k || !parts[*image].round.empty()) continue;
+        groups.push_back(*image == k ? std::vector{k} : std::vector{k, *image});
+    }
+    return groups;
+}
+
+/// Cuts the groups, on several threads. @return whether any cut was made
+template <typename CutGroupOf>
+bool cut_groups(std::vector<HeldPart>& parts, int threads, ExecutionContext& context, const CutGroupOf& cut_group)
+{
+    const auto groups = mirror_groups(parts);
+    std::vector<CutGroup> pieces(groups.size());
+    side_by_side(groups.size(), threads, context, [&](std::size_t g, ExecutionContext& own) {
+        std::vector<HeldPart> group;
+        for (const std::size_t k : groups[g]) group.push_back(parts[k]);
+        pieces[g] = cut_group(std::move(group), own);
+    });
+    bool is_cut = false;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        is_cut = is_cut || pieces[g].cuts > 0;
+        for (std::size_t i = 0; i < pieces[g].parts.size(); ++i) {
+            if (i < groups[g].size())
+                parts[groups[g][i]] = std::move(pieces[g].parts[i]);
+            else
+                parts.push_back(std::move(pieces[g].parts[i]));
+        }
+    }
+    return is_cut;
+}
+
+}  // namespace
+
+bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughPrice& price, int threads,
+                       ExecutionContext& context)
+{
+    return cut_groups(parts, threads, context, [&](std::vector<HeldPart> group, ExecutionContext& own) {
+        return MirrorGroup(std::move(group), price).cut(even, own);
+    });
+}
+
+bool cut_parts_for_room(std::vector<HeldPart>& parts, const ThroughPrice& price, int threads, ExecutionContext& context)
+{
+    std::vector<const FlatPart*> flats;
+    for (const HeldPart& part : parts) flats.push_back(&part.flat);
+    const double square = square_for_all(flats);
+    return cut_groups(parts, threads, context, [&](std::vector<HeldPart> group, ExecutionContext&) {
+        return MirrorGroup(std::move(group), price).cut_for_room(square);
+    });
+}
+
+}  // namespace koebe

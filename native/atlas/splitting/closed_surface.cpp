@@ -1,0 +1,53 @@
+#include "splitting/closed_surface.h"
+
+#include "core/connectivity.h"
+#include "core/errors.h"
+#include "splitting/halving.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace koebe {
+namespace {
+
+/// The lowest vertex of the piece at each vertex's place in the input.
+std::vector<Index> undoubled(const std::vector<Index>& source)
+{
+    std::vector<Index> order(source.size()), lowest(source.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](Index v) { return source[v]; });
+    for (std::size_t i = 0; i < order.size(); ++i)
+        lowest[order[i]] = i > 0 && source[order[i]] == source[order[i - 1]] ? lowest[order[i - 1]] : order[i];
+    return lowest;
+}
+
+}  // namespace
+
+std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertices& vertices,
+                                         const std::vector<Index>& polygon)
+{
+    const std::vector<Index> lowest = undoubled(piece.source_vertex);
+    Triangles triangles = piece.triangles;
+    bool doubled = false;
+    for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+        Index& v = triangles.data()[i];
+        doubled |= lowest[v] != v;
+        v = lowest[v];
+    }
+    if (!doubled) return {};
+    try {
+        Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
+        if (!surface.loops.empty() || surface.genus != 0) return {};
+        return cut_surface(vertices, std::move(surface), polygon);
+    } catch (const TopologyError&) {  // vertices that were split for another reason
+        return {};
+    }
+}
+
+std::vector<std::vector<Index>> halves(const CutSurface& closed)
+{
+    const PartMesh all = some_or_all(closed, std::vector<Index>(static_cast<std::size_t>(closed.areas.size())));
+    return pieces_of(all, halving(all));
+}
+
+}  // namespace koebe

@@ -1,0 +1,210 @@
+#include "splitting/coarse_surface.h"
+
+#include "core/complex_places.h"
+#include "mesh/halfedge_mesh.h"
+#include "planar/planar_predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <queue>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+using Vertex = HalfedgeMesh::VertexHandle;
+using Halfedge = HalfedgeMesh::HalfedgeHandle;
+
+constexpr double least_cosine = 0.2;  // of the angle by which a collapse turns a face
+constexpr double least_height = 0.1;  // of a face of the map, over its longest edge; or as much as before
+
+OpenMesh::Vec3d normal(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const OpenMesh::Vec3d& c)
+{
+    return OpenMesh::cross(b - a, c - a);
+}
+
+/// The height of a triangle in the plane over its longest edge; negative if it is turned over.
+double slenderness(Complex a, Complex b, Complex c)
+{
+    const double longest = std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c)});
+    return cross(b - a, c - a) / std::max(longest, 1e-300);
+}
+
+class Coarsening {
+public:
+    Coarsening(const Vertices& vertices, const Triangles& triangles, const CoarseTogether& together)
+        : mesh(to_halfedge_mesh(vertices, triangles)),
+          parent(static_cast<std::size_t>(vertices.rows())),
+          together_(together),
+          reach_(parent.size(), 0.0)
+    {
+        note_tips(vertices, triangles);
+        mesh.request_vertex_status();
+        mesh.request_halfedge_status();
+        mesh.request_edge_status();
+        mesh.request_face_status();
+        for (std::size_t v = 0; v < parent.size(); ++v) parent[v] = static_cast<Index>(v);
+    }
+
+    void run(Index faces, ExecutionContext& context)
+    {
+        std::vector<Entry> entries;
+        for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e)
+            entries.emplace_back(reach_after(first_choice(Edge(e))), e);
+        queue_ = Queue(std::greater<>(), std::move(entries));
+        left_ = static_cast<Index>(mesh.n_faces());
+        for (long step = 0; left_ > faces && !queue_.empty(); ++step) {
+            if (step % 4096 == 0) context.checkpoint();
+            const auto [length, edge] = queue_.top();
+            queue_.pop();
+            if (mesh.status(Edge(edge)).deleted()) continue;
+            Halfedge h = first_choice(Edge(edge));
+            if (reach_after(h) != length) continue;
+            if (!may_collapse(h)) {
+                h = mesh.opposite_halfedge_handle(h);
+                if (!may_collapse(h)) continue;
+            }
+            const auto [image, is_alone] = image_of(h);
+            if (!is_alone && (!image.is_valid() || !may_collapse(image))) continue;
+            collapse(h);
+            if (image.is_valid() && !mesh.status(mesh.edge_handle(image)).deleted() && may_collapse(image))
+                collapse(image);
+        }
+    }
+
+    HalfedgeMesh mesh;
+    std::vector<Index> parent;  // (V) the vertex that a vertex went to; itself if it stayed
+
+private:
+    using Edge = HalfedgeMesh::EdgeHandle;
+    using Entry = std::pair<double, int>;  // reach, edge; out of date where the edge has another one now
+    using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+
+    /// The tip of a cone stays for as long as an edge that is as long as its faces' edges together.
+    void note_tips(const Vertices& vertices, const Triangles& triangles)
+    {
+        std::vector<double> angle(parent.size(), 0.0), around(parent.size(), 0.0);
+        for (const auto face : triangles.rowwise())
+            for (int k = 0; k < 3; ++k) {
+                const Eigen::RowVector3d a = vertices.row(face[(k + 1) % 3]) - vertices.row(face[k]);
+                const Eigen::RowVector3d b = vertices.row(face[(k + 2) % 3]) - vertices.row(face[k]);
+                angle[face[k]] += std::atan2(a.cross(b).norm(), a.dot(b));
+                around[face[k]] += a.norm();
+            }
+        for (std::size_t v = 0; v < parent.size(); ++v)
+            if (!mesh.is_boundary(Vertex(static_cast<int>(v))))
+                reach_[v] = std::abs(1.0 - angle[v] / (2.0 * std::numbers::pi)) * around[v];
+    }
+
+    Halfedge first_choice(Edge e) const
+    {
+        const Halfedge h = mesh.halfedge_handle(e, 0), t = mesh.halfedge_handle(e, 1);
+        return reach_[mesh.from_vertex_handle(h).idx()] <= reach_[mesh.from_vertex_handle(t).idx()] ? h : t;
+    }
+
+    double reach_after(Halfedge h) const
+    {
+        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        return reach_[from.idx()] + (mesh.point(from) - mesh.point(to)).norm();
+    }
+
+    /// Whether no face is turned over when the half-edge's origin goes to its target.
+    bool stays_upright(Halfedge h) const
+    {
+        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        for (auto out = mesh.cvoh_iter(from); out.is_valid(); ++out) {
+            if (mesh.is_boundary(*out)) continue;
+            const Vertex b = mesh.to_vertex_handle(*out), c = mesh.to_vertex_handle(mesh.next_halfedge_handle(*out));
+            if (b == to || c == to) continue;
+            const OpenMesh::Vec3d before = normal(mesh.point(from), mesh.point(b), mesh.point(c));
+            const OpenMesh::Vec3d after = normal(mesh.point(to), mesh.point(b), mesh.point(c));
+            if (!(OpenMesh::dot(before, after) > least_cosine * before.norm() * after.norm())) return false;
+            if (!together_.points) continue;
+            const auto at = [&](Vertex v) { return complex_at(*together_.points, v.idx()); };
+            const double least = std::min(least_height, slenderness(at(from), at(b), at(c)));
+            const double height = slenderness(at(to), at(b), at(c));
+            if (!(height > 0.0) || height < least) return false;
+        }
+        return true;
+    }
+
+    bool may_collapse(Halfedge h)
+    {
+        if (mesh.is_boundary(mesh.from_vertex_handle(h)) && !mesh.is_boundary(mesh.edge_handle(h))) return false;
+        return mesh.is_collapse_ok(h) && stays_upright(h);
+    }
+
+    /// The mirror image of a half-edge; and whether it has none because its vertices have none.
+    std::pair<Halfedge, bool> image_of(Halfedge h) const
+    {
+        if (together_.image.empty()) return {{}, true};
+        const Index from = together_.image[mesh.from_vertex_handle(h).idx()];
+        const Index to = together_.image[mesh.to_vertex_handle(h).idx()];
+        if (from < 0 || to < 0 || mesh.status(Vertex(from)).deleted() || mesh.status(Vertex(to)).deleted())
+            return {{}, true};
+        return {mesh.find_halfedge(Vertex(from), Vertex(to)), false};
+    }
+
+    void collapse(Halfedge h)
+    {
+        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        left_ -= mesh.is_boundary(mesh.edge_handle(h)) ? 1 : 2;
+        reach_[to.idx()] = std::max(reach_[to.idx()], reach_after(h));
+        mesh.collapse(h);
+        parent[from.idx()] = to.idx();
+        for (auto out = mesh.cvoh_iter(to); out.is_valid(); ++out) {
+            const Edge next = mesh.edge_handle(*out);
+            queue_.emplace(reach_after(first_choice(next)), next.idx());
+        }
+    }
+
+    const CoarseTogether& together_;
+    // (V) how far a vertex has drawn others: without it a vertex would go along a row of equal edges to its end.
+    std::vector<double> reach_;
+    Queue queue_;
+    Index left_ = 0;  // faces
+};
+
+}  // namespace
+
+CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
+                             const CoarseTogether& together, ExecutionContext& context)
+{
+    Coarsening coarsening(vertices, triangles, together);
+    coarsening.run(faces, context);
+    const HalfedgeMesh& mesh = coarsening.mesh;
+    std::vector<Index>& parent = coarsening.parent;
+    CoarseSurface coarse;
+    std::vector<Index> number(parent.size(), -1);
+    std::vector<Eigen::RowVector3i> rows;
+    for (Index f = 0; f < static_cast<Index>(mesh.n_faces()); ++f) {
+        const auto handle = mesh.face_handle(static_cast<unsigned>(f));
+        if (mesh.status(handle).deleted()) continue;
+        Eigen::RowVector3i row;
+        int k = 0;
+        for (auto v = mesh.cfv_iter(handle); v.is_valid(); ++v, ++k) {
+            Index& own = number[v->idx()];
+            if (own < 0) {
+                own = static_cast<Index>(coarse.vertex.size());
+                coarse.vertex.push_back(v->idx());
+            }
+            row[k] = own;
+        }
+        rows.push_back(row);
+        coarse.face.push_back(f);
+    }
+    coarse.vertices = vertices(coarse.vertex, Eigen::all);
+    coarse.triangles.resize(static_cast<Eigen::Index>(rows.size()), 3);
+    for (std::size_t f = 0; f < rows.size(); ++f) coarse.triangles.row(static_cast<Eigen::Index>(f)) = rows[f];
+    coarse.vertex_at.resize(parent.size());
+    for (std::size_t v = 0; v < parent.size(); ++v) {
+        Index root = static_cast<Index>(v);
+        while (parent[root] != root) root = parent[root] = parent[parent[root]];
+        coarse.vertex_at[v] = number[root];
+    }
+    return coarse;
+}
+
+}  // namespace koebe

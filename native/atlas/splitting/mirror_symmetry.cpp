@@ -1,0 +1,131 @@
+#include "splitting/mirror_symmetry.h"
+
+#include "core/connectivity.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <unordered_map>
+
+namespace koebe {
+namespace {
+
+constexpr double worth = 1.5;    // symmetric parts may cost this times as much,
+constexpr double little = 0.03;  // or this much more: a texel density that is 3 % off everywhere, which nobody sees
+
+double border_of(const CutSurface& whole, const std::vector<PartPointer>& parts)
+{
+    std::vector<Index> label(static_cast<std::size_t>(whole.areas.size()), -1);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (const Index f : parts[k]->mesh.faces) label[f] = static_cast<Index>(k);
+    double length = 0.0;
+    for (Index h = 0; h < static_cast<Index>(whole.surface.twin.size()); ++h) {
+        const Index t = whole.surface.twin[h];
+        if (t > h && label[face_of(t)] != label[face_of(h)]) length += whole.lengths[h];
+    }
+    return length;
+}
+
+double cost_of(const CutSurface& whole, const SplitOptions& options, const std::vector<PartPointer>& parts)
+{
+    double cost = options.part_price * static_cast<double>(parts.size()) + options.cut_price * border_of(whole, parts);
+    for (const PartPointer& part : parts) cost += part->map.overflow;
+    return cost;
+}
+
+/// Sets of faces: the parts of one side, and their images.
+std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mirror& mirror,
+                                               const std::vector<PartPointer>& parts, double chosen)
+{
+    const std::size_t count = mirror.group.size();
+    std::vector<Index> label(mirror.image.size());
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (const Index f : parts[k]->mesh.faces) label[mirror.group[f]] = static_cast<Index>(k);
+    const auto own = [&](Index g) { return mirror.image[g] == g || chosen * mirror.side[g] > 0.0; };
+    // Faces are joined over an edge if their polygons are in one part on the chosen side, or the images are; over the
+    // plane if they were in one part.
+    const auto joined = [&](Index a, Index b) {
+        if (own(a) && own(b)) return label[a] == label[b];
+        if (!own(a) && !own(b)) return label[mirror.image[a]] == label[mirror.image[b]];
+        const Index here = own(a) ? a : b, there = own(a) ? b : a, image = mirror.image[there];
+        return image == here ? label[here] == label[there] : label[here] == label[image];
+    };
+    std::vector<std::vector<Index>> pieces;
+    std::vector<char> seen(count, 0);
+    for (Index seed = 0; seed < static_cast<Index>(count); ++seed) {
+        if (seen[seed]) continue;
+        std::vector<Index> queue{seed};
+        seen[seed] = 1;
+        for (std::size_t head = 0; head < queue.size(); ++head)
+            for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h) {
+                const Index t = whole.surface.twin[h];
+                if (t == no_twin || seen[face_of(t)] || !joined(mirror.group[face_of(h)], mirror.group[face_of(t)]))
+                    continue;
+                seen[face_of(t)] = 1;
+                queue.push_back(face_of(t));
+            }
+        std::ranges::sort(queue);
+        pieces.push_back(std::move(queue));
+    }
+    return pieces;
+}
+
+}  // namespace
+
+bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,
+                    std::vector<PartPointer>& parts, ExecutionContext& context, SplitEffort& effort)
+{
+    if (mirror.image.empty()) return false;
+    if (parts.size() < 2) return true;
+    std::map<std::vector<Index>, PartPointer> known;
+    for (const PartPointer& part : parts) known.emplace(part->mesh.faces, part);
+    const double cost_as_they_are = cost_of(whole, options, parts);
+    double best = std::max(worth * cost_as_they_are, cost_as_they_are + little);
+    std::vector<PartPointer> chosen;
+    for (const double side : {1.0, -1.0}) {
+        std::vector<PartPointer> mirrored;
+        std::vector<std::vector<Index>> sets = mirrored_faces(whole, mirror, parts, side);
+        if (sets.size() == 1 && whole.surface.loops.empty()) continue;  // closed
+        for (std::vector<Index>& faces : sets) {
+            PartPointer& part = known[faces];
+            if (!part) {
+                part = std::make_shared<Part>(Part{part_mesh(whole, std::move(faces)), {}, {}});
+                map_anew(whole, *part, context, effort);
+            }
+            mirrored.push_back(part);
+        }
+        const double cost = cost_of(whole, options, mirrored);
+        if (cost >= best) continue;
+        best = cost;
+        chosen = std::move(mirrored);
+    }
+    if (chosen.empty()) return false;
+    parts = std::move(chosen);
+    return true;
+}
+
+std::vector<char> mirrored_slits(const CutSurface& whole, const Mirror& mirror, const std::vector<char>& opened)
+{
+    std::vector<char> slit(whole.surface.twin.size(), 0);
+    if (mirror.image.empty()) return slit;
+    std::set<std::pair<Index, Index>> images;
+    const auto groups = [&](Index h) {
+        return std::pair{mirror.group[face_of(h)], mirror.group[face_of(whole.surface.twin[h])]};
+    };
+    for (Index h = 0; h < static_cast<Index>(slit.size()); ++h) {
+        if (whole.surface.twin[h] == no_twin) continue;
+        const auto sides = groups(h);
+        slit[h] = sides.first != sides.second && mirror.image[sides.first] == sides.second;
+        if (opened[h]) images.emplace(mirror.image[sides.first], mirror.image[sides.second]);
+    }
+    for (Index h = 0; h < static_cast<Index>(slit.size()); ++h)
+        if (whole.surface.twin[h] != no_twin && images.contains(groups(h))) slit[h] = 1;
+    return slit;
+}
+
+}  // namespace koebe

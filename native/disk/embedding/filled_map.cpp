@@ -1,0 +1,360 @@
+#include "embedding/filled_map.h"
+
+#include "circles/circle_projection.h"
+#include "circles/moebius.h"
+#include "circles/on_circle.h"
+#include "core/tolerances.h"
+#include "embedding/roomy_rim.h"
+#include "planar/planar_predicates.h"
+#include "quality/stored_uv.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace koebe {
+namespace {
+
+constexpr double area_rounding = 3e-7;  // twice the area a face can lose by rounding, over its longest edge, disk units
+constexpr double roomy = 1e-4;          // of the mean area: a larger face has room
+constexpr int most_cautions = 4;
+// Relative decreases of the energy. The vertex for 0 gets there only when faces have made room.
+constexpr double settled_without_center = 3e-4, settled_with_center = 1e-5;
+// Limits for the vertex that is to lie at 0.
+constexpr int most_moves = 80, most_stuck = 4;
+constexpr double longest_move = 0.3;                    // disk units: |a| of an automorphism
+constexpr double least_move = 1e-3, poor_move = 0.02;   // shares of the way to 0
+constexpr double with_room = 0.3, hardest_pull = 1e12;  // dimensionless: weight of the holes' fans, and the pull
+
+}  // namespace
+
+FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                     const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places,
+                     const ExecutionContext& context)
+    : vertices_(vertices),
+      surface_(surface),
+      loops_(loops),
+      filled_(fill_with_fans(surface, loops)),
+      around_(filled_.vertex_count),
+      loop_of_(filled_.vertex_count, -1),
+      pulled_(filled_.vertex_count, 0),
+      caution_(filled_.triangles.rows(), 1.0),
+      places_(places),
+      now_{{}, std::vector(filled_.vertex_count, Mobility::free), std::vector<Circle>(loops.size())},
+      faces_(surface.triangles.rows())
+{
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        for (const Index v : loops[k]) {
+            loop_of_[v] = static_cast<int>(k);
+            pulled_[v] = k > 0;
+            if (k == 0) now_.mobility[v] = v == places.point ? Mobility::held : Mobility::sliding;
+        }
+    for (const Flap& flap : flaps)
+        for (const Index v : flap.rim) pulled_[v] = 0;
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
+        for (const Index v : filled_.triangles.row(f)) around_[v].push_back(static_cast<Index>(f));
+    std::iota(faces_.begin(), faces_.end(), 0);
+    start(rim, context);
+    if (places_.center >= 0) bring_to_center(context);
+}
+
+/// The rim turned so that the vertex for 1 is at 1.
+VectorXcd FilledMap::placed_rim(VectorXcd rim) const
+{
+    if (places_.point < 0) return rim;
+    const auto place = std::ranges::find(loops_[0], places_.point) - loops_[0].begin();
+    rim *= std::conj(rim[place]) / std::abs(rim[place]);
+    rim[place] = 1.0;
+    return rim;
+}
+
+/// Moves each vertex by an automorphism of the disk that leaves the vertex at 1.
+/// @return false, without a change, if a face would turn over
+bool FilledMap::move_by(Moebius moebius)
+{
+    const std::vector<char> was_right = right_faces();
+    const PlanarPoints before = now_.points;
+    if (places_.point >= 0) {
+        const Complex image = moebius(at(places_.point));
+        moebius.turn = std::conj(image) / std::abs(image);
+    }
+    for (Index v = 0; v < filled_.vertex_count; ++v) {
+        Complex image = v == places_.point ? Complex(1.0, 0.0) : moebius(at(v));
+        if (loop_of_[v] == 0) image /= std::abs(image);
+        now_.points.row(v) << image.real(), image.imag();
+    }
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
+        if (was_right[f] && !right(f)) {
+            now_.points = before;
+            return false;
+        }
+    return true;
+}
+
+/// Moves the vertex for 0 alone, by a share of its way.
+/// @return false, without a change, if a face would turn over
+bool FilledMap::move_center_by(double share)
+{
+    const Index v = places_.center;
+    const std::vector<char> was_right = right_faces();
+    const Eigen::RowVector2d before = now_.points.row(v);
+    now_.points.row(v) -= share * before;
+    if (star_right(v, was_right)) return true;
+    now_.points.row(v) = before;
+    return false;
+}
+
+/// Brings the vertex for 0 there, and holds it. An automorphism turns a face over only if its pole lies in the face's
+/// circumscribed disk. So this takes small automorphisms, whose poles are far, and steps of the vertex alone. Between
+/// them the faces around it are relaxed, first towards equilateral ones, which have the smallest circumscribed disks.
+void FilledMap::bring_to_center(const ExecutionContext& context)
+{
+    let_rim_slide(true);
+    const State start = now_;
+    if (approach_center(false, context)) return;
+    return_to(start);
+    approach_center(true, context);
+}
+
+/// @param follows whether the vertex moves when faces are relaxed; it is then pulled the last part of the way
+/// @return whether the vertex is at 0
+bool FilledMap::approach_center(bool follows, const ExecutionContext& context)
+{
+    const Index v = places_.center;
+    now_.mobility[v] = follows ? Mobility::free : Mobility::held;
+    PatchShape shape = PatchShape::equilateral;
+    bool there = move_center_by(1.0);
+    for (int step = 0, stuck = 0; !there && step < most_moves && stuck < most_stuck; ++step) {
+        double turned = std::min(1.0, longest_move / std::abs(at(v))), alone = follows ? 0.0 : 0.5;
+        while (turned > least_move && !move_by({turned * at(v)})) turned *= 0.5;
+        while (alone > least_move && !move_center_by(alone)) alone *= 0.5;
+        const double most = std::max(turned, alone);
+        stuck = most > least_move ? 0 : stuck + 1;
+        if (most < poor_move) shape = shape == PatchShape::surface ? PatchShape::equilateral : PatchShape::surface;
+        relax({.regular = with_room, .shape = shape}, most < poor_move ? 12 : 4, context);
+        there = move_center_by(1.0);
+    }
+    for (double pull = 1.0; follows && !there && pull < hardest_pull; pull *= 10.0) {
+        relax({.regular = with_room, .place = pull, .shape = PatchShape::equilateral}, 12, context);
+        there = move_center_by(1.0);
+    }
+    now_.mobility[v] = there ? Mobility::held : Mobility::free;
+    return there;
+}
+
+void FilledMap::start(const VectorXcd& rim, const ExecutionContext& context)
+{
+    PlanarPoints best;
+    Eigen::Index fewest = filled_.triangles.rows() + 1;
+    for (const double share : {0.0, 0.3, 1.0}) {
+        if (places_.center >= 0 && share < 1.0) continue;  // the given rim may leave no room for the middle
+        const VectorXcd wider = share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share, places_.center) : rim;
+        now_.points = convex_embedding(filled_, loops_[0], placed_rim(wider), context);
+        const double least = roomy * std::numbers::pi / static_cast<double>(filled_.triangles.rows());
+        Eigen::Index poor = 0;
+        for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) poor += !right(f) || !(area(f) > least);
+        if (poor < fewest) {
+            fewest = poor;
+            best = now_.points;
+        }
+        if (poor == 0) break;
+    }
+    now_.points = std::move(best);
+}
+
+double FilledMap::area(Eigen::Index f) const
+{
+    const Complex a = at(filled_.triangles(f, 0));
+    return 0.5 * cross(at(filled_.triangles(f, 1)) - a, at(filled_.triangles(f, 2)) - a);
+}
+
+double FilledMap::longest_edge(Eigen::Index f) const
+{
+    const Complex a = at(filled_.triangles(f, 0)), b = at(filled_.triangles(f, 1)), c = at(filled_.triangles(f, 2));
+    return std::max({std::abs(b - a), std::abs(c - b), std::abs(a - c)});
+}
+
+bool FilledMap::right(Eigen::Index f) const
+{
+    if (!(area(f) > 0.0)) return false;
+    if (f >= surface_.triangles.rows()) return true;
+    const StoredFace face(filled_.triangles, now_.points, f);
+    return !face.flipped() || face.below_resolution();
+}
+
+std::vector<char> FilledMap::right_faces() const
+{
+    std::vector<char> result(filled_.triangles.rows());
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) result[f] = right(f);
+    return result;
+}
+
+bool FilledMap::star_right(Index vertex, const std::vector<char>& was_right) const
+{
+    return std::all_of(around_[vertex].begin(), around_[vertex].end(),
+                       [&](Index f) { return !was_right[f] || right(f); });
+}
+
+/// A sector of a regular polygon, with a given area.
+Eigen::Matrix2d FilledMap::fan_reference(Eigen::Index f, double area) const
+{
+    const auto corners = static_cast<double>(around_[filled_.triangles(f, 2)].size());
+    const double angle = 2.0 * std::numbers::pi / corners;
+    Eigen::Matrix2d edges;
+    edges << std::cos(angle) - 1.0, -1.0, std::sin(angle), 0.0;
+    return edges * std::sqrt(2.0 * area / edges.determinant());
+}
+
+/// Poses the problem. Wrong faces are left out, and their corners are held.
+FoldoverProblem FilledMap::problem(Pull pull) const
+{
+    FoldoverProblem problem;
+    problem.points = now_.points;
+    problem.mobility = now_.mobility;
+    const PatchShapes shapes = patch_shapes(vertices_, surface_.triangles, now_.points, faces_, pull.shape);
+    std::vector<Index> taken;
+    std::vector<double> floors, weights;
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) {
+        const double now = area(f), longest = longest_edge(f);
+        if (!(now > 1e-15 * longest * longest) || !(now > 1e-200)) {
+            for (int k = 0; k < 3; ++k) problem.mobility[filled_.triangles(f, k)] = Mobility::held;
+            continue;
+        }
+        const bool fan = f >= surface_.triangles.rows();
+        taken.push_back(static_cast<Index>(f));
+        problem.reference.push_back(fan ? fan_reference(f, now) : shapes.references[f]);
+        const double floor = fan ? 0.0 : std::min(0.5 * caution_[f] * area_rounding * longest, 0.5 * now);
+        floors.push_back(floor / (fan ? now : shapes.areas[f]));
+        weights.push_back(fan ? pull.regular : 1.0);
+    }
+    problem.triangles = filled_.triangles(taken, Eigen::all);
+    problem.floor = Eigen::Map<const VectorXd>(floors.data(), static_cast<Eigen::Index>(floors.size()));
+    problem.weight = Eigen::Map<const VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
+    problem.circles.resize(filled_.vertex_count);
+    for (Index v = 0; v < filled_.surface_vertices; ++v)
+        if (loop_of_[v] >= 0) problem.circles[v] = now_.circles[loop_of_[v]];
+    if (pull.rim > 0.0 || pull.centre > 0.0 || pull.place > 0.0) {
+        problem.pull = VectorXd::Zero(filled_.vertex_count);
+        for (Index v = 0; v < filled_.surface_vertices; ++v) problem.pull[v] = pulled_[v] ? pull.rim : 0.0;
+        problem.pull_inside.assign(filled_.vertex_count, 0);
+        for (std::size_t k = 1; k < loops_.size(); ++k) {
+            problem.circles[fan_centre(k)] = now_.circles[k];
+            problem.pull[fan_centre(k)] = pull.centre;
+            problem.pull_inside[fan_centre(k)] = 1;
+        }
+        if (places_.center >= 0) {
+            problem.circles[places_.center] = Circle{};
+            problem.pull[places_.center] = pull.place;
+            problem.pull_inside[places_.center] = 1;
+        }
+    }
+    return problem;
+}
+
+void FilledMap::relax(Pull pull, int iterations, const ExecutionContext& context)
+{
+    const std::vector<char> was_right = right_faces();
+    const PlanarPoints before = now_.points;
+    for (int attempt = 0; attempt < most_cautions; ++attempt) {
+        FoldoverProblem moving = problem(pull);
+        const FoldoverResult moved =
+            minimize_foldover_free(moving, context,
+                                   {.max_iterations = iterations,
+                                    .settled = places_.center < 0 ? settled_without_center : settled_with_center,
+                                    .strict = true});
+        work_ += static_cast<std::size_t>(moved.iterations) * static_cast<std::size_t>(moving.triangles.rows());
+        bool kept = moving.points.allFinite();
+        if (kept) {
+            now_.points = std::move(moving.points);
+            kept = run_once_round(image_of(0), 1);  // upright faces may overlap at a rim that turns back
+            for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
+                if (was_right[f] && !right(f)) {
+                    kept = false;
+                    caution_[f] *= 4.0;
+                }
+        }
+        if (kept) return;
+        now_.points = before;
+        iterations = std::max(1, iterations / 2);
+    }
+}
+
+Complex FilledMap::on_circle(Index vertex) const
+{
+    const Circle& circle = now_.circles[loop_of_[vertex]];
+    const Complex arm = at(vertex) - circle.center;
+    return circle.center + circle.radius / std::max(std::abs(arm), 1e-300) * arm;
+}
+
+int FilledMap::snap()
+{
+    const std::vector<char> was_right = right_faces();
+    const PlanarPoints before = now_.points;
+    std::vector<Index> moved;
+    for (Index v = 0; v < filled_.surface_vertices; ++v)
+        if (pulled_[v] && now_.mobility[v] == Mobility::free) moved.push_back(v);
+    const auto put = [&](Index v, Complex place) { now_.points.row(v) << place.real(), place.imag(); };
+    for (const Index v : moved) put(v, on_circle(v));
+    // Return the vertices at wrong faces until there is no wrong face; then move them one by one.
+    std::vector<Index> back;
+    for (bool again = true; again;) {
+        again = std::erase_if(moved, [&](Index v) {
+                    if (star_right(v, was_right)) return false;
+                    now_.points.row(v) = before.row(v);
+                    back.push_back(v);
+                    return true;
+                }) > 0;
+    }
+    for (const Index v : back) {
+        put(v, on_circle(v));
+        if (star_right(v, was_right))
+            moved.push_back(v);
+        else
+            now_.points.row(v) = before.row(v);
+    }
+    for (const Index v : moved) now_.mobility[v] = Mobility::sliding;
+    int off = 0;
+    for (Index v = 0; v < filled_.surface_vertices; ++v) off += pulled_[v] && now_.mobility[v] == Mobility::free;
+    return off;
+}
+
+void FilledMap::release(std::size_t loop)
+{
+    for (const Index v : loops_[loop]) now_.mobility[v] = Mobility::free;
+}
+
+void FilledMap::let_rim_slide(bool slides)
+{
+    for (const Index v : loops_[0])
+        now_.mobility[v] = slides && v != places_.point ? Mobility::sliding : Mobility::held;
+}
+
+VectorXcd FilledMap::image_of(std::size_t loop) const
+{
+    VectorXcd image(static_cast<Eigen::Index>(loops_[loop].size()));
+    for (std::size_t i = 0; i < loops_[loop].size(); ++i) image[static_cast<Eigen::Index>(i)] = at(loops_[loop][i]);
+    return image;
+}
+
+Roundness FilledMap::roundness_of(std::size_t loop) const
+{
+    VectorXcd image = image_of(loop);
+    Eigen::Index count = 0;
+    for (std::size_t i = 0; i < loops_[loop].size(); ++i)
+        if (loop == 0 || pulled_[loops_[loop][i]]) image[count++] = image[static_cast<Eigen::Index>(i)];
+    return roundness(image.head(count), now_.circles[loop]);
+}
+
+std::vector<Index> FilledMap::off_circle(std::size_t loop, bool pulled) const
+{
+    std::vector<Index> off;
+    for (const Index v : loops_[loop])
+        if ((!pulled || pulled_[v]) && !is_on_circle(now_.circles[loop], at(v), inner_circle_tolerance))
+            off.push_back(v);
+    return off;
+}
+
+}  // namespace koebe

@@ -1,0 +1,60 @@
+"""Mirror images, disks in a square and circles through points: helpers to lay maps out."""
+
+from typing import Any
+
+import numpy as np
+
+from .._arrays import as_points
+from .._native import _koebe
+from ..errors import InputError
+from .input import polygons_of, surface_of
+
+
+def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -> np.ndarray | None:
+    """The vertex (V,) that is the mirror image of each, int32, or None if the surface is not symmetric.
+
+    Tries planes through the middle of the surface: perpendicular to x, y and z, then perpendicular to the principal
+    axes. Every polygon must have a mirror image, another polygon or itself, corner by corner, within 1e-4 of the
+    bounding box's diagonal. A plane that holds most of the surface does not count. The image of an unused vertex is -1.
+
+    polygon      (F,) integers: triangles of one number are one polygon, and their diagonals do not count
+
+    >>> import koebe
+    >>> image = koebe.mirror_image("docs/link.obj")
+    >>> bool((image[image] == range(len(image))).all())  # the image of the image is the vertex itself
+    True
+    """
+    source = surface_of(vertices, triangles)
+    found = _koebe.mirror_image(source.vertices, source.triangles, polygons_of(polygon, source))
+    return found if len(found) else None
+
+
+def pack_disks(radii: Any, margin: float = 0.02) -> tuple[np.ndarray, np.ndarray]:
+    """Centres (n, 2) and radii (n,) of disks in these proportions, as large as found to fit the unit square.
+
+    margin       between two disks, half of it at the border; less for many disks, so that they have room
+    One disk fills the square. Raises InputError for radii that are not positive.
+
+    >>> import koebe
+    >>> centers, radii = koebe.pack_disks([3, 2, 1])
+    >>> (radii / radii[2]).round(9)
+    array([3., 2., 1.])
+    """
+    sizes = np.asarray(radii, dtype=np.float64)
+    if sizes.ndim != 1 or not 0.0 <= margin < 0.5:
+        raise InputError("disks to pack need a list of radii, and a margin in [0, 0.5)")
+    return _koebe.pack_disks(sizes, float(margin))
+
+
+def fit_circle(points: Any) -> tuple[np.ndarray, float, float]:
+    """Centre (2,) and radius of the circle of least squared distance to points (n, 2), and the largest distance.
+
+    Points on a line, or on less than an eighth of a turn, get the circle round their mean.
+
+    >>> import koebe
+    >>> center, radius, off = koebe.fit_circle([[1, 0], [0, 1], [-1, 0]])
+    >>> round(radius, 9)
+    1.0
+    """
+    center, radius, off = _koebe.fit_circle(as_points(points, "points", 2))
+    return np.array([center.real, center.imag]), radius, off

@@ -1,0 +1,140 @@
+"""Cuts surfaces in their UVs into even disks and tubes."""
+
+import copy
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._native import _koebe
+from .._options import callback, filled, takes, token, vertex_weights
+from .._report_entries import Warning
+from .._signatures import PartsOptions
+from ..errors import InputError
+from ..io.corner_mesh import mesh_with_corner_uv
+from .input import polygons_of, surface_of
+from .result import MapReport, Source, figures_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+
+
+class PartsResult(MapReport):
+    """The result of `parts`.
+
+    uv               (F, 3, 2) float64 in [0, 1]^2, or on tiles: of each corner of each triangle, read-only
+    part             (F,) int32: the part of each triangle; -1 for triangles in no part, degenerate or duplicates
+    parts            for each part a dict: kind ('disk' or 'tube'), faces, angle_error_deg (mean), loops (lists of
+                     vertices), off_round (for each loop its largest distance from the disk's circle, or from the end
+                     of a tube's rectangle, over the circle's radius, or over the length of a turn)
+    stacked          for each part that lies on another part a dict: part, onto (their numbers), mirrored (it lies
+                     there with its back to the front: its triangles are turned over in the UVs, as intended)
+    tiles            number of tiles with parts
+    cut_length, slit_length    of all cuts, and of the tubes' slits among them, over the square root of the area
+    handles_cut      number of handles cut
+    density_ratio_5_95    texel density (a length over a length) at 95 % of the area over the density at 5 %
+    density          texel density: pixels per unit of the mesh (median over the area) on a texture of `pixels`
+    even_area        share of the area whose texel density lies within the best factor 3
+    coverage         share of the unit square, or of the tiles, that the faces cover, as stored
+    seconds          in all
+    maps             faces mapped in all maps, in faces of the mesh
+    converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
+    below_resolution, flipped_faces, peak_memory_mb, warnings, version    as in MapReport. Faces in no
+                     part count in lost_area only, and only if they have no area at all
+    """
+
+    uv: np.ndarray
+    part: np.ndarray
+    parts: list[dict[str, Any]]
+    stacked: list[dict[str, Any]]
+    tiles: int
+    cut_length: float
+    slit_length: float
+    handles_cut: int
+    density_ratio_5_95: float
+    density: float
+    even_area: float
+    coverage: float
+    seconds: float
+    maps: float
+
+    def __init__(
+        self, report: dict[str, Any], uv: np.ndarray, part: np.ndarray, flipped_faces: np.ndarray, source: Source
+    ) -> None:
+        self._report = report = source.told(report)
+        self._source = source
+        vars(self).update(figures_of(report))
+        self.uv = uv.reshape(-1, 3, 2)
+        self.uv.flags.writeable = False
+        self.part = part
+        self.flipped_faces = flipped_faces
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    def _drawn(self) -> np.ndarray:
+        return self.part >= 0
+
+    def _counts(self) -> list[str]:
+        return [f"{len(self.parts)} parts", f"texel density within {self.density_ratio_5_95:.3g}"]
+
+    def to_mesh(self) -> Any:
+        """The mesh of the input, of the same kind, with fields as in CutResult.to_mesh."""
+        return mesh_with_corner_uv(self._source, self.uv, self._drawn())
+
+    def _arrays(self) -> dict[str, Any]:
+        return {"uv": self.uv, "part": self.part, "flipped_faces": self.flipped_faces}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict."""
+        return copy.deepcopy(self._report)
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.PartsResult {len(self.parts)} parts, cuts {self.cut_length:.3g}, "
+            f"texel density within {self.density_ratio_5_95:.3g}, "
+            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
+        )
+
+
+@takes("parts", polygon=None, slits=None, progress=None, cancel=None)
+def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
+    """Cut a surface in its UVs only into disks and tubes of even texel density, packed into a square or onto tiles.
+
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both, whose polygons stay whole
+    {options}
+    polygon      (F,) integers: triangles of one number are one polygon and stay together. None: the polygons of the
+                 mesh, or with arrays each triangle by itself
+    slits        (E, 2) vertices of edges along which a tube is opened if they lead from one of its loops to the other.
+                 None: along a short, straight path
+    mask, progress, cancel    as for `uniformize`
+    Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
+
+    >>> import koebe
+    >>> result = koebe.parts("docs/link.obj", darts=0)
+    >>> [part["kind"] for part in result.parts]
+    ['tube']
+    >>> print(result.uv.shape, result.flipped)
+    (1024, 3, 2) 0
+    """
+    options, said = filled("parts", _koebe.PartsOptions(), given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
+    source = surface_of(vertices, triangles, degenerate=options.cut, mask=given["mask"], weld=said["weld"])
+    options.polygon = polygons_of(given["polygon"], source)
+    options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
+    options.show = vertex_weights("show", given["show"], len(source.vertices))
+    if given["slits"] is not None:
+        slits = _edges(given["slits"], len(source.vertices))
+        options.slits = (slits if source.first is None else source.first[slits]).tolist()
+    native = source.call(_koebe.parts, options, progress, cancel)
+    report = {**native.report(), "options": said}
+    return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32), source)
+
+
+def _edges(slits: Any, count: int) -> np.ndarray:
+    """Vertices of edges as int32."""
+    given = np.asarray(slits)
+    if given.size == 0:
+        return np.zeros((0, 2), np.int32)
+    if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
+        raise InputError(f"slits must be (E, 2) integers, not {given.shape} {given.dtype}")
+    if given.min() < 0 or given.max() >= count:
+        raise InputError(f"slits name a vertex that is not among the {count}")
+    return given.astype(np.int32)

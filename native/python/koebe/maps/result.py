@@ -1,0 +1,491 @@
+"""The result of a uniformization."""
+
+import copy
+import hashlib
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+from importlib import import_module
+from typing import Any, TypedDict
+
+import numpy as np
+
+from .._arrays import as_loops
+from .._fields import face_angle_error_deg, log_scale
+from .._native import _koebe
+from .._report_entries import Loop, Warning
+from ..errors import InputError, KoebeError
+from ..io.files import Saved
+from ..io.meshes import ANGLE_ERROR, LOG_SCALE, Fields, Polygons, mesh_with_fields
+from ..io.picture import outline_svg
+
+# UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs.
+UV_RESOLUTION: float = _koebe.uv_resolution
+# Disk units: how far from its circle a loop vertex may lie to count as on it.
+CIRCLE_TOLERANCE: float = _koebe.circle_tolerance
+
+
+class _AngleErrorBeforePolish(TypedDict, total=False):
+    before_polish: float
+
+
+class AngleError(_AngleErrorBeforePolish):
+    """Degrees, |angle in UV - angle on the surface| over all corners; before_polish is the mean without `polish`."""
+
+    mean: float
+    sd: float
+    max: float
+
+
+class Beltrami(TypedDict):
+    """|mu| of the face-wise linear maps, dimensionless."""
+
+    mean: float
+    max: float
+
+
+class LogAreaRatio(TypedDict):
+    """log of (UV area / surface area), area-weighted on the surface, minus its mean: 0 is even texel density."""
+
+    log_sd: float
+    log_min: float
+    log_max: float
+
+
+class _AreaBeforeBalance(TypedDict, total=False):
+    before_balance: LogAreaRatio
+
+
+class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
+    """before_balance is measured before `balance`, on this map's outer loop: the value of a call without balance,
+    unless that call has faces to turn back."""
+
+
+class Step(TypedDict):
+    """A step of the Koebe iteration: the loops it opened, the change of all circles, the mean e(gamma_k) after it.
+
+    mean_roundness_holes is the mean without the outer loop.
+    """
+
+    step: int
+    pair: list[int]
+    change: float
+    mean_roundness: float
+    mean_roundness_holes: float
+
+
+class MeanOverLoops(TypedDict):
+    """Means over all loops, and over the holes: all loops but the outer one; 0 without loops."""
+
+    all: float
+    holes: float
+
+
+class MeanRoundness(MeanOverLoops):
+    """Means of the paper's e(gamma_k), and of `roundness_least_squares`."""
+
+    least_squares: MeanOverLoops
+
+
+class Seconds(TypedDict):
+    """Time of each stage."""
+
+    read: float
+    topology: float
+    metric: float
+    factor: float
+    iterate: float
+    finish: float
+    write: float
+    total: float
+
+
+@dataclass(frozen=True)
+class Source:
+    """The mapped surface: its arrays, the polygons they were cut from, and the mesh of another package that they come
+    from, if any."""
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    mesh: Any = None
+    polygons: Polygons | None = None
+    polygon: np.ndarray | None = None  # (F,) of each triangle
+    kept: np.ndarray | None = None  # (F,) the numbers of these triangles in the input, if others are left out
+    mask: np.ndarray | None = None  # (V,) bool, as given
+    first: np.ndarray | None = None  # (V,) the vertex that each one is joined to, with `weld`
+    filed: np.ndarray | None = None  # (F, 3) the triangles with the vertices that they had before
+
+    @property
+    def given_triangles(self) -> np.ndarray:
+        """(F, 3) int32: the triangles with all vertices of the input, also those that `weld` joined."""
+        return self.triangles if self.filed is None else self.filed
+
+    @property
+    def source_face(self) -> np.ndarray:
+        """(F,) int32: the number of each triangle in the input."""
+        return np.arange(len(self.triangles), dtype=np.int32) if self.kept is None else self.kept
+
+    def told(self, report: dict[str, Any]) -> dict[str, Any]:
+        """The report, without vertices that have a face in the input, and with a warning of vertices in one place."""
+        warnings = report["warnings"]
+        if self.kept is not None or self.first is not None:
+            warnings = [one for one in warnings if one["kind"] != "unused_vertices"]
+        if self.kept is None and self.first is not None and not self.used.all():
+            unused = np.flatnonzero(~self.used).tolist()
+            text = f"{len(unused)} vertices in no face; the first vertex is {unused[0]}"
+            warnings = [*warnings, {"kind": "unused_vertices", "elements": unused, "text": text}]
+        if not any(one["kind"] == "coincident" for one in warnings):  # else it was loaded
+            warnings = [*warnings, *self._coincident()]
+        return {**report, "warnings": warnings}
+
+    def _coincident(self) -> list[dict[str, Any]]:
+        if self.first is None:
+            found: list[dict[str, Any]] = _koebe.coincident_vertices(self.vertices, self.triangles)
+            return found
+        joined = np.flatnonzero(self.first != np.arange(len(self.first))).tolist()
+        text = f"{len(joined)} vertices joined to earlier ones in the map"
+        return [{"kind": "coincident", "elements": joined, "text": text}] if joined else []
+
+    def mapped(self, vertex: int) -> int:
+        """The vertex that stands for a vertex in the map; also -1 for none."""
+        return int(self.first[vertex]) if self.first is not None and 0 <= vertex < len(self.first) else vertex
+
+    def name_mapped_vertices(self, options: Any) -> None:
+        """Change the vertices that native options name to those that they are joined to."""
+        for name in ("outer_vertex", "center", "point", "outer", "inner", "around"):
+            vertex = getattr(options, name, None)
+            if isinstance(vertex, int):
+                setattr(options, name, self.mapped(vertex))
+
+    def call(self, function: Callable[..., Any], *others: Any) -> Any:
+        """The native function of vertices, triangles and the others. Faces of errors have the input's numbers."""
+        try:
+            return function(self.vertices, self.triangles, *others)
+        except KoebeError as error:
+            if self.kept is not None and error.of == "faces":
+                error.elements = self.kept[list(error.elements)].tolist()
+            raise
+
+    @property
+    def used(self) -> np.ndarray:
+        """(V,) bool: vertices with a triangle."""
+        found = np.zeros(len(self.vertices), bool)
+        found[self.given_triangles] = True
+        return found
+
+    def outside_nan(self, values: np.ndarray) -> np.ndarray:
+        """The values (V, k) of the vertices, with NaN at those that are left without a triangle. Joined vertices have
+        one value."""
+        if self.first is not None:
+            values = np.asarray(values)[self.first]
+        if self.kept is not None:
+            values = np.array(values)
+            values[~self.used] = np.nan
+        return values
+
+
+def with_origin(report: dict[str, Any], source: Source, options: dict[str, Any]) -> dict[str, Any]:
+    """The report with its origin: the arrays' hash and the options, after the version."""
+    digest = hashlib.sha256()
+    for array, kind in ((source.vertices, "<f8"), (source.triangles, "<i4")):
+        digest.update(np.ascontiguousarray(array, dtype=kind).tobytes())
+    origin = {"input_sha256": digest.hexdigest(), "options": options}
+    return {"version": report["version"], "input": report["input"], **origin, **report}
+
+
+def figures_of(report: Mapping[str, Any]) -> dict[str, Any]:
+    """The entries of a report that are attributes of its result."""
+    return {name: value for name, value in report.items() if name not in ("input", "vertices", "faces", "cut")}
+
+
+class MapReport(Saved):
+    """The report of every map, for any domain.
+
+    converged        False: the map is not finished, and a warning tells why
+    angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say, in 64 bits
+    angle_error_stored_deg    the angle error of the UVs as stored, in 32-bit floats. Faces without area count too: a
+                     corner at a side without length counts as a right angle
+    lost_area        share of the surface's area in faces without a positive area as stored
+    flipped, below_resolution    counts of faces, as in the command's JSON
+    concave_polygons    count of polygons that are convex on the surface, but not in the UVs
+    flipped_faces    int32 array of the faces that `flipped` counts, ascending
+    even, overlaps   for maps with the option `even`: the E that was reached, and how often loops cross
+    seconds          of each stage
+    peak_memory_mb   of the process
+    warnings         list of Warning: kind, elements, text. A warning of too much lost area comes first
+    uv               as each result says. corner_uv is the same thing of all results
+    """
+
+    version: str
+    options: dict[str, Any]
+    uv: np.ndarray
+    converged: bool
+    angle_error_deg: AngleError
+    angle_error_stored_deg: AngleError
+    lost_area: float
+    beltrami: Beltrami
+    area_distortion: AreaDistortion
+    conformal_energy: float
+    flipped: int
+    below_resolution: int
+    flipped_faces: np.ndarray
+    even: float = 0.0
+    overlaps: int = 0
+    concave_polygons: int = 0
+    seconds: Any
+    peak_memory_mb: float
+    warnings: list[Warning]
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(V, 3) float64: the positions of the surface's vertices."""
+        return self._source.vertices
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(F, 3) int32: the mapped triangles, without those that a mask left out."""
+        return self._source.triangles
+
+    @property
+    def vertex_count(self) -> int:
+        """V, the number of vertices."""
+        return len(self._source.vertices)
+
+    @property
+    def face_count(self) -> int:
+        """F, the number of mapped triangles."""
+        return len(self._source.triangles)
+
+    @property
+    def corner_uv(self) -> np.ndarray:
+        """(F, 3, 2) float64, texture coordinates of each triangle's corners: of every kind of result, as its files have
+        them. For UniformizeResult and FitResult they lie in [0, 1]^2 and are (1 + uv) / 2, for others they are `uv`."""
+        return self.uv if self.uv.ndim == 3 else 0.5 * (1.0 + self.uv[self._source.triangles])
+
+    @property
+    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+        """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface, without what a mask left out."""
+        return self._source.vertices, self._source.triangles
+
+    @property
+    def source_face(self) -> np.ndarray:
+        """(F,) int32: the number in the input of each mapped triangle; 0, 1, 2, ... without a mask."""
+        return self._source.source_face
+
+    def _drawn(self) -> np.ndarray:
+        """(F,) triangles that have a place of their own in the map."""
+        return np.ones(self.face_count, bool)
+
+    def _layout(self) -> tuple[np.ndarray, float]:
+        """(F, 3, 2) places of the corners in a picture of the map, and the length of a side of its square."""
+        return self.corner_uv, 1.0
+
+    def _counts(self) -> list[str]:
+        """The parts of the result, in words."""
+        return []
+
+    def _picture(self) -> str:
+        """The map as SVG."""
+        return outline_svg(self.triangles, *self._layout(), self._drawn())
+
+    def _repr_html_(self) -> str:
+        """The map and its figures, as a notebook shows them."""
+        sweeps = getattr(self, "sweeps", None)
+        lines = [
+            ", ".join([f"{self.vertex_count:,} vertices", f"{self.face_count:,} faces", *self._counts()]),
+            ("converged" if self.converged else "not converged") + (f" in {sweeps} sweeps" if sweeps else ""),
+            f"angle error {self.angle_error_deg['mean']:.3g}°, {self.flipped} flipped",
+            *(escape(str(warning)) for warning in self.warnings),
+        ]
+        return f'<div style="display:flex;gap:1em">{self._picture()}<div>{"<br/>".join(lines)}</div></div>'
+
+    def export(self, path: str | os.PathLike[str]) -> None:
+        """Write the map in the format that the file's name says. The file is complete or absent.
+
+        .surf.gii, lh.NAME, rh.NAME    the map itself as a surface with the same vertices, as Workbench and FreeSurfer
+                          read it: flat, of the surface's area, or the sphere of radius 100 (not for maps with cuts)
+        lh.NAME.patch.flat, .flat      the flat map as FreeSurfer's patch
+        .shape.gii, .func.gii          koebe_log_scale, koebe_u and koebe_v at the vertices
+        .gii, .vtk, .vtu, .vtp, .msh   the surface with the fields of to_mesh()
+        .obj              the surface with UVs
+        Needs nibabel, meshio, or PyVista for .vtp. Raises InputError for another name, OSError.
+        """
+        import_module("..io.export", __package__).export(self, path)
+
+
+@dataclass(frozen=True)
+class ConformalDomain:
+    """The circle domain of the surface itself. Shapes are compared by it, whatever map the result shows.
+
+    centers, radii   (L, 2) and (L,) circles in the unit disk, in the order of the result's loops
+    own              (L,) whether each circle is the iteration's, and not lost in rounding. Others are not compared
+    converged        whether the iteration has converged. Otherwise nothing is compared
+    uv               (V, 2) the conformal map; read-only
+    off_circle       int32 arrays: vertices of each loop that are not on its circle
+    """
+
+    centers: np.ndarray
+    radii: np.ndarray
+    own: np.ndarray
+    converged: bool
+    uv: np.ndarray
+    off_circle: list[np.ndarray]
+
+
+class UniformizeResult(MapReport):
+    """A circle domain and its report.
+
+    version          of the koebe that made it
+    input_sha256     of the vertices' bytes as float64 and the triangles' as int32, little-endian, row after row
+    options          of the call: method, engine, outer, tolerance, ...
+    uv               (V, 2) float64, points of the closed unit disk in the input's vertex order; read-only
+    loops            list of Loop: int32 arrays of vertices, the surface on the left, the outer loop first
+    centers, radii   (L, 2) and (L,) circles in the unit disk
+    roundness        (L,) the paper's e(gamma_k) before the final projection (section 5)
+    roundness_least_squares     (L,) deviation from the circle of least squares, in radii, before the final projection
+    mean_roundness   their means
+    off_circle       int32 arrays: vertices of each loop that are not on its circle
+    rims             'smooth': the circles are those of loops that are samples of smooth curves (conformal_module)
+    own_circle       (L,) whether each circle is the surface's own: the iteration's, not lost in rounding, and not moved
+                     by `even` or to a template
+    conformal        the ConformalDomain, by which shapes are compared: that of the same call without `even`
+    vertices, triangles, vertex_count, face_count    as in MapReport
+    method, engine   as chosen
+    outer_loop       number of the outer loop in boundary_loops(triangles)
+    center, point    vertices at 0 and at 1, as in the options, or None
+    converged, sweeps, steps     of the iteration
+    history          one Step per step
+    step_maps        per step, if asked for: (V, 2) the step's image, with the first loop that it opened on the unit
+                     circle; NaN for vertices that the image lacks
+    angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings    as in MapReport
+    """
+
+    input_sha256: str = ""
+    uv: np.ndarray
+    loops: list[Loop]
+    centers: np.ndarray
+    radii: np.ndarray
+    roundness: np.ndarray
+    roundness_least_squares: np.ndarray
+    mean_roundness: MeanRoundness
+    off_circle: list[np.ndarray]
+    own_circle: np.ndarray
+    rims: str = "smooth"
+    method: str
+    engine: str
+    outer_loop: int
+    center: int | None = None
+    point: int | None = None
+    sweeps: int
+    steps: int
+    history: list[Step]
+    step_maps: list[np.ndarray]
+    seconds: Seconds
+
+    def __init__(
+        self,
+        report: dict[str, Any],
+        uv: np.ndarray,
+        flipped_faces: np.ndarray,
+        step_maps: list[np.ndarray],
+        source: Source,
+        conformal_uv: np.ndarray | None = None,
+    ) -> None:
+        self._report = report = source.told(report)
+        self._source = source
+        loops = report["loops"]
+        vars(self).update(figures_of(report))
+        self.options = report.get("options", {})
+        self.uv = source.outside_nan(uv)
+        self.uv.flags.writeable = False
+        self.loops = [Loop(loop) for loop in loops]
+        self.centers = np.array([loop["center"] for loop in loops])
+        self.radii = np.array([loop["radius"] for loop in loops])
+        self.roundness = np.array([loop["roundness"] for loop in loops])
+        self.roundness_least_squares = np.array([loop["roundness_least_squares"] for loop in loops])
+        self.off_circle = as_loops([loop["off_circle"] for loop in loops])
+        self.own_circle = np.array([loop["own_circle"] for loop in loops])
+        self._conformal_uv = None if conformal_uv is None else source.outside_nan(conformal_uv)
+        self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
+        self.step_maps = step_maps
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+
+    @cached_property
+    def conformal(self) -> ConformalDomain:
+        """The circle domain of the surface itself, by which shapes are compared."""
+        loops = [loop.get("conformal", loop) for loop in self._report["loops"]]
+        kept = self.even == 0.0 or "conformal" in self._report["loops"][0]  # early files have only the moved circles
+        uv = self.uv.view() if self._conformal_uv is None else self._conformal_uv
+        uv.flags.writeable = False
+        return ConformalDomain(
+            np.array([loop["center"] for loop in loops]),
+            np.array([loop["radius"] for loop in loops]),
+            np.array([loop["own_circle"] and kept for loop in loops]),
+            not any(warning.kind == "not_converged" for warning in self.warnings),
+            uv,
+            as_loops([loop["off_circle"] for loop in loops]),
+        )
+
+    @cached_property
+    def log_scale(self) -> np.ndarray:
+        """(V,) log of the map's scale at each vertex, disk lengths per surface length; NaN where there is no scale."""
+        return self._source.outside_nan(log_scale(self._source.vertices, self._source.triangles, self.uv))
+
+    @cached_property
+    def face_angle_error_deg(self) -> np.ndarray:
+        """(F,) mean angle error of each triangle's corners, degrees; NaN for triangles without area."""
+        return face_angle_error_deg(self._source.vertices, self._source.triangles, self.uv)
+
+    def to_mesh(self) -> Any:
+        """The mesh of the input, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and
+        koebe_angle_error (degrees) at the faces. Raises InputError if the input was arrays."""
+        source = self._source
+        if source.mesh is None or source.polygons is None or source.polygon is None:
+            raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
+        faces, known = len(source.polygons.cell), np.isfinite(self.face_angle_error_deg)
+        number, error = source.polygon[known], self.face_angle_error_deg[known]
+        with np.errstate(invalid="ignore"):
+            angle = np.bincount(number, error, minlength=faces) / np.bincount(number, minlength=faces)
+        uv = 0.5 * (1.0 + self.uv)
+        return mesh_with_fields(
+            source.mesh, source.polygons, Fields(uv, {LOG_SCALE: self.log_scale}, {ANGLE_ERROR: angle})
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict, with input_sha256 and options."""
+        return copy.deepcopy(self._report)
+
+    def _arrays(self) -> dict[str, Any]:
+        return {
+            "uv": self.uv, "flipped_faces": self.flipped_faces, **self._conformal_array(),
+            "step_maps": np.stack(self.step_maps) if self.step_maps else np.zeros((0, len(self.uv), 2)),
+        }  # fmt: skip
+
+    def _conformal_array(self) -> dict[str, Any]:
+        return {} if self._conformal_uv is None else {"conformal_uv": self._conformal_uv}
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.UniformizeResult {self.vertex_count} vertices, {len(self.loops)} loops, "
+            f"{self.sweeps} sweeps, angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
+        )
+
+    def _layout(self) -> tuple[np.ndarray, float]:
+        return self.uv[self.triangles], 2.0
+
+    def _counts(self) -> list[str]:
+        return [f"{len(self.loops)} loops"]
+
+    def _picture(self) -> str:
+        """The circle domain."""
+        circles = "".join(
+            f'<circle cx="{x:.6g}" cy="{-y:.6g}" r="{radius:.6g}" fill="{"#e8eef7" if k == 0 else "#fff"}"/>'
+            for k, ((x, y), radius) in enumerate(zip(self.centers, self.radii, strict=True))
+        )
+        return (
+            '<svg width="160" height="160" viewBox="-1.02 -1.02 2.04 2.04" '
+            f'stroke="#1d4e89" stroke-width="0.012">{circles}</svg>'
+        )

@@ -1,0 +1,56 @@
+// Faces joined over some of their edges; all other edges are seams.
+#pragma once
+
+#include "core/connectivity.h"
+#include "core/types.h"
+
+#include <utility>
+#include <vector>
+
+namespace koebe {
+
+/// Oriented triangles whose half-edges are joined in opposite pairs or not at all. Its vertices are fans: corners
+/// joined round one vertex of the input. So it is manifold for every input.
+struct SeamedMesh {
+    Triangles corners;           ///< (F, 3) vertices of the input
+    std::vector<Index> face;     ///< (F) of the input, ascending
+    std::vector<char> turned;    ///< (F) 1 where the second and third corner are exchanged against the input
+    std::vector<Index> twin;     ///< (3F) or no_twin at a seam and on the boundary
+    std::vector<char> whole;     ///< (3F) 1 inside a polygon: must not be cut
+    std::vector<double> length;  ///< (3F) of each edge, in units of the input's extent
+    Triangles fans;              ///< (F, 3) from 0 to fan_count
+    Index fan_count = 0;
+
+    Index halfedge_count() const { return static_cast<Index>(twin.size()); }
+    void cut(Index halfedge);
+};
+
+/// Numbers the fans again after the twins have changed.
+void number_fans(SeamedMesh& mesh);
+
+/// Joins seams that separate nothing: both sides have the same fans at their ends. The fans do not change.
+void join_idle_seams(SeamedMesh& mesh);
+
+/// The connected parts by lowest face, each with its own fan numbers.
+std::vector<SeamedMesh> connected_parts(const SeamedMesh& mesh);
+
+/// Half-edges of each boundary loop in order.
+std::vector<std::vector<Index>> boundary_halfedges(const SeamedMesh& mesh);
+
+/// The genus of a connected mesh with so many boundary loops.
+int genus_of(const SeamedMesh& mesh, std::size_t loops);
+
+struct Seams {
+    SeamedMesh mesh;
+    std::vector<std::pair<Index, Index>> crowded;   ///< edges of three or more faces
+    std::vector<std::pair<Index, Index>> disagree;  ///< edges across which the two sides cannot agree
+    std::vector<Index> bow_ties;                    ///< vertices with fans that share no edge
+};
+
+/// Joins faces over all edges with two faces, as far as these can be oriented alike.
+/// @param faces of the input to take, ascending, each with three different vertices, no two with the same three
+/// @param polygon (F) or empty, as in OpenOptions
+Seams seam_faces(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& faces,
+                 const std::vector<Index>& polygon);
+
+}  // namespace koebe
