@@ -44,16 +44,16 @@ struct PieceCorner {
     Index halfedge = -1;
 };
 
-double length_of(const FlatPart& part, Index h)
+double edge_length(const FlatPart& part, Index h)
 {
     const Triangles& triangles = part.surface.triangles;
     return (part.vertices.row(origin(triangles, h)) - part.vertices.row(target(triangles, h))).norm();
 }
 
-double length_of(const FlatPart& part, const Path& path)
+double path_length(const FlatPart& part, const Path& path)
 {
     double sum = 0.0;
-    for (const Index h : path) sum += length_of(part, h);
+    for (const Index h : path) sum += edge_length(part, h);
     return sum;
 }
 
@@ -200,7 +200,7 @@ public:
 
     bool is_roundabout(const Path& chain, const Path& path) const
     {
-        return length_of(fine_, path) > longest_detour * length_of(coarse_, chain);
+        return path_length(fine_, path) > longest_detour * path_length(coarse_, chain);
     }
 
     void take(std::size_t chain, const Path& path)
@@ -330,10 +330,10 @@ private:
     /// Puts the vertices of a path beside one coarse edge, on both sides of it if it has two.
     void place_path(const Path& path, Index coarse, double straight)
     {
-        const double whole = length_of(fine_, path);
+        const double whole = path_length(fine_, path);
         double before = 0.0, after = 0.0;  // lengths up to the ends of an edge
         for (const Index h : path) {
-            after = h == path.back() ? whole : before + length_of(fine_, h);
+            after = h == path.back() ? whole : before + edge_length(fine_, h);
             put(h, coarse, before / whole, straight);
             put(next_halfedge(h), coarse, after / whole, straight);
             if (const Index twin = fine_.surface.twin[h]; twin != no_twin) {
@@ -499,8 +499,8 @@ private:
     {
         double fine = 0.0, coarse = 0.0;
         for (const auto& [chain, path] : paths_) {
-            fine += length_of(fine_, path);
-            coarse += length_of(coarse_, chains_[chain]);
+            fine += path_length(fine_, path);
+            coarse += path_length(coarse_, chains_[chain]);
         }
         const double share = coarse > 0.0 ? fine / coarse : 1.0;
         first.slit = fine_.slit;

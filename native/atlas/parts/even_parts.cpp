@@ -33,7 +33,8 @@ constexpr std::array less_even_with_darts{0.06, 0.03};   // and if angles are th
 constexpr Index faces_to_decide = 4000;                  // on which the cuts of all parts are decided,
 constexpr std::size_t many_faces = 6000;                 // if they have more faces,
 constexpr std::size_t fewest_in_part = 20;               // and so many coarse ones in the mean
-constexpr EvenEffort carried_effort{12, 3, 24};          // for parts whose cuts were decided so
+constexpr EvenEffort carried_effort{12, 3, 24};          // for parts whose cuts were decided so, or
+constexpr EvenEffort own_effort{12, 6, 60};              // for those of them that start from their own map
 constexpr double dearer_on_coarse = 2.0;                 // cuts: coarse parts bend less, and so overrate them
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
@@ -172,7 +173,7 @@ public:
     /// of angle errors: if it is exceeded, E becomes less @return E
     double finish(const std::vector<char>& placed, double even, double most)
     {
-        relax_cut(even, [&](std::size_t k) { return placed[k] ? carried_effort : search; });
+        relax_cut(even, [&](std::size_t k) { return placed[k] ? carried_effort : own_effort; });
         for (const double less : less_even_with_darts)
             if (angles() > most && less < even) relax_cut(even = less, carried_effort);
         return even;

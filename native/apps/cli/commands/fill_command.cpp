@@ -1,6 +1,5 @@
 // koebe fill IN OUT
 #include "cli/commands/subcommand.h"
-#include "cli/files/file_options.h"
 #include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
 #include "cli/options/loop_options.h"

@@ -3,7 +3,7 @@
 
 #include "certified/polygonal_circles.h"
 #include "cli/commands/subcommand.h"
-#include "cli/files/file_options.h"
+#include "cli/options/map_request.h"
 #include "execution/execution.h"
 #include "pipeline/result.h"
 #include "transfer/landmark_map.h"

@@ -1,7 +1,6 @@
 // koebe transfer A B OUT
 #include "cli/commands/map_kind.h"
 #include "cli/commands/subcommand.h"
-#include "cli/files/file_options.h"
 #include "cli/files/landmark_file.h"
 #include "cli/files/mesh_input.h"
 #include "cli/files/output_files.h"
