@@ -139,11 +139,11 @@ private:
     /// The mirror image of a half-edge; and whether it has none because its vertices have none.
     std::pair<Halfedge, bool> image_of(Halfedge h) const
     {
-        if (together_.image.empty()) return {{}, true};
+        if (together_.image.empty()) return {Halfedge(), true};
         const Index from = together_.image[mesh.from_vertex_handle(h).idx()];
         const Index to = together_.image[mesh.to_vertex_handle(h).idx()];
         if (from < 0 || to < 0 || mesh.status(Vertex(from)).deleted() || mesh.status(Vertex(to)).deleted())
-            return {{}, true};
+            return {Halfedge(), true};
         return {mesh.find_halfedge(Vertex(from), Vertex(to)), false};
     }
 
