@@ -138,7 +138,7 @@ CoarseParts coarse_parts(const std::vector<FlatPart>& fine, Index faces, Executi
         }
         begin = end;
         std::optional<FlatPart> part;
-        if (fine[k].tips.empty() && !own.empty()) part = coarse_part(fine[k], own, std::move(corners), source);
+        if (fine[k].tips.empty() && !own.empty()) part = coarse_part(fine[k], own, corners, source);
         if (!part) {
             source.resize(fine[k].original.size());
             std::iota(source.begin(), source.end(), 0);
