@@ -326,7 +326,7 @@ def test_the_command(tmp_path):
     report = json.loads(done.stdout)
     assert done.returncode == 0 and report["converged"] and report["input"] == "ring.obj"
     python = koebe.certified_moduli(vertices, faces, width=1e-4).to_dict()
-    assert python.pop("options") == {"width": 1e-4, "max_faces": 300000}
+    assert python.pop("options") == {"width": 1e-4, "max_faces": 300000, "weld": None}
     assert report == {**python, "input": "ring.obj", "warnings": []}
     assert set(report["modulus"]) == set(report["r_1"]) == {"lower", "upper"} and report["loops"] == [0, 1]
     stopped = command("module", path, "--certified", "--width", "1e-6", "--max-faces", "100")

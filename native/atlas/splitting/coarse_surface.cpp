@@ -4,6 +4,8 @@
 #include "mesh/halfedge_mesh.h"
 #include "planar/planar_predicates.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
