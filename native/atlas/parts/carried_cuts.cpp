@@ -211,7 +211,9 @@ public:
         paths_.emplace_back(chain, path);
     }
 
-    /// The fine pieces; empty if they do not correspond to the coarse pieces.
+    /// The fine pieces. They are placed only if they correspond to the coarse pieces: a chain without a path is not
+    /// cut.
+    /// @return empty if a piece is no surface, or if its cuts cannot be drawn apart
     CarriedParts pieces(const ExecutionContext& context)
     {
         prepare();
