@@ -239,15 +239,25 @@ EvenParts decide_coarsely(std::vector<FlatPart>& flats, const EvenOptions& optio
     coarse_options.darts /= dearer_on_coarse;
     const double even = decide(after, coarse_options, context).even;
     if (!(even > 0.0)) return {};
-    double most = std::numeric_limits<double>::infinity();  // an E that is given is kept
-    if (!options.even) {
-        most = 0.0;
-        for (const FlatPart& flat : flats) most += sum_of_angle_errors(flat);
-    }
+    const auto angles = [&] {
+        double sum = 0.0;
+        for (const FlatPart& flat : flats) sum += sum_of_angle_errors(flat);
+        return sum;
+    };
+    const double most =
+        options.even ? std::numeric_limits<double>::infinity() : angles();  // an E that is given is kept
+    const std::vector<FlatPart> uncut = flats;
     CarriedParts cut = carried(flats, before, after, context);
     flats = std::move(cut.parts);
-    PartRelaxation parts(flats, options, context);
-    return {parts.finish(cut.placed, even, most), parts.left()};
+    EvenParts result;
+    {
+        PartRelaxation parts(flats, options, context);
+        result.even = parts.finish(cut.placed, even, most);
+        result.left = parts.left();
+    }
+    if (angles() <= most) return result;
+    flats = uncut;  // the coarse parts were wrong about the angles
+    return decide(flats, options, context);
 }
 
 /// Whether parts are large enough for coarse ones: edges of a round loop must lie on the fine part's circle.
