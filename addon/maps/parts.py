@@ -18,8 +18,8 @@ from .surface import next_corners
 from .warning_words import of_solver
 from .wording import counted, density_text, in_mesh
 
-# The price of a part: at the dial's default the command's, at its ends ten times as much and a tenth. These ends make
-# as few parts as possible, and texels as even as possible.
+# The price of a part: at the dial's default the command's, at its ends ten times as much and a tenth. Darts cost so
+# too. These ends make as few cuts as possible, and texels as even as possible.
 PRICE, SPREAD = solver_default("parts", "price"), 10.0
 # More than any unevenness costs: only necessary cuts are made.
 NO_CUTS = 1e3
@@ -28,7 +28,16 @@ OTHERS = -1  # the number of a face of another surface in the same atlas
 
 def price_of(evenness: float) -> float:
     """The price of a part, from a dial between 0, fewer parts, and 1, more even parts."""
-    return float(PRICE * SPREAD ** (2.0 * (ROWS["evenness"].default - evenness)))
+    return float(PRICE / _eagerness(evenness))
+
+
+def darts_of(darts: float, evenness: float) -> float:
+    """The option `darts` of the command, from that of the add-on and the dial."""
+    return min(1.0, darts * _eagerness(evenness))
+
+
+def _eagerness(evenness: float) -> float:
+    return float(SPREAD ** (2.0 * (evenness - ROWS["evenness"].default)))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -135,7 +144,8 @@ def cut_into_parts(
 
     Errors are stored in the outcome; `koebe.Cancelled` is raised.
     """
-    surface, arguments = task.surface, {"price": price_of(choice.evenness), **choice.solver_arguments()}
+    surface, arguments = task.surface, choice.solver_arguments()
+    arguments |= {"price": price_of(choice.evenness), "darts": darts_of(choice.darts, choice.evenness)}
     if task.like is not None:
         arguments["density"] = task.like * choice.pixels
     if choice.seams == "only":

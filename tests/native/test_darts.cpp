@@ -190,7 +190,7 @@ TEST(CarriedCuts, a_dart_lays_the_fine_cone_flat_too)
     EXPECT_EQ(after.original[after.tips.front()], 0);
     const CarriedParts carried_parts = carried({fine}, coarse, {after}, context);
     ASSERT_EQ(carried_parts.parts.size(), 1U);
-    EXPECT_EQ(carried_parts.placed, std::vector<char>{1});
+    EXPECT_EQ(carried_parts.how, std::vector<Carried>{Carried::placed});
     FlatPart part = carried_parts.parts.front();
     EXPECT_EQ(part.faces, fine.faces);
     EXPECT_EQ(part.surface.loops.size(), 1U);

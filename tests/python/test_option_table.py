@@ -216,7 +216,7 @@ def test_defaults_may_be_left_to_the_table():
         "parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | given
     )
     assert said == {
-        "even": None, "loops": "free", "darts": 0.5, "price": 0.0037, "cut": True, "round_cuts": False,
+        "even": None, "loops": "free", "darts": 0.5, "price": 0.01, "cut": True, "round_cuts": False,
         "most_lost": 0.5, "density": None, "pixels": 64,
         "tiles": 3, "stack": True, "weld": None,
     }  # fmt: skip

@@ -4,8 +4,9 @@
 #include "core/connectivity.h"
 #include "cut/seamed_mesh.h"
 #include "foldover/turn_upright.h"
-#include "mesh/nearest_first.h"
 #include "part_maps/part_mesh.h"
+#include "parts/carried_paths.h"
+#include "parts/dart_rounds.h"
 #include "parts/darts.h"
 #include "parts/tension.h"
 #include "parts/through_cuts.h"
@@ -15,7 +16,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -23,10 +23,8 @@
 namespace koebe {
 namespace {
 
-constexpr int longest_walk = 1000;      // coarse faces that a walk to the next vertex may cross
-constexpr double far_off = 4.0;         // price of an edge as far from a coarse edge as that is long, beside its length
-constexpr double longest_detour = 3.0;  // length of a path over the length of its chain
-constexpr int shift_sweeps = 30;        // of Gauss-Seidel: about so many rings round a path go with it
+constexpr int longest_walk = 1000;  // coarse faces that a walk to the next vertex may cross
+constexpr int shift_sweeps = 30;    // of Gauss-Seidel: about so many rings round a path go with it
 
 /// How much of the distance from coarse edges goes. Paths lie nearer to each other than the boundary's sides.
 struct Straightened {
@@ -35,180 +33,13 @@ struct Straightened {
 constexpr std::array straightened{Straightened{0.7, 0.0}, Straightened{0.9, 0.5}, Straightened{0.97, 0.97},
                                   Straightened{0.995, 0.995}};
 
-/// Half-edges one after the other, in faces on their left.
-using Path = std::vector<Index>;
-
-/// A corner of a piece: the piece, and its half-edge from there.
-struct PieceCorner {
-    std::size_t piece = 0;
-    Index halfedge = -1;
-};
-
-double edge_length(const FlatPart& part, Index h)
-{
-    const Triangles& triangles = part.surface.triangles;
-    return (part.vertices.row(origin(triangles, h)) - part.vertices.row(target(triangles, h))).norm();
-}
-
-double path_length(const FlatPart& part, const Path& path)
-{
-    double sum = 0.0;
-    for (const Index h : path) sum += edge_length(part, h);
-    return sum;
-}
-
-/// A fine part, its coarse part, and the pieces of both.
-class CarriedPart {
+/// The pieces of a fine part, cut along paths.
+class CarriedPieces {
 public:
-    CarriedPart(const FlatPart& fine, const FlatPart& coarse, const std::vector<Index>& vertex)
-        : fine_(fine), coarse_(coarse), vertex_(vertex)
+    CarriedPieces(const FlatPart& fine, const CutCoarsePart& cut, const std::vector<Index>& vertex,
+                  std::vector<CarriedPath> paths)
+        : fine_(fine), coarse_(cut.uncut()), cut_(cut), vertex_(vertex), paths_(std::move(paths))
     {
-        for (std::size_t f = 0; f < coarse.faces.size(); ++f)
-            coarse_face_.emplace(coarse.faces[f], static_cast<Index>(f));
-    }
-
-    void add(const FlatPart& piece)
-    {
-        for (std::size_t f = 0; f < piece.faces.size(); ++f)
-            coarse_corner_.emplace(coarse_face_.at(piece.faces[f]),
-                                   PieceCorner{after_.size(), 3 * static_cast<Index>(f)});
-        after_.push_back(&piece);
-    }
-
-    /// The chains of edges along which the coarse part was cut, from one fork, tip or place of the boundary to the
-    /// next.
-    const std::vector<Path>& chains()
-    {
-        const Triangles& triangles = coarse_.surface.triangles;
-        std::vector<std::vector<Index>> leaving(static_cast<std::size_t>(coarse_.surface.vertex_count));
-        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
-            if (coarse_.surface.twin[h] != no_twin && is_open(h)) leaving[origin(triangles, h)].push_back(h);
-        const std::vector<char> outside = boundary_mask(coarse_.surface);
-        const auto is_node = [&](Index v) { return outside[v] != 0 || leaving[v].size() != 2; };
-        std::vector<char> seen(coarse_.surface.twin.size(), 0);
-        for (Index v = 0; v < coarse_.surface.vertex_count; ++v) {
-            if (!is_node(v)) continue;
-            for (Index h : leaving[v]) {
-                if (seen[h]) continue;
-                Path chain{h};
-                for (Index end = target(triangles, h); !is_node(end); end = target(triangles, h)) {
-                    h = leaving[end][leaving[end][0] == coarse_.surface.twin[h] ? 1 : 0];
-                    chain.push_back(h);
-                }
-                for (const Index own : chain) seen[own] = seen[coarse_.surface.twin[own]] = 1;
-                chains_.push_back(std::move(chain));
-            }
-        }
-        return chains_;
-    }
-
-    /// The vertices of a chain, by the whole, or their images; from the lower end.
-    std::vector<Index> name_of(const Path& chain, bool image) const
-    {
-        const std::vector<Index>& names = image ? coarse_.image : coarse_.original;
-        const Triangles& triangles = coarse_.surface.triangles;
-        std::vector<Index> name{names[origin(triangles, chain.front())]};
-        for (const Index h : chain) name.push_back(names[target(triangles, h)]);
-        if (name.front() > name.back()) std::ranges::reverse(name);
-        return name;
-    }
-
-    /// A short path near a chain, through its vertices.
-    std::optional<Path> path_along(const Path& chain)
-    {
-        prepare();
-        const Triangles& triangles = coarse_.surface.triangles;
-        Path path;
-        std::vector<Index> own{vertex_[origin(triangles, chain.front())]};  // vertices of this path
-        for (const Index h : chain) own.push_back(vertex_[target(triangles, h)]);
-        std::vector<char> taken = taken_;
-        for (const Index v : own) taken[v] = 1;
-        for (std::size_t i = 0; i + 1 < own.size(); ++i) {
-            std::optional<Path> step = path_between(own[i], own[i + 1], taken, false);
-            if (!step && (i == 0 || i + 2 == own.size())) step = path_between(own[i], own[i + 1], taken, true);
-            if (!step) return {};
-            for (const Index h : *step) taken[target(fine_.surface.triangles, h)] = 1;
-            path.insert(path.end(), step->begin(), step->end());
-        }
-        return path;
-    }
-
-    /// The shortest path near the straight line between two vertices. @param taken (V) 1: the path may not touch it
-    /// @param anywhere ends on the boundary may be elsewhere on the same loop
-    std::optional<Path> path_between(Index from, Index to, const std::vector<char>& taken, bool anywhere) const
-    {
-        const Triangles& triangles = fine_.surface.triangles;
-        const Complex start = complex_at(fine_.points, from), along = complex_at(fine_.points, to) - start;
-        NearestFirst nearest(fine_.surface.vertex_count);
-        std::unordered_map<Index, Index> last;
-        nearest.reach(from, 0.0);
-        if (anywhere && loop_of_[from] >= 0 && loop_of_[from] != loop_of_[to])
-            for (const Index v : fine_.surface.loops[loop_of_[from]])
-                if (!on_path_[v]) nearest.reach(v, 0.0);
-        const auto is_end = [&](Index v) {
-            return v == to || (anywhere && loop_of_[to] >= 0 && loop_of_[v] == loop_of_[to] &&
-                               loop_of_[to] != loop_of_[from] && !on_path_[v]);
-        };
-        Index end = nearest.take();
-        for (Index v = end; v >= 0 && !is_end(v); v = end = nearest.take())
-            for (std::size_t i = begin_[v]; i < begin_[v + 1]; ++i) {
-                const Index h = leaving_[i], w = target(triangles, h);
-                if (taken[w] && !is_end(w)) continue;
-                const Complex off = (0.5 * (complex_at(fine_.points, v) + complex_at(fine_.points, w)) - start) / along;
-                const double beyond = off.real() - std::clamp(off.real(), 0.0, 1.0);
-                const double price = 1.0 + far_off * (off.imag() * off.imag() + beyond * beyond);
-                if (nearest.reach(w, nearest.distance()[v] + mesh_.length[h] * price)) last[w] = h;
-            }
-        if (end < 0) return {};
-        Path path;
-        for (Index v = end; last.contains(v); v = origin(triangles, last[v])) path.push_back(last[v]);
-        std::ranges::reverse(path);
-        return path;
-    }
-
-    /// The path through these vertices of the whole, if it is free. @param names in either direction
-    std::optional<Path> path_through(const Path& chain, std::vector<Index> names)
-    {
-        prepare();
-        if (names.back() == coarse_.original[origin(coarse_.surface.triangles, chain.front())] ||
-            names.front() == coarse_.original[target(coarse_.surface.triangles, chain.back())])
-            std::ranges::reverse(names);
-        const auto number = [&](Index name) {
-            const auto found = number_.find(name);
-            return found == number_.end() ? -1 : found->second;
-        };
-        Path path;
-        for (std::size_t i = 0; i + 1 < names.size(); ++i) {
-            const Index a = number(names[i]), b = number(names[i + 1]);
-            if (a < 0 || b < 0 || (i > 0 && taken_[a])) return {};
-            const auto begin = leaving_.begin() + static_cast<std::ptrdiff_t>(begin_[a]);
-            const auto end = leaving_.begin() + static_cast<std::ptrdiff_t>(begin_[a + 1]);
-            const auto found =
-                std::find_if(begin, end, [&](Index h) { return target(fine_.surface.triangles, h) == b; });
-            if (found == end) return {};
-            path.push_back(*found);
-        }
-        return path;
-    }
-
-    std::vector<Index> images_on(const Path& path) const
-    {
-        std::vector<Index> names{fine_.image[origin(fine_.surface.triangles, path.front())]};
-        for (const Index h : path) names.push_back(fine_.image[target(fine_.surface.triangles, h)]);
-        return names;
-    }
-
-    bool is_roundabout(const Path& chain, const Path& path) const
-    {
-        return path_length(fine_, path) > longest_detour * path_length(coarse_, chain);
-    }
-
-    void take(std::size_t chain, const Path& path)
-    {
-        for (const Index h : path)
-            for (const Index v : {origin(fine_.surface.triangles, h), target(fine_.surface.triangles, h)})
-                taken_[v] = on_path_[v] = 1;
-        paths_.emplace_back(chain, path);
     }
 
     /// The fine pieces. They are placed only if they correspond to the coarse pieces: a chain without a path is not
@@ -216,8 +47,7 @@ public:
     /// @return empty if a piece is no surface, or if its cuts cannot be drawn apart
     CarriedParts pieces(const ExecutionContext& context)
     {
-        prepare();
-        SeamedMesh mesh = mesh_;
+        SeamedMesh mesh = seamed(fine_, fine_.shown);
         for (const auto& [chain, path] : paths_)
             for (const Index h : path) mesh.cut(h);
         std::vector<FlatPart> pieces;
@@ -230,11 +60,11 @@ public:
             for (Eigen::Index c = 0; c < own.fans.size(); ++c) source[own.fans.data()[c]] = own.corners.data()[c];
             auto piece = opened_piece(fine_, own.face, own.fans, source);
             if (!piece) return {};
-            std::vector<Index> votes(after_.size(), 0);
+            std::vector<Index> votes(cut_.pieces().size(), 0);
             for (std::size_t f = 0; f < own.face.size(); ++f) {
                 fine_corner_[own.face[f]] = {pieces.size(), 3 * static_cast<Index>(f)};
-                if (const auto found = coarse_face_.find(piece->faces[f]); found != coarse_face_.end())
-                    ++votes[coarse_corner_.at(found->second).piece];
+                if (const Index face = cut_.face_of_whole(piece->faces[f]); face >= 0)
+                    ++votes[cut_.place_of(3 * face).piece];
             }
             const auto most = std::ranges::max_element(votes);
             is_alike = is_alike && *most > 0;
@@ -244,19 +74,19 @@ public:
         }
         std::vector<std::size_t> sorted = coarse_of;
         std::ranges::sort(sorted);
-        is_alike = is_alike && sorted.size() == after_.size() && std::ranges::adjacent_find(sorted) == sorted.end();
-        std::vector<char> placed;
+        is_alike =
+            is_alike && sorted.size() == cut_.pieces().size() && std::ranges::adjacent_find(sorted) == sorted.end();
+        std::vector<Carried> how;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
             note_tips(sources[k], pieces[k]);
-            const auto is_placed = [&](const Straightened& straight) {
-                return place(pieces[k], k, *after_[coarse_of[k]], straight, sources[k], context);
-            };
-            placed.push_back(is_alike && std::ranges::any_of(straightened, is_placed));
-            if (!placed.back() && !draw_apart(pieces[k], on_paths(pieces[k], sources[k]))) return {};
+            const bool is_placed = is_alike && place(pieces[k], k, *cut_.pieces()[coarse_of[k]], sources[k], context);
+            how.push_back(is_placed ? Carried::placed : Carried::cut);
+            if (is_placed) continue;
+            if (!draw_apart(pieces[k], on_paths(pieces[k], sources[k])) || !survives_storing(pieces[k])) return {};
         }
         if (pieces.size() == 1) pieces.front().kind = fine_.kind;
         note_lengths(pieces.front());
-        return {std::move(pieces), std::move(placed)};
+        return {std::move(pieces), std::move(how)};
     }
 
 private:
@@ -268,44 +98,13 @@ private:
         bool on_path = false;
     };
 
-    bool is_open(Index h) const
-    {
-        const PieceCorner& own = coarse_corner_.at(face_of(h));
-        return after_[own.piece]->surface.twin[own.halfedge + h % 3] == no_twin;
-    }
-
-    void prepare()
-    {
-        if (!begin_.empty()) return;
-        mesh_ = seamed(fine_, fine_.shown);
-        taken_ = boundary_mask(fine_.surface);
-        on_path_.assign(taken_.size(), 0);
-        loop_of_.assign(taken_.size(), -1);
-        for (std::size_t k = 0; k < fine_.surface.loops.size(); ++k)
-            for (const Index v : fine_.surface.loops[k]) loop_of_[v] = static_cast<int>(k);
-        const auto count = static_cast<std::size_t>(fine_.surface.vertex_count);
-        begin_.assign(count + 1, 0);
-        const auto may_cut = [&](Index h) { return mesh_.twin[h] != no_twin && !mesh_.whole[h]; };
-        for (Index h = 0; h < mesh_.halfedge_count(); ++h)
-            if (may_cut(h)) ++begin_[origin(fine_.surface.triangles, h) + 1];
-        for (std::size_t v = 0; v < count; ++v) begin_[v + 1] += begin_[v];
-        leaving_.resize(begin_.back());
-        std::vector<std::size_t> next(begin_.begin(), std::prev(begin_.end()));
-        for (Index h = 0; h < mesh_.halfedge_count(); ++h)
-            if (may_cut(h)) leaving_[next[origin(fine_.surface.triangles, h)]++] = h;
-        for (std::size_t v = 0; v < count; ++v) {
-            const auto [at, is_new] = number_.emplace(fine_.original[v], static_cast<Index>(v));
-            if (!is_new) at->second = -1;  // two sides of a slit
-        }
-    }
-
     /// Both sides of each path, and the boundary: at the same share of each edge's length as on the coarse edge.
     void place_paths(const Straightened& straight)
     {
         pending_.clear();
-        for (const auto& [number, path] : paths_) {
+        for (const auto& [chain, path] : paths_) {
             auto from = path.begin();
-            for (const Index h : chains_[number]) {
+            for (const Index h : chain) {
                 const Index end = vertex_[target(coarse_.surface.triangles, h)];
                 auto next = std::find_if(from, path.end(),
                                          [&](Index own) { return target(fine_.surface.triangles, own) == end; });
@@ -349,20 +148,40 @@ private:
     /// Puts the vertex where a fine half-edge starts beside a coarse half-edge.
     void put(Index fine, Index coarse, double share, double straight)
     {
-        const PieceCorner& here = coarse_corner_.at(face_of(coarse));
+        const CutCoarsePart::Place here = cut_.place_of(coarse);
         const Triangles& triangles = coarse_.surface.triangles;
         const Complex on_edge = (1.0 - share) * complex_at(coarse_.points, origin(triangles, coarse)) +
                                 share * complex_at(coarse_.points, target(triangles, coarse));
         const Complex z = complex_at(fine_.points, origin(fine_.surface.triangles, fine));
         Place place{face_of(here.halfedge), 0.0, straight * (on_edge - z), true};
-        const FlatPart& piece = *after_[here.piece];
+        const FlatPart& piece = *cut_.pieces()[here.piece];
         place.at = moved(piece, place.face, z + place.shift);
         pending_.push_back({fine_corner_[face_of(fine)], fine % 3, place});
     }
 
-    /// Moves a fine piece to its places in the relaxed coarse piece. @return whether it is one to one there
-    bool place(FlatPart& piece, std::size_t k, const FlatPart& relaxed, const Straightened& straight,
-               const std::vector<Index>& source, const ExecutionContext& context)
+    /// Moves a fine piece to its places in the relaxed coarse piece, with its paths as little straightened as possible.
+    /// @return whether it is one to one there
+    bool place(FlatPart& piece, std::size_t k, const FlatPart& relaxed, const std::vector<Index>& source,
+               const ExecutionContext& context)
+    {
+        const std::vector<char> none(source.size(), 0);
+        for (const Straightened& straight : straightened) {
+            std::optional<PlanarPoints> points = places_of(piece, k, relaxed, straight, source);
+            // Faces that stay turned over lie away from the paths.
+            if (!points ||
+                !turn_upright(piece.vertices, piece.surface.triangles, piece.surface.loops, none, *points, context))
+                return false;
+            if (!lies_one_to_one(piece, *points)) continue;
+            std::swap(piece.points, *points);
+            if (survives_storing(piece)) return true;
+            std::swap(piece.points, *points);
+        }
+        return false;
+    }
+
+    /// (V, 2) of a fine piece, in the relaxed coarse piece; empty if a vertex has no place there.
+    std::optional<PlanarPoints> places_of(const FlatPart& piece, std::size_t k, const FlatPart& relaxed,
+                                          const Straightened& straight, const std::vector<Index>& source)
     {
         std::vector<Place> places(static_cast<std::size_t>(piece.surface.vertex_count));
         place_paths(straight);
@@ -396,22 +215,17 @@ private:
         for (std::size_t i = 0; i < queue.size(); ++i)
             for (const Index w : around[queue[i]])
                 if (places[w].face < 0) settle(w, places[queue[i]].face);
-        if (queue.size() < places.size()) return false;
+        if (queue.size() < places.size()) return {};
         PlanarPoints points(piece.points.rows(), 2);
         for (std::size_t v = 0; v < places.size(); ++v) put_complex(points, static_cast<Eigen::Index>(v), places[v].at);
-        const std::vector<char> none(places.size(), 0);
-        if (!points.allFinite() ||
-            !turn_upright(piece.vertices, triangles, piece.surface.loops, none, points, context) ||
-            !lies_one_to_one(piece, points))
-            return false;
-        piece.points = std::move(points);
-        return true;
+        if (!points.allFinite()) return {};
+        return points;
     }
 
     /// The coarse part's vertex at a corner of a relaxed coarse piece.
     Index coarse_corner_of(const FlatPart& relaxed, Eigen::Index c) const
     {
-        return coarse_.surface.triangles(coarse_face_.at(relaxed.faces[static_cast<std::size_t>(c / 3)]), c % 3);
+        return coarse_.surface.triangles(cut_.face_of_whole(relaxed.faces[static_cast<std::size_t>(c / 3)]), c % 3);
     }
 
     /// Vertices near a path go with it, so that they stay on their side of it: as far as their edges are long.
@@ -502,12 +316,12 @@ private:
         double fine = 0.0, coarse = 0.0;
         for (const auto& [chain, path] : paths_) {
             fine += path_length(fine_, path);
-            coarse += path_length(coarse_, chains_[chain]);
+            coarse += path_length(coarse_, chain);
         }
         const double share = coarse > 0.0 ? fine / coarse : 1.0;
         first.slit = fine_.slit;
         first.dart_length = fine_.dart_length;
-        for (const FlatPart* piece : after_) {
+        for (const FlatPart* piece : cut_.pieces()) {
             first.slit += share * piece->slit;
             first.dart_length += share * piece->dart_length;
         }
@@ -515,25 +329,16 @@ private:
     }
 
     struct Pending {
-        PieceCorner corner;
+        CutCoarsePart::Place corner;
         Index k;
         Place place;
     };
 
     const FlatPart &fine_, &coarse_;
-    const std::vector<Index>& vertex_;                      // (V) of the coarse part: the fine vertex
-    std::unordered_map<Index, Index> coarse_face_;          // by the face of the whole
-    std::unordered_map<Index, PieceCorner> coarse_corner_;  // first corner of each coarse face
-    std::vector<PieceCorner> fine_corner_;                  // first corner of each fine face
-    std::vector<const FlatPart*> after_;
-    std::vector<Path> chains_;
-    std::vector<std::pair<std::size_t, Path>> paths_;  // the chain, and its path
-    SeamedMesh mesh_;
-    std::vector<char> taken_, on_path_;  // (V) of the fine part: on the boundary or on a path
-    std::vector<int> loop_of_;           // (V) -1 inside
-    std::vector<std::size_t> begin_;
-    std::vector<Index> leaving_;               // half-edges that may be cut, by the vertex that they leave
-    std::unordered_map<Index, Index> number_;  // of the fine vertex, by the vertex of the whole
+    const CutCoarsePart& cut_;
+    const std::vector<Index>& vertex_;  // (V) of the coarse part: the fine vertex
+    std::vector<CarriedPath> paths_;
+    std::vector<CutCoarsePart::Place> fine_corner_;  // (F) of each fine face: the piece, and its first half-edge there
     std::vector<Pending> pending_;
 };
 
@@ -542,35 +347,20 @@ private:
 CarriedParts carried(const std::vector<FlatPart>& fine, const CoarseParts& before, const std::vector<FlatPart>& after,
                      const ExecutionContext& context)
 {
-    std::vector<CarriedPart> parts;
+    std::vector<CutCoarsePart> coarse;
     std::unordered_map<Index, std::size_t> part_of;  // by a face of the whole
     for (std::size_t k = 0; k < fine.size(); ++k) {
-        parts.emplace_back(fine[k], before.parts[k], before.vertex[k]);
+        coarse.emplace_back(before.parts[k]);
         for (const Index f : before.parts[k].faces) part_of.emplace(f, k);
     }
-    for (const FlatPart& piece : after) parts[part_of.at(piece.faces.front())].add(piece);
-    std::map<std::vector<Index>, std::vector<Index>> images;  // the image of each path, by the image of its chain
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        const std::vector<Path>& chains = parts[k].chains();
-        for (std::size_t i = 0; i < chains.size(); ++i) {
-            context.checkpoint();
-            std::optional<Path> path;
-            if (const auto found = images.find(parts[k].name_of(chains[i], false)); found != images.end())
-                path = parts[k].path_through(chains[i], found->second);
-            if (!path) path = parts[k].path_along(chains[i]);
-            if (path && parts[k].is_roundabout(chains[i], *path)) path.reset();
-            if (path) {
-                parts[k].take(i, *path);
-                if (!fine[k].image.empty()) images[parts[k].name_of(chains[i], true)] = parts[k].images_on(*path);
-            }
-        }
-    }
+    for (const FlatPart& piece : after) coarse[part_of.at(piece.faces.front())].add(piece);
+    std::vector<std::vector<CarriedPath>> paths = carried_paths(fine, coarse, before.vertex, context);
     CarriedParts result;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        CarriedParts own = parts[k].pieces(context);
-        if (own.parts.empty()) own = {{fine[k]}, {0}};
+    for (std::size_t k = 0; k < fine.size(); ++k) {
+        CarriedParts own = CarriedPieces(fine[k], coarse[k], before.vertex[k], std::move(paths[k])).pieces(context);
+        if (own.parts.empty()) own = {{fine[k]}, {Carried::whole}};
         std::ranges::move(own.parts, std::back_inserter(result.parts));
-        result.placed.insert(result.placed.end(), own.placed.begin(), own.placed.end());
+        result.how.insert(result.how.end(), own.how.begin(), own.how.end());
     }
     return result;
 }

@@ -22,20 +22,21 @@ namespace koebe {
 namespace {
 
 constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: vertices farther off are free
-constexpr double first_even = 0.02, least_even = 0.005;  // start and end of the search for E
-constexpr EvenEffort search{.most_steps = 12};           // for an E of the search, and before it for
-constexpr EvenEffort look{4, 1, 8};                      // a first look, which ends the trial if
-constexpr double clearly_worse = 1.02;                   // angles are worse by this factor
-constexpr double roomy_piece = 0.1;                      // price of one more part, if that saves room
-constexpr double step = 1.5;                             // factor from one E to the next
-constexpr double even_with_darts = 0.1;                  // E with darts, if no E is given,
-constexpr std::array less_even_with_darts{0.06, 0.03};   // and if angles are then worse
-constexpr Index faces_to_decide = 4000;                  // on which the cuts of all parts are decided,
-constexpr std::size_t many_faces = 6000;                 // if they have more faces,
-constexpr std::size_t fewest_in_part = 20;               // and so many coarse ones in the mean
-constexpr EvenEffort carried_effort{12, 3, 24};          // for parts whose cuts were decided so, or
-constexpr EvenEffort own_effort{12, 6, 60};              // for those of them that start from their own map
-constexpr double dearer_on_coarse = 2.0;                 // cuts: coarse parts bend less, and so overrate them
+constexpr double first_even = 0.02, least_even = 0.005;       // start and end of the search for E
+constexpr EvenEffort search{.most_steps = 12};                // for an E of the search, and before it for
+constexpr EvenEffort look{4, 1, 8};                           // a first look, which ends the trial if
+constexpr double clearly_worse = 1.02;                        // angles are worse by this factor
+constexpr double most_worse = 1.1;                            // the same, of parts that start from coarse ones
+constexpr double roomy_piece = 0.1;                           // price of one more part, if that saves room
+constexpr double step = 1.5;                                  // factor from one E to the next
+constexpr double even_with_darts = 0.1;                       // E with darts, if no E is given,
+constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // and if angles are then worse
+constexpr Index faces_to_decide = 4000;                       // on which the cuts of all parts are decided,
+constexpr std::size_t many_faces = 6000;                      // if they have more faces,
+constexpr std::size_t fewest_in_part = 20;                    // and so many coarse ones in the mean
+constexpr EvenEffort carried_effort{12, 3, 24};               // for parts whose cuts were decided so, or
+constexpr EvenEffort own_effort{12, 6, 60};                   // for those of them that start from their own map
+constexpr double dearer_on_coarse = 2.0;                      // cuts: coarse parts bend less, and so overrate them
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -169,13 +170,18 @@ public:
         return even;
     }
 
-    /// Relaxes parts whose cuts were decided on coarse parts. @param placed as in CarriedParts @param most of the sum
+    /// Relaxes parts whose cuts were decided on coarse parts. @param how as in CarriedParts @param most of the sum
     /// of angle errors: if it is exceeded, E becomes less @return E
-    double finish(const std::vector<char>& placed, double even, double most)
+    double finish(const std::vector<Carried>& how, double even, double most)
     {
-        relax_cut(even, [&](std::size_t k) { return placed[k] ? carried_effort : own_effort; });
-        for (const double less : less_even_with_darts)
-            if (angles() > most && less < even) relax_cut(even = less, carried_effort);
+        const auto effort = [&](std::size_t k) { return how[k] == Carried::placed ? carried_effort : own_effort; };
+        for (const double less : less_even_with_darts) {
+            relax_cut(even, look);
+            if (angles() <= most_worse * most) relax_cut(even, effort);
+            if (angles() <= most) return even;
+            even = std::min(even, less);
+        }
+        relax_cut(even, effort);
         return even;
     }
 
@@ -230,6 +236,23 @@ EvenParts decide(std::vector<FlatPart>& flats, const EvenOptions& options, Execu
     return {even, even > 0.0 ? parts.left() : std::vector<std::size_t>{}};
 }
 
+/// Small parts whose cuts could not be carried get cuts that are decided on themselves.
+void cut_anew(CarriedParts& carried, double even, const EvenOptions& options, ExecutionContext& context)
+{
+    CarriedParts all;
+    for (std::size_t k = 0; k < carried.parts.size(); ++k) {
+        std::vector<FlatPart> own{std::move(carried.parts[k])};
+        Carried how = carried.how[k];
+        if (how == Carried::whole && own.front().faces.size() <= static_cast<std::size_t>(faces_to_decide)) {
+            PartRelaxation(own, options, context).relax_with_darts(even, search);
+            how = Carried::placed;
+        }
+        all.how.resize(all.how.size() + own.size(), how);
+        std::ranges::move(own, std::back_inserter(all.parts));
+    }
+    carried = std::move(all);
+}
+
 /// E and the cuts, decided on coarse parts. Then the fine parts are cut in the same places, and relaxed once.
 EvenParts decide_coarsely(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
 {
@@ -248,16 +271,17 @@ EvenParts decide_coarsely(std::vector<FlatPart>& flats, const EvenOptions& optio
         options.even ? std::numeric_limits<double>::infinity() : angles();  // an E that is given is kept
     const std::vector<FlatPart> uncut = flats;
     CarriedParts cut = carried(flats, before, after, context);
+    cut_anew(cut, even, options, context);
     flats = std::move(cut.parts);
     EvenParts result;
     {
         PartRelaxation parts(flats, options, context);
-        result.even = parts.finish(cut.placed, even, most);
+        result.even = parts.finish(cut.how, even, most);
         result.left = parts.left();
     }
     if (angles() <= most) return result;
-    flats = uncut;  // the coarse parts were wrong about the angles
-    return decide(flats, options, context);
+    flats = uncut;  // cuts lower the angles, so no E would do without them
+    return {};
 }
 
 /// Whether parts are large enough for coarse ones: edges of a round loop must lie on the fine part's circle.

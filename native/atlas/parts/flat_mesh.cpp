@@ -30,11 +30,13 @@
 namespace koebe {
 namespace {
 
-constexpr double own_piece = 0.25;      // of the area: in a smaller piece parts cost less,
-constexpr double small_piece = 0.01;    // and below this in proportion to the piece's area
-constexpr int rounds = 2;               // of splitting and merging
-constexpr double vain = 0.9;            // of the overflow: cuts that leave more are in vain
-constexpr Eigen::Index large = 100000;  // faces: from there on the parts are decided on a coarse surface
+constexpr double own_piece = 0.25;         // of the area: in a smaller piece parts cost less,
+constexpr double small_piece = 0.01;       // and below this in proportion to the piece's area
+constexpr int rounds = 2;                  // of splitting and merging
+constexpr double eager = 0.37;             // of the prices: parts are split at these, and merged at the whole prices
+constexpr double price_like_cut = 0.0037;  // at which a split of a flat part costs as a cut as long as the root
+constexpr double vain = 0.9;               // of the overflow: cuts that leave more are in vain
+constexpr Eigen::Index large = 100000;     // faces: from there on the parts are decided on a coarse surface
 constexpr Index coarse_faces = 40000;
 constexpr double few_cuts = 3.6;  // roots of a piece's area: a piece unfolded with fewer is not tried otherwise
 
@@ -79,16 +81,18 @@ double overflow_of(const std::vector<PartPointer>& parts)
     return sum;
 }
 
-/// Splits and merges parts, and maps them. They stay as they were if cuts bring next to nothing, for example between
-/// many tight holes. @param first faces of the first parts; empty: one part with all faces
+/// Splits and merges parts, and maps them. A cut that pays only together with later cuts is found at lower prices;
+/// merging takes back what did not pay in the end. The parts stay as they were if cuts bring next to nothing, for
+/// example between many tight holes. @param first faces of the first parts; empty: one part with all faces
 std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::vector<Index>> first,
                                     const SplitOptions& options, ExecutionContext& context, SplitEffort& effort)
 {
     std::vector<PartPointer> uncut = first_parts(whole, std::move(first), context, effort);
     std::vector<PartPointer> parts = uncut;
+    const SplitOptions eagerly{eager * options.part_price, eager * options.cut_price, options.threads};
     RefusedMerges refused;
     for (int round = 0; round < rounds; ++round) {
-        parts = split_parts(whole, options, std::move(parts), context, effort);
+        parts = split_parts(whole, eagerly, std::move(parts), context, effort);
         if (parts.size() > uncut.size() && overflow_of(parts) > vain * overflow_of(uncut)) return uncut;
         if (parts.size() == 1 || !merge_parts(whole, options, parts, refused, context, effort)) break;
     }
@@ -199,7 +203,7 @@ EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads)
 {
     const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
     return {options.even,  round ? LoopForm::round : LoopForm::free,
-            options.darts, options.price / SplitOptions{}.part_price,
+            options.darts, options.price / price_like_cut,
             roomy,         threads};
 }
 
@@ -283,7 +287,7 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
                                  threads, context, effort);
     // A part that was cut for its flaws has been tried as one part.
     if (!is_large && (is_cut || flats.parts.size() == 1))
-        if (auto one = better_as_one(stays_closed ? opened() : whole, root.get(), flats, context)) {
+        if (auto one = better_as_one(stays_closed ? opened() : whole, root.get(), flats, prices.part_price, context)) {
             flats.parts.clear();
             flats.parts.push_back(std::move(*one));
         }

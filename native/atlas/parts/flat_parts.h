@@ -33,11 +33,11 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
                      const FlatOptions& options, int threads, ExecutionContext& context, SplitEffort& effort);
 
 /// The whole piece as one map, if this map is usable and clearly better than the parts: coarse or crumpled surfaces
-/// have less angle error without cuts. If the angle error of the one map is only a little less, the parts are polished
-/// with their boundaries held.
+/// have less angle error without cuts. It may be less even only as far as its angles and the number of parts pay for
+/// it. If its angle error is only a little less, the parts are polished with their boundaries held.
 /// @param whole has a boundary @param root the map of the whole piece by which it was split, or null
 /// @return no part if the parts are better
-std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, FlatParts& parts,
+std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, FlatParts& parts, double part_price,
                                       ExecutionContext& context);
 
 }  // namespace koebe

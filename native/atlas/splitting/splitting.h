@@ -11,9 +11,9 @@
 namespace koebe {
 
 struct SplitOptions {
-    double part_price = 0.0037;  ///< price of a part, in overflow
-    double cut_price = 0.0037;   ///< price of a cut as long as the root of the area
-    int threads = 1;             ///< most threads; 0: one for each core. The result is the same for any number
+    double part_price = 0.0;  ///< price of a part, in overflow
+    double cut_price = 0.0;   ///< price of a cut as long as the root of the area
+    int threads = 1;          ///< most threads; 0: one for each core. The result is the same for any number
 };
 
 struct Part {

@@ -27,6 +27,7 @@
 namespace koebe {
 namespace {
 
+constexpr double price_true_to_size = 0.0037;  // of a piece: patterns may stretch less than UVs
 constexpr double least_piece = 0.1, most_piece = 1e6;  // mm across
 constexpr double most_lost = 0.01;                     // of the area, in smaller pieces
 
@@ -183,7 +184,7 @@ FlatMesh cut_and_flat(const Vertices& vertices, const Triangles& triangles, cons
     cutting.threads = options.threads;
     cutting.even = 1.0;
     cutting.loops = LoopForm::free;
-    if (options.price) cutting.price = *options.price;
+    cutting.price = options.price.value_or(price_true_to_size);
     FlatMesh mesh = flat_mesh(vertices, triangles, cutting, false, context);
     side_by_side(mesh.parts.size(), options.threads, context,
                  [&](std::size_t k, ExecutionContext& own) { stretch_less(mesh.parts[k], own); });
