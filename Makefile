@@ -41,11 +41,13 @@ ifndef AT_ONCE
 endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
-.PHONY: help build native programs core wheel package dist matrix docs paper listing web lint lint-python lint-native lint-workflows check check-native check-form \
-        test test-tools test-all test-native test-python test-long test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon bench-many figures guide-pictures reliability samples clean distclean
+.PHONY: help build native programs benchmarks core wheel package dist matrix docs paper listing web lint lint-python lint-native lint-workflows check check-native check-form \
+        test test-tools test-all test-native test-python test-long test-bench test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon bench-many figures guide-pictures reliability samples clean distclean
 
-help: ## this list
-	@sed -n 's/^\([a-z-]*\):[^#]*## /  \1\t/p' $(MAKEFILE_LIST) | expand -t 18
+# Two hashes: in the list; one: its name below the list.
+help:
+	@sed -n 's/^\([a-z-]*\):[^#]*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
+	@echo also: $$(sed -n 's/^\([a-z-]*\):[^#]*# .*/\1/p' $(MAKEFILE_LIST)) | fold -s -w 79
 
 # ---------------------------------------------------------------- build
 
@@ -54,16 +56,19 @@ build: native package ## build/koebe, build/python/koebe/, dist/koebe_uv-*.zip
 native: build/build.ninja ## the command and the Python package
 	$(ccache) cmake --build build --target koebe _koebe
 
-programs: native ## these, the native tests and the benchmarks
+programs: native # these and the native tests
 	$(ccache) cmake --build build
+
+benchmarks: native # the programs of bench/
+	$(ccache) cmake --build build --target benchmarks
 
 # Reports, the command and the Python module are read by the compiler without the extras, whose headers are not seen then.
 # The layers below them are the same as in `make native`.
-core: $(VENV)/.done ## the core without its extras making and labs: configured, and what stands on it checked
+core: $(VENV)/.done # the core without its extras making and labs: configured, and what stands on it checked
 	$(configure) -B build/core -DKOEBE_MAKING=OFF -DKOEBE_LABS=OFF -DCMAKE_CXX_FLAGS_RELEASE=-fsyntax-only >build/core.log
 	ninja -C build/core $$(ninja -C build/core -t inputs koebe _koebe | grep -E '(koebe_apps[.]dir|cli|python)/.*[.]o$$')
 
-wheel: $(WHEEL) ## dist/koebe-*.whl, for PYTHON=... (default: Debian's); `make package` takes all there are
+wheel: $(WHEEL) # dist/koebe-*.whl, for PYTHON=... (default: Debian's); `make package` takes all there are
 
 package: $(DONE)/package ## dist/koebe_uv-*.zip
 
@@ -88,7 +93,7 @@ PLATFORMS ?= linux-x64 linux-arm64 windows-x64 macos-arm64 macos-x64
 PYTHONS ?= 3.10 3.11 3.12 3.13 3.14
 
 # The source package is made of a copy of what git knows: its maker would walk through all of build/, other Debians too.
-dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS for PYTHONS, and the source package: dist/
+dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS for PYTHONS, and the sources
 	PYTHONS="$(PYTHONS)" scripts/dist.sh build/venv-dist $(PLATFORMS)
 	$(PYTHON) scripts/package_extension.py --release
 	rm -rf build/source && mkdir -p build/source && git ls-files -z | xargs -0 cp --parents -t build/source
@@ -97,7 +102,7 @@ dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS
 	scripts/audit_wheels.sh build/venv-dist dist
 
 # As root: other Debians in folders, wine and qemu. Two hours and 10 GB the first time; NAMES="debian12 windows" takes some.
-matrix: dist ## the zips of `make dist` tested in every Blender that can be had here: docs/compatibility.md
+matrix: dist ## the zips of `make dist` in every Blender that can be had here
 	$(PYTHON) scripts/matrix.py $(NAMES)
 
 build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install-build
@@ -114,12 +119,12 @@ build/docs/operators.json: scripts/site/blender_names.py $(ADDON_SOURCES) native
 	@mkdir -p $(@D)
 	scripts/in_own_home.sh $(BLENDER) scripts/site/blender_names.py $@ >$(@D)/blender.log || { cat $(@D)/blender.log; exit 1; }
 
-listing: package $(DONE)/install-blender $(DONE)/install-gui $(DONE)/install-paper ## text and pictures for extensions.blender.org: dist/listing/
+listing: package $(DONE)/install-blender $(DONE)/install-gui $(DONE)/install-paper # text and pictures for extensions.blender.org: dist/listing/
 	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1920x1080x24' $(PYTHON) scripts/listing/pictures.py dist/listing
 	cp scripts/listing/listing.md dist/listing
 
 # As the Journal of Open Source Software asks for it; its own typesetting differs.
-paper: $(DONE)/install-paper ## the paper on the project: build/paper/paper.pdf
+paper: $(DONE)/install-paper # the paper on the project: build/paper/paper.pdf
 	@mkdir -p build/paper
 	$(PYTHON) paper/figures.py
 	cd paper && pandoc paper.md --from markdown --citeproc --lua-filter authors.lua --pdf-engine xelatex --variable colorlinks \
@@ -139,43 +144,51 @@ $(DONE)/npm $(DONE)/go: $(DONE)/%:
 # the others, and is printed when it has ended. The longest begin, in halves by the first letter of the files, so that all
 # end at one time. What they need is made before, by one process: two would wait for apt's lock, and fail. What no version
 # of Blender changes is tested in one of them.
-test: build test-tools ## what a user could hit: native, Python, labs, and the installed zip in Debian's Blender and in bpy $(BPY)
+test: build test-tools ## what a user could hit, in Debian's Blender and in bpy too
 	@$(SIDE_BY_SIDE) $(BPY:%=test-differing-%) test-blender-a-m test-blender-n-z test-python-a-m test-python-n-z \
 	    test-native test-labs
 
 test-tools: programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done)
 
-test-all: lint test test-long test-fuzz docs test-web $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, the site, and all tests in each bpy that add-ons still meet
+test-all: lint test test-long test-bench test-fuzz docs test-web $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, the site
 
 # Slow native tests have names that begin with slow_, slow Python tests have the mark slow.
 check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
 	@begin=$$(date +%s); $(SIDE_BY_SIDE) check-native check-python-a-m check-python-n-z check-form; \
 	    result=$$?; echo "make check: $$(($$(date +%s) - begin)) s"; exit $$result
 
+native_tests = for program in native/koebe_tests native/koebe_thread_tests native/koebe_kernel_tests fuzz/koebe_corpus_tests; do \
+	    build/tests/$$program --gtest_brief=1 --gtest_filter='$(1)' || result=1; done
+
 check-native:
-	@for program in koebe_tests koebe_thread_tests koebe_kernel_tests; do \
-	    build/tests/native/$$program --gtest_brief=1 --gtest_filter='-*.slow_*' || exit 1; done
+	@result=0; $(call native_tests,-*.slow_*); exit $$result
 
 # By the first letter of the files: two halves of the time.
+python_tests = tests/python/test_[$*]*.py $(if $(filter a-m,$*),scripts/tests)
 check-python-%:
-	@PYTHONPATH=build/python $(PYTHON) -m pytest -q -p no:cacheprovider -m 'not slow' tests/python/test_[$*]*.py
+	@PYTHONPATH=build/python $(PYTHON) -m pytest -q -p no:cacheprovider -m 'not slow' $(python_tests)
 
 check-form: lint-python
 	git diff --name-only --diff-filter=d HEAD -- '*.h' '*.cpp' | xargs --no-run-if-empty clang-format --dry-run -Werror
 
-test-native: programs ## ctest
-	ctest --preset release
+# Each program once: ctest would start it once a test.
+test-native: programs ## the native tests
+	@result=0; $(call native_tests,*); ctest --preset release -R '^package' || result=1; exit $$result
 
-test-python: programs ## pytest tests/python
-	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m 'not long' tests/python
+test-python: programs ## pytest tests/python and scripts/tests
+	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m 'not long' tests/python scripts/tests
 
 test-python-%: programs
-	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider --durations=12 -m 'not long' tests/python/test_[$*]*.py
+	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider --durations=12 -m 'not long' $(python_tests)
 
-test-long: programs ## the Python tests that are marked long
+test-long: programs # the Python tests that are marked long
 	PYTHONPATH=build/python $(PYTHON) -m pytest -p no:cacheprovider -m long tests/python
 
-test-labs: $(WHEEL) build/venv-labs/.done ## pytest tests/labs, beside PyVista, trimesh, meshio, scikit-learn and others
+# Not in `make test`: no user runs bench/.
+test-bench: benchmarks build/venv-labs/.done ## pytest bench/tests: figures of docs/, the paper's tables
+	PYTHONPATH=build/python MPLBACKEND=agg build/venv-labs/bin/python -m pytest -p no:cacheprovider --durations=12 bench/tests
+
+test-labs: $(WHEEL) build/venv-labs/.done ## pytest tests/labs, beside other packages' meshes
 	PYTHONPATH=build/python MPLBACKEND=agg build/venv-labs/bin/python -m pytest -p no:cacheprovider tests/labs
 
 test-blender: package $(DONE)/install-blender ## tests/blender in $(BLENDER)
@@ -191,37 +204,37 @@ test-differing-%: package build/venv-bpy-%/.done
 	scripts/blender_tests.sh build/venv-bpy-$*/bin/python --durations=12 -m 'not alike'
 
 # Not in `make test`: it wants a machine that does nothing else, and knows where the sidebars of 3.4 and 4.3 have their tabs.
-test-gui: package $(DONE)/install-blender $(DONE)/install-gui ## clicks and keys in Blender's window: out/gui/
+test-gui: package $(DONE)/install-blender $(DONE)/install-gui # clicks and keys in Blender's window: out/gui/
 	PATH=/usr/bin:$$PATH xvfb-run -a -s '-screen 0 1280x800x24' \
 	    $(PYTHON) -m pytest -p no:cacheprovider -rA tests/gui
 
-test-web: native web $(DONE)/install-browser ## the page in Chromium, and its command without a browser: out/web/
+test-web: native web $(DONE)/install-browser # the page in Chromium, and its command without a browser: out/web/
 	node --test tests/web/*.test.mjs
 
 # A Slurm of two nodes on this machine: it wants root, and minutes.
-test-farms: native $(DONE)/install-farms ## koebe batch as a Slurm job array and as a Flamenco job, a node lost half way
+test-farms: native $(DONE)/install-farms # koebe batch as a Slurm job array and as a Flamenco job, a node lost half way
 	$(PYTHON) -m pytest -p no:cacheprovider -rA tests/farms
 
 # A quarter of an hour: not in `make test` either.
-soak: package $(DONE)/install-blender ## 2,000 maps in one Blender, the memory measured
+soak: package $(DONE)/install-blender # 2,000 maps in one Blender, the memory measured
 	scripts/in_own_home.sh $(BLENDER) bench/soak.py $$PWD/dist/koebe_uv-$$(scripts/version.sh).zip
 
-test-asan: $(VENV)/.done ## the native tests under the address and undefined behaviour sanitizers
+test-asan: $(VENV)/.done # the native tests under the address and undefined behaviour sanitizers
 	$(ccache) cmake --preset asan
 	cmake --build --preset asan
 	ctest --preset asan
 
-test-tsan: $(VENV)/.done ## calls at once, progress and cancel under the thread sanitizer
+test-tsan: $(VENV)/.done # calls at once, progress and cancel under the thread sanitizer
 	$(ccache) cmake --preset tsan
 	cmake --build --preset tsan --target koebe_thread_tests
 	TSAN_OPTIONS="suppressions=$(CURDIR)/tests/native/tsan.supp:second_deadlock_stack=1" \
 	    build-tsan/tests/native/koebe_thread_tests
 
 # The same inputs in the same order each time, as far as a minute goes; `make fuzz` takes others each time.
-test-fuzz: build-fuzz ## the fuzz targets for a minute
+test-fuzz: build-fuzz # the fuzz targets for a minute
 	scripts/fuzz.sh build-fuzz 60 1
 
-fuzz: build-fuzz ## all fuzz targets, $(SECONDS) seconds in all; findings go to build-fuzz/findings
+fuzz: build-fuzz # all fuzz targets, $(SECONDS) seconds in all; findings go to build-fuzz/findings
 	scripts/fuzz.sh build-fuzz $(SECONDS)
 
 build-fuzz: $(VENV)/.done $(DONE)/install-fuzz
@@ -233,7 +246,9 @@ build-fuzz: $(VENV)/.done $(DONE)/install-fuzz
 lint: lint-python lint-workflows lint-native ## form and types: what is wrong is said, nothing is changed
 
 lint-python: build/venv-lint/.done
-	build/venv-lint/bin/ruff check addon bench blend_samples native/python paper scripts tests
+	build/venv-lint/bin/ruff check addon bench blend_samples native paper scripts tests
+	rm -rf build/types && mkdir -p build/types && cp -rp native/python/koebe build/types
+	$(PYTHON) native/options/generate.py build/types/koebe
 	build/venv-lint/bin/mypy
 
 # The last version that Debian 12's Go compiles. It has shellcheck look at the workflows' commands, too.
@@ -253,41 +268,42 @@ lint-native: $(VENV)/.done $(DONE)/install-lint
 
 # ---------------------------------------------------------------- demo, bench, samples
 
-demo: build $(DONE)/install-blender ## uniformize and render the samples: out/*.blend, out/*.png and a table; lifted patterns: out/lift*.jpg
+demo: build $(DONE)/install-blender ## uniformize and render the samples: out/
 	@mkdir -p out
 	for name in lift lift_sphere lift_rows; do $(BLENDER) --background --factory-startup --python-exit-code 1 \
 	    --python scripts/lift_picture.py -- out/$$name.jpg 8 >out/$$name.log || { cat out/$$name.log; exit 1; }; done
 	$(PYTHON) scripts/demo.py
 
-bench: build programs $(DONE)/install-blender $(DONE)/install-bench ## time and accuracy: out/bench/
+bench: build $(DONE)/install-blender $(DONE)/install-bench ## time and accuracy: out/bench/
 	$(configure)
-	$(ccache) cmake --build build --target koebe_bench
+	$(ccache) cmake --build build --target benchmarks
 	$(PYTHON) bench/run.py
 
-compare: programs build/venv-compare/.done ## Blender's unwraps, xatlas and ours: docs/comparison.md; goes on where it ended, AGAIN=1 anew, MODELS=FOLDER more models, OPTCUTS=PROGRAM that too
+# It goes on where it ended. AGAIN=1: anew; MODELS=FOLDER: more models; OPTCUTS=PROGRAM: that too.
+compare: native build/venv-compare/.done ## Blender's unwraps, xatlas and ours: docs/comparison.md
 	build/venv-compare/bin/python bench/compare.py --write $(if $(AGAIN),--again)
 
-reproduce: programs ## the paper's tables, rates and figures: out/reproduce/
+reproduce: benchmarks # the paper's tables, rates and figures: out/reproduce/
 	$(PYTHON) bench/reproduce.py
 
-bench-addon: native $(DONE)/install-blender ## what the add-on costs beside the native call
+bench-addon: native $(DONE)/install-blender # what the add-on costs beside the native call
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python bench/addon_overhead.py
 
-bench-many: native build/venv-labs/.done ## COUNT=10000 small surfaces at once: surfaces a second a core, what processes and Dask cost
+bench-many: native build/venv-labs/.done # COUNT=10000 small surfaces at once: surfaces a second a core, what processes and Dask cost
 	PYTHONPATH=build/python build/venv-labs/bin/python bench/many_surfaces.py $(COUNT)
 
-figures: programs $(DONE)/install-blender build/venv-labs/.done ## measure the figures of README.md and docs/ and write them there; the pages' drawn pictures
+figures: benchmarks $(DONE)/install-blender build/venv-labs/.done ## measure the figures of README.md and docs/, and draw pictures
 	$(PYTHON) bench/doc_figures.py
 	scripts/guide_pictures.sh drawn
 	scripts/guide_pictures.sh plotted
 
-guide-pictures: test-gui ## the guide's pictures of the window
+guide-pictures: test-gui # the guide's pictures of the window
 	scripts/guide_pictures.sh window
 
-reliability: native ## random surfaces, SURFACES=100 of each kind, every answer checked: docs/reliability.md
+reliability: native # random surfaces, SURFACES=100 of each kind, every answer checked: docs/reliability.md
 	$(PYTHON) bench/reliability.py --surfaces $(SURFACES) --write
 
-samples: $(DONE)/install-blender ## make blend_samples/*.blend again
+samples: $(DONE)/install-blender # make blend_samples/*.blend again
 	$(BLENDER) --background --factory-startup --python-exit-code 1 --python blend_samples/make_samples.py
 
 # ---------------------------------------------------------------- what all of this needs
@@ -330,5 +346,5 @@ build/venv-bpy-%/.done: | $(DONE)/install-build $(DONE)/install-blender
 clean: ## remove what was built, keep the virtual environments
 	rm -rf build-* dist out $(filter-out $(wildcard build/venv*),$(wildcard build/* build/.done build/.ninja*))
 
-distclean: ## remove everything that is not in the repository
+distclean: # remove everything that is not in the repository
 	rm -rf build build-* dist out

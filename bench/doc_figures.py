@@ -7,7 +7,7 @@
 
 In a page a table stands between <!-- figures: NAME --> and <!-- end -->; a single figure of a table,
 TABLE/ROW/COLUMN, between <!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
-Rows whose meshes are not there keep what was measured before. tests/python/test_docs_figures.py compares.
+Rows whose meshes are not there keep what was measured before. bench/tests/test_docs_figures.py compares.
 """
 
 import json

@@ -14,6 +14,7 @@ A bundle lists what it holds of others (sbom.py). Equal input gives an equal whe
 import base64
 import hashlib
 import re
+import runpy
 import subprocess
 import sys
 import zipfile
@@ -26,7 +27,7 @@ from sbom import NAME as SBOM
 from sbom import sbom
 
 PACKAGE = ROOT / "native" / "python" / "koebe"
-TABLE = ROOT / "native" / "options" / "options.json"
+OPTIONS = ROOT / "native" / "options"
 LIBRARIES = ("libkoebe.so", "libkoebe.dylib", "koebe.dll")
 MODULES = ("_koebe.*.so", "_koebe.*.pyd")
 PROGRAMS = ("bin/koebe", "koebe.exe")  # Windows looks for the library beside the program
@@ -88,7 +89,8 @@ def members(compiled: dict[str, Path], tag: str, version: str) -> dict[str, byte
     """What the wheel holds but for its RECORD: path -> content."""
     sources = [*PACKAGE.rglob("*.py"), PACKAGE / "py.typed"]
     files = {f"koebe/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes() for path in sources}
-    files[f"koebe/{TABLE.name}"] = TABLE.read_bytes()
+    files |= {f"koebe/{path.name}": path.read_bytes() for path in OPTIONS.glob("*.json")}
+    files["koebe/_signatures.py"] = runpy.run_path(str(OPTIONS / "generate.py"))["signatures"]().encode()
     files |= {f"koebe/{name}": path.read_bytes() for name, path in compiled.items()}
     info = f"koebe-{version}.dist-info"
     files[f"{info}/METADATA"] = metadata(version).encode()

@@ -83,7 +83,7 @@ def members(addon: Path, version: str, wheels: list[Path]) -> dict[str, bytes]:
     }.items():
         files[name] = fill(files[name].decode()).encode()
     files["LICENSE"] = (ROOT / "LICENSE").read_bytes()
-    files["maps/options.json"] = (ROOT / "native" / "options" / "options.json").read_bytes()
+    files.update({f"maps/{path.name}": path.read_bytes() for path in (ROOT / "native" / "options").glob("*.json")})
     files.update({f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels})
     return files
 

@@ -11,10 +11,11 @@ from collections.abc import Iterable
 from types import FrameType
 from typing import Any, TextIO
 
+from ..maps.option_table import table
 from .flag_names import in_flags
 
 LAST_SECONDS = 5.0  # for a process whose starter has ended
-DONE, BROKEN, USAGE, UNMAPPABLE, NOT_CONVERGED, INTERRUPTED = 0, 1, 2, 3, 4, 130
+DONE, BROKEN, USAGE, UNMAPPABLE, NOT_CONVERGED, INTERRUPTED = (code for _, code, _ in table("exit_codes"))
 
 
 class Stop(Exception):

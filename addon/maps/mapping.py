@@ -33,7 +33,6 @@ from .wording import counted
 FLAT = 2.4e-7
 FEW = 1000  # triangles that are checked first
 UNROLLED_STAYS = "Even does nothing to an unrolled tube: use Unwrap to Cylinder"
-MOST_IMPORTANT = 4.0  # texel density at importance 1 over that at 0, as in the solver
 
 
 def map_surfaces(
@@ -369,7 +368,8 @@ def _pack(koebe: ModuleType, group: list[tuple[Task, IslandOutcome]], margin: fl
     if len(group) == 1:
         group[0][1].placement = Placement(scale=0.5 / _half_size(group[0][1]))
     elif group:
-        sizes = [_natural_radius(one.sheet, one.flat, task.importance) for task, one in group]
+        most = koebe.maps.layout.MOST_IMPORTANT
+        sizes = [_natural_radius(one.sheet, one.flat, task.importance, most) for task, one in group]
         for (_, one), placement in zip(group, packed(koebe, sizes, margin), strict=True):
             one.placement = placement
 
@@ -392,10 +392,10 @@ def _keep_places(outcome: SurfaceOutcome) -> bool:
     return True
 
 
-def _natural_radius(island: Island, uv: np.ndarray, importance: np.ndarray | None) -> float:
-    """Radius of the disk where the island's mean texel density is one; larger where it is important."""
+def _natural_radius(island: Island, uv: np.ndarray, importance: np.ndarray | None, most_important: float) -> float:
+    """Radius of the disk where the island's mean texel density is one; up to `most_important` times as large."""
     in_disk, on_surface = np.abs(signed_areas(uv, island.triangles)).sum(), island.areas
     if importance is not None:
         weight = importance[island.source_vertex][island.triangles].mean(axis=1)
-        on_surface = on_surface * MOST_IMPORTANT ** (2.0 * weight)
+        on_surface = on_surface * most_important ** (2.0 * weight)
     return float(np.sqrt(on_surface.sum() / in_disk))

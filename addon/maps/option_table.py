@@ -8,9 +8,8 @@ import operator
 from pathlib import Path
 from typing import Any
 
-PACKED = Path(__file__).with_name("options.json")
 LARGEST = 2**31 - 1  # of whole numbers, here and in the native module
-SOURCE = Path(__file__).parents[2] / "native" / "options" / "options.json"  # in a checkout
+SOURCE = Path(__file__).parents[2] / "native" / "options"  # in a checkout
 RANGE = {"above": (operator.gt, "above"), "min": (operator.ge, "from"),
          "max": (operator.le, "to"), "below": (operator.lt, "to below")}  # fmt: skip
 
@@ -73,9 +72,15 @@ def _row(entry: dict[str, Any]) -> Row:
     )  # fmt: skip
 
 
+def table(name: str) -> Any:
+    """One of the tables that the command, Python and the add-on have in common: "options", "warnings", "exit_codes"."""
+    packed = Path(__file__).with_name(f"{name}.json")
+    return json.loads((packed if packed.exists() else SOURCE / packed.name).read_text(encoding="utf-8"))
+
+
 def _table() -> list[dict[str, Any]]:
-    table: list[dict[str, Any]] = json.loads((PACKED if PACKED.exists() else SOURCE).read_text(encoding="utf-8"))
-    return table
+    options: list[dict[str, Any]] = table("options")
+    return options
 
 
 def own_rows(of: str) -> dict[str, Row]:

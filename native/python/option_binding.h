@@ -1,6 +1,8 @@
 // Binds the struct of a map's options as a Python class, and the enumerations of choices.
 #pragma once
 
+#include "each_option.h"
+
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>  // of options that need not be set
 
@@ -14,7 +16,7 @@ pybind11::class_<Options> bind_options(pybind11::module_& m, const char* name)
 {
     pybind11::class_<Options> bound(m, name);
     bound.def(pybind11::init<>());
-    Options::each_option([&](const char* option, auto member) { bound.def_readwrite(option, member); });
+    each_option<Options>([&](const char* option, auto member) { bound.def_readwrite(option, member); });
     return bound;
 }
 

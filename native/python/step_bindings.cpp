@@ -9,6 +9,7 @@
 #include "conformal/disk_map.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
+#include "io/mesh_formats.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
 #include "io/welding.h"
@@ -19,6 +20,7 @@
 #include "quality/shared_warnings.h"
 #include "report/json.h"
 #include "surface/harmonic_map.h"
+#include "surface/importance.h"
 #include "surface/loop_edges.h"
 #include "surface/mirror.h"
 #include "surface/nearest_triangles.h"
@@ -106,6 +108,7 @@ void bind_steps(py::module_& m)
               };
               return to_object(to_json(detached(find, triangles.rows() < small_mesh)));
           });
+    m.attr("mesh_formats") = io::format_names(io::FormatName::extension);
     m.def("parse_mesh", [](const std::string& bytes, const std::string& extension) {
         const PolygonMesh mesh = detached([bytes, extension] { return parse_mesh(bytes, extension); });
         return std::make_tuple(mesh.vertices, array_of(mesh.corners), array_of(mesh.face_begin));
@@ -156,6 +159,7 @@ void bind_steps(py::module_& m)
                             return find_mirror(points, faces, polygon);
                         }).vertex);
     });
+    m.attr("most_important") = most_important;
     m.def("pack_disks", [](const std::vector<double>& radii, double margin) {
         return arrays_of(detached([radii, margin] { return pack_disks(radii, margin); }));
     });

@@ -89,7 +89,7 @@ koebe.errors.Cancelled: ...
         .def_readwrite("outer_vertex", &UniformizeOptions::outer_vertex);
 
     py::dict warning_elements;
-    for (int k = 0; k <= static_cast<int>(WarningKind::coincident); ++k)
+    for (int k = 0; k < warning_kind_count; ++k)
         warning_elements[to_string(static_cast<WarningKind>(k))] = to_string(elements_of(static_cast<WarningKind>(k)));
     m.attr("warning_elements") = warning_elements;
     py::class_<MapReport>(m, "MapReport").def_property_readonly("flipped_faces", [](const MapReport& r) {

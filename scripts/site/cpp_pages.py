@@ -14,7 +14,7 @@ from pathlib import Path
 from markup import escaped, title, toctree
 
 ROOT = Path(__file__).resolve().parents[2]
-LAYERS = sorted(path for path in (ROOT / "native").iterdir() if path.is_dir())
+LAYERS = [*sorted(path for path in (ROOT / "native").iterdir() if path.is_dir()), ROOT / "build" / "native" / "options"]
 FIRST = ROOT / "native" / "apps" / "package" / "koebe.h"
 EXAMPLES = ROOT / "tests" / "consumer" / "examples.cpp"
 MARK = re.compile(r"^ *// \[(\w+)\]$", re.MULTILINE)

@@ -20,6 +20,7 @@ def test_what_is_broken_off_leaves_everything_as_it_was(folder, koebe, run):
 @pytest.mark.parametrize("run", [
     "uniformize", "torus", "ring in Edit Mode", "checker off", "distortion changed", "fill", "carry",
 ])  # fmt: skip
+@pytest.mark.alike
 def test_an_error_is_that_of_one_object(folder, koebe, run):
     build, name, options = RUNS[run]
     with faults.remembered_maps(koebe):

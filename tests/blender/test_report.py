@@ -280,6 +280,7 @@ def fingered(run):
     return obj
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("run", ["schottky", "torus", "ring", "sphere"])
 def test_a_map_that_loses_a_limb_is_not_done(run):
     obj = fingered(run)
@@ -296,6 +297,7 @@ def test_a_map_that_loses_a_limb_is_not_done(run):
     assert set(np.flatnonzero(areas <= 0.0)) <= set(lost) and islands()[0].flipped >= len(lost) > 0
 
 
+@pytest.mark.alike
 def test_one_map_of_a_limb_is_written_and_says_first_what_is_lost(capfd):
     obj = fingered("ring")
     assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
@@ -304,6 +306,7 @@ def test_one_map_of_a_limb_is_written_and_says_first_what_is_lost(capfd):
     assert out.index("Warning: Limb: LOST ") < out.index("of its area is lost") and "Koebe" in obj.data.uv_layers
 
 
+@pytest.mark.alike
 def test_parts_that_lose_too_much_are_not_done(koebe, monkeypatch):
     scenes.select(scenes.add_cube())
     parts = koebe.parts
@@ -321,6 +324,7 @@ def test_parts_that_lose_too_much_are_not_done(koebe, monkeypatch):
     assert islands()[0].offer == "uniformize" and not islands()[0].mapped
 
 
+@pytest.mark.alike
 def test_figures_are_those_of_the_stored_uvs(koebe):
     """Of many islands in one square, each of which is small there."""
     vertices, faces = scenes.panel_arrays()

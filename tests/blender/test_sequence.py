@@ -234,6 +234,7 @@ def test_a_frame_without_a_map_is_told_and_nothing_is_written():
     assert not entry.mapped and "key 'Frown'" in entry.message
 
 
+@pytest.mark.alike
 def test_frames_that_do_not_converge_are_told(capfd):
     add_keyed()
     assert unwrap(source="SHAPE_KEYS", max_sweeps=1) == {"FINISHED"}
@@ -501,6 +502,7 @@ def test_a_cancel_leaves_everything_as_it_was(addon, koebe, monkeypatch):
     assert unchanged(before)
 
 
+@pytest.mark.alike
 def test_fifty_random_keys_never_flip():
     obj = scenes.add_panel(size=20)
     obj.shape_key_add(name="Basis")

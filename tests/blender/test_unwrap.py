@@ -63,6 +63,7 @@ REASONS = {"closed_head": "the surface is closed", "character": "the surface is 
            "suzanne_mask": "uneven, 1 : 5.9"}  # fmt: skip
 
 
+@pytest.mark.alike
 @pytest.mark.parametrize("sample, shape", SAMPLE_SHAPES)
 def test_automatic_takes_the_shape_that_serves_and_says_why(sample, shape, addon):
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{sample}.blend"))
@@ -94,6 +95,7 @@ def test_automatic_has_no_fault_that_parts_have_not(addon):
     assert chosen == {True, False}
 
 
+@pytest.mark.alike
 def test_of_two_maps_the_one_with_lesser_faults_is_better(addon):
     worth = addon("maps.automatic").Worth
     ordered = [worth(True, 0, 1.0, 1.0), worth(True, 0, 4.0, 5.0), worth(True, 0, 1.0, 5.1), worth(True, 0, 1.0, 9.0),
@@ -115,6 +117,7 @@ def test_automatic_chooses_for_each_object_and_for_what_is_selected():
     assert report().parts == 0, "one face of a cube is a disk"
 
 
+@pytest.mark.alike
 def test_an_even_disk_serves_where_a_conformal_one_does_not():
     scenes.select(add_bump(0.3))
     bpy.ops.uv.koebe_unwrap()

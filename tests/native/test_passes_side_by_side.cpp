@@ -253,10 +253,10 @@ TEST(Passes, a_written_file)
     const TemporaryFolder folder;
     const PolygonMesh mesh = mixed_polygons();
     const PlanarPoints uv = mesh.vertices.leftCols(2) / 1000.0;
-    for (const WrittenFormat format : {WrittenFormat::ply, WrittenFormat::obj})
+    for (const char* const extension : {".ply", ".obj"})
         expect_same_bits([&] {
             AtomicFile file(folder.path() / "out");
-            write_with_uvs(file, format, mesh, uv, {MeshFile{}});
+            write_with_uvs(file, *io::mesh_format(extension), mesh, uv, {MeshFile{}});
             file.commit();
             return bytes_of(folder.path() / "out");
         });
@@ -271,7 +271,7 @@ TEST(Passes, a_file_that_cannot_be_written_fails_on_all_threads)
     for (const int count : {1, 2, 3}) {
         const ThreadShare threads(count);
         AtomicFile file(folder.path() / "out.ply");
-        EXPECT_THROW(write_with_uvs(file, WrittenFormat::ply, mesh, mesh.vertices.leftCols(2), {MeshFile{}}),
+        EXPECT_THROW(write_with_uvs(file, *io::mesh_format(".ply"), mesh, mesh.vertices.leftCols(2), {MeshFile{}}),
                      FileError);
     }
 }

@@ -188,9 +188,9 @@ TEST(PlyWriter, NeedsAPointForEachVertex)
 TEST(MeshWriter, TheExtensionNamesTheFormat)
 {
     const TemporaryFolder folder;
-    EXPECT_EQ(written_format(folder.path() / "a.obj"), WrittenFormat::obj);
-    EXPECT_EQ(written_format("A.Ply"), WrittenFormat::ply);
-    EXPECT_EQ(written_format("/dev/null"), WrittenFormat::obj);
+    EXPECT_EQ(written_format(folder.path() / "a.obj"), io::mesh_format(".obj"));
+    EXPECT_EQ(written_format("A.Ply"), io::mesh_format(".ply"));
+    EXPECT_EQ(written_format("/dev/null"), io::mesh_format(".obj"));
     for (const char* other : {"a.off", "a.stl", "a.glb", "a.gltf", "a", ".obj", "a.obj.", "a.obj ", "a.plyx", ""})
         EXPECT_FALSE(written_format(folder.path() / other)) << other;
 }
@@ -202,7 +202,7 @@ TEST(MeshWriter, ObjPatchesAreGroupsByNumber)
     mesh.corners = {0, 1, 2, 1, 2, 0, 2, 0, 1};
     mesh.face_begin = {0, 3, 6, 9};
     const std::string text = written(folder, [&](AtomicFile& file) {
-        write_with_patches(file, WrittenFormat::obj, mesh, {-1, 1, 1}, {MeshFile{}});
+        write_with_patches(file, *io::mesh_format(".obj"), mesh, {-1, 1, 1}, {MeshFile{}});
     });
     EXPECT_TRUE(text.ends_with("\ng surface\nf 1 2 3\ng patch_1\nf 2 3 1\nf 3 1 2\n")) << text;
 }

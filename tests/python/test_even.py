@@ -14,7 +14,7 @@ from domain_surfaces import holed_ring, holed_torus
 from test_domains import HOLES, assert_tile
 from test_parts import TRIANGLES, VERTICES, areas
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 import promises  # noqa: E402
 import random_surfaces  # noqa: E402
 

@@ -11,7 +11,7 @@ from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text
 from cli_support import koebe as command
 from pattern_files import crossings, dxf_entities, enclosed, inside, lengths, require_sound, svg_page
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 import random_models  # noqa: E402
 
 

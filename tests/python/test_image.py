@@ -7,7 +7,7 @@ import koebe
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 from atrium_templates import TEMPLATE, atrium  # noqa: E402
 
 MILLIMETRES = 30.0  # radius of the atrium

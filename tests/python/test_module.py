@@ -10,7 +10,7 @@ import pytest
 from test_cli import CANNOT_BE_MAPPED, NOT_CONVERGED, USAGE, obj_text, perforated, triangles_of
 from test_cli import koebe as command
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 import exact_surfaces  # noqa: E402
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "good"

@@ -11,7 +11,7 @@ import pytest
 from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated
 from cli_support import koebe as command
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 import random_models  # noqa: E402
 import random_surfaces  # noqa: E402
 import uv_measures  # noqa: E402

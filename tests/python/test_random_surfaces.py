@@ -7,7 +7,7 @@ import koebe
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 import commands  # noqa: E402
 import promises  # noqa: E402
 import random_surfaces  # noqa: E402

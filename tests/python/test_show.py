@@ -12,7 +12,7 @@ from cli_support import koebe as command
 from koebe._native import _koebe
 from test_parts import TRIANGLES, VERTICES
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 import random_models  # noqa: E402
 
 

@@ -11,7 +11,7 @@ import pytest
 from cli_support import USAGE, obj_text, perforated, triangles_of
 from cli_support import koebe as command
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 from stretched_cylinders import cylinder, mapped, pair  # noqa: E402
 
 

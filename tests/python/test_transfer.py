@@ -10,7 +10,7 @@ import pytest
 from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
 from cli_support import koebe as command
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 from atrium_templates import atrium  # noqa: E402
 
 HOLES = ((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))

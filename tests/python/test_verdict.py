@@ -12,7 +12,7 @@ from cli_support import koebe as command
 from domain_surfaces import holed_ring, holed_torus
 from sphere_surfaces import icosphere
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
 import promises  # noqa: E402
 
 

@@ -6,6 +6,7 @@
 #include "batch/path_text.h"
 #include "batch/process_outcome.h"
 #include "batch/summary.h"
+#include "exit_code.h"
 #include "io/file_error.h"
 
 #include <uv.h>
@@ -303,13 +304,13 @@ private:
     {
         const Json error = report.contains("error") ? report["error"] : Json();
         const int code = report["exit_code"].get<int>();
-        ++(error.is_object() ? count_.failed : code == not_converged_code ? count_.not_converged : count_.done);
+        ++(error.is_object() ? count_.failed : code == not_converged ? count_.not_converged : count_.done);
         std::ostringstream line;
         line << '[' << count_.done + count_.not_converged + count_.failed << '/' << total_ << "] "
              << report["name"].get<std::string>() << ": " << how;
         if (error.is_object() && !is_lasting(error, {{}, 0.0, false}) && error_name(error) != "TimeLimit")
             ++count_.lost;
-        if (code == not_converged_code) line << ", not converged";
+        if (code == not_converged) line << ", not converged";
         if (error.is_object())
             line << ", " << error_name(error) << ": " << error.value("reason", "");
         else if (const Json seconds = summary_row(report)["seconds"]; seconds.is_number())

@@ -4,6 +4,7 @@
 #include "batch/summary.h"
 #include "io/extension.h"
 #include "io/file_error.h"
+#include "io/mesh_formats.h"
 
 #include <algorithm>
 #include <map>
@@ -58,7 +59,8 @@ private:
         if (is_blend(input) && !options_.with_blends)
             throw UsageError(utf8(input) + " is a .blend file: give the Blender program with --blender");
         if (!io::is_mesh_file(input) && !is_blend(input))
-            throw UsageError(utf8(input) + " is not a mesh file: mesh files end in .obj, .off, .ply, .stl or .glb");
+            throw UsageError(utf8(input) + " is not a mesh file: mesh files end in " +
+                             io::listed_formats(io::FormatName::extension));
         // A link gives its own name, as its target may be called anything.
         const fs::path source = fs::canonical(fs::absolute(input).parent_path()) / input.filename();
         add_file(source, source.parent_path());

@@ -4,6 +4,7 @@
 #include "batch/path_text.h"
 #include "batch/process_outcome.h"
 #include "batch/whole_file.h"
+#include "exit_code.h"
 #include "report/json.h"
 
 #include <system_error>
@@ -75,7 +76,7 @@ Json keep_failure(const ClaimedFile& claimed, const Recipe& recipe, const Json& 
     const BatchFile& file = *claimed.file;
     Json report = report_head(file, claimed.hash, recipe);
     report["error"] = error;
-    report["exit_code"] = 3;
+    report["exit_code"] = cannot_be_mapped;
     report["seconds"] = {{"total", claimed.end.seconds}};
     std::error_code ignored;
     fs::create_directories(file.output.parent_path(), ignored);

@@ -1,6 +1,7 @@
 #include "batch/process_outcome.h"
 
 #include "batch/file_report.h"
+#include "exit_code.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::streamoff shown_log = 65536;  // bytes at the end of a log
-enum : int { mapped = 0, interrupted = 130 };
 
 std::string end_of_text(const fs::path& path)
 {
@@ -46,14 +46,14 @@ Json end_error(const ProcessEnd& end, const fs::path& log, double time_limit)
     if (end.exit_status < 0 || end.exit_status > interrupted)
         return by("Crash", "its process ended with status " + std::to_string(end.exit_status));
     // These codes are the script's own: the log says why it refuses the file.
-    return error_of_lines(end_of_text(log), end.exit_status <= not_converged_code ? "Refused" : "Crash");
+    return error_of_lines(end_of_text(log), end.exit_status <= not_converged ? "Refused" : "Crash");
 }
 
 }  // namespace
 
 bool is_mapped(const ProcessEnd& end)
 {
-    return end.signal == 0 && !end.timed_out && (end.exit_status == mapped || end.exit_status == not_converged_code);
+    return end.signal == 0 && !end.timed_out && (end.exit_status == done || end.exit_status == not_converged);
 }
 
 bool is_killed(const ProcessEnd& end)

@@ -9,9 +9,6 @@
 
 namespace koebe::batch {
 
-/// Exit code of a map that was made but does not meet its options.
-inline constexpr int not_converged_code = 4;
-
 /// Whether the process made a map, converged or not.
 bool is_mapped(const ProcessEnd& end);
 

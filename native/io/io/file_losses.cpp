@@ -1,21 +1,11 @@
 #include "io/file_losses.h"
 
-#include "io/format_readers.h"
+#include "io/mesh_formats.h"
 
 #include <utility>
 
 namespace koebe::io {
 namespace {
-
-FileLosses contents_of(const MeshFile& filed)
-{
-    if (filed.extension == ".obj") return obj_contents(filed.bytes);
-    if (filed.extension == ".off") return off_contents(filed.bytes);
-    if (filed.extension == ".ply") return ply_contents(filed.bytes);
-    if (filed.extension == ".stl") return stl_contents(filed.bytes);
-    if (filed.extension == ".glb") return {.others = {"materials, skins and other contents of the GLB file"}};
-    return {};
-}
 
 std::string listed(const std::vector<std::string>& words)
 {
@@ -29,7 +19,8 @@ std::string listed(const std::vector<std::string>& words)
 
 FileLosses losses_of_all(const MeshFile& filed, bool with_uvs)
 {
-    FileLosses losses = contents_of(filed);
+    const MeshFormat* const format = mesh_format(filed.extension);
+    FileLosses losses = format != nullptr ? format->contents(filed.bytes) : FileLosses{};
     if (!with_uvs && std::exchange(losses.texture_coordinates, false))
         losses.others.insert(losses.others.begin(), "texture coordinates");
     return losses;

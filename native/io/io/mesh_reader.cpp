@@ -1,12 +1,10 @@
 #include "io/mesh_reader.h"
 
 #include "core/errors.h"
-#include "core/sort_unique.h"
 #include "execution/thread_share.h"
 #include "io/extension.h"
 #include "io/file_bytes.h"
-#include "io/format_readers.h"
-#include "io/gltf_meshes.h"
+#include "io/mesh_formats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,39 +14,14 @@
 namespace koebe {
 namespace {
 
-using Reader = PolygonMesh (*)(std::string_view);
-
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// The mesh without the vertices that are in no face.
-PolygonMesh with_used_vertices(const PolygonMesh& mesh)
+/// @throws InputError the format is unknown
+const MeshFormat& known_format(const std::string& extension)
 {
-    std::vector<Index> used(mesh.corners);
-    sort_unique(used);
-    PolygonMesh result{mesh.vertices(used, Eigen::all), mesh.corners, mesh.face_begin};
-    for (Index& vertex : result.corners)
-        vertex = static_cast<Index>(std::ranges::lower_bound(used, vertex) - used.begin());
-    return result;
-}
-
-PolygonMesh read_only_mesh(std::string_view glb)
-{
-    const std::vector<GltfMesh> meshes = read_gltf_meshes(glb);
-    if (meshes.size() > 1)
-        throw InputError("the GLB file has " + std::to_string(meshes.size()) +
-                         " meshes: only maps that are written as GLB take several");
-    return with_used_vertices(meshes.front().polygons);
-}
-
-Reader reader_for(const std::string& filed)
-{
-    const std::string extension = io::lower(filed);
-    if (extension == ".obj") return io::read_obj;
-    if (extension == ".off") return io::read_off;
-    if (extension == ".ply") return io::read_ply;
-    if (extension == ".stl") return io::read_stl;
-    if (extension == ".glb") return read_only_mesh;
-    throw InputError("format not supported: '" + extension + "'; supported are OBJ, OFF, PLY, STL, GLB");
+    if (const MeshFormat* const format = io::mesh_format(extension)) return *format;
+    throw InputError("format not supported: '" + io::lower(extension) + "'; supported are " +
+                     io::listed_formats(io::FormatName::word, false, ", "));
 }
 
 std::vector<Index> not_finite(const Vertices& vertices)
@@ -81,7 +54,7 @@ void require_a_mesh(const PolygonMesh& mesh)
 PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension)
 {
     if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
-    PolygonMesh mesh = reader_for(extension)(bytes);
+    PolygonMesh mesh = known_format(extension).read(bytes);
     require_a_mesh(mesh);
     return mesh;
 }
@@ -89,7 +62,7 @@ PolygonMesh parse_mesh(std::string_view bytes, const std::string& extension)
 MeshFile read_mesh_file(const std::filesystem::path& path)
 {
     MeshFile file{{}, io::lower_extension(path)};
-    reader_for(file.extension);  // throws for unknown formats, before reading
+    known_format(file.extension);  // throws for unknown formats, before reading
     file.bytes = io::read_bytes(path);
     if (file.bytes.starts_with(byte_order_mark)) file.bytes.erase(0, byte_order_mark.size());
     return file;

@@ -1,4 +1,4 @@
-// Reads mesh files: OBJ, OFF, PLY, STL and GLB, to polygons in 64 bits.
+// Reads mesh files of the formats of mesh_formats.h, to polygons in 64 bits.
 #pragma once
 
 #include "core/api.h"

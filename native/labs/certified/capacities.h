@@ -4,7 +4,6 @@
 #include "certified/condenser.h"
 #include "certified/interval.h"
 #include "core/api.h"
-#include "core/option_list.h"
 #include "core/types.h"
 #include "core/warning.h"
 #include "execution/execution.h"
@@ -19,8 +18,6 @@ struct CapacityOptions {
     std::optional<double> width;  ///< refine until no enclosure is wider; none: only the mesh's own faces
     int max_faces = 300000;       ///< refine to this many triangles at most
     int threads = 0;              ///< 0: all cores. Any number gives the same bounds
-
-    KOEBE_OPTIONS(CapacityOptions, width, max_faces, threads)
 };
 
 struct Capacity {

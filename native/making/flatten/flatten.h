@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/api.h"
-#include "core/option_list.h"
 #include "core/page.h"
 #include "core/types.h"
 #include "execution/execution.h"
@@ -26,8 +25,6 @@ struct FlattenOptions {
     double darts = 0.05;              ///< as in PartsOptions
     std::vector<Index> polygon = {};  ///< (F) faces with one number stay together; empty: no faces do
     int threads = 0;                  ///< at most; 0: as many as the machine has
-
-    KOEBE_OPTIONS(FlattenOptions, units, page, allowance, price, darts, polygon)
 };
 
 /// By how much lengths in a face differ from lengths on the surface, in per cent, in the direction of the largest

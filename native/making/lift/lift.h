@@ -3,7 +3,6 @@
 
 #include "core/api.h"
 #include "core/map_options.h"
-#include "core/option_list.h"
 #include "execution/execution.h"
 #include "lift/overlay.h"
 #include "quality/report.h"
@@ -45,9 +44,6 @@ struct LiftOptions {
     bool perforate = false;             ///< cut the outlines out
     std::optional<double> height = {};  ///< raise them; below 0: sink them. Of a mesh a factor of its heights
     std::optional<double> thickness = {};  ///< of a closed solid; none: the surface stays a sheet
-
-    KOEBE_OPTIONS(LiftOptions, shape, even, size, bridge, repeats, seed, turn, around, rows, rim, graded, perforate,
-                  height, thickness)
 };
 
 /// `vertex_count` and `face_count` count the result. All figures of a map are for the map that the pattern is drawn in.

@@ -15,15 +15,13 @@ from typing import Any
 
 from . import _command
 from ._native import _koebe
-from ._option_table import rows
-from ._progress import Run
-from ._signatures import Progress
+from ._option_table import INTERRUPTED, WRONG_USAGE, rows
+from ._progress import Progress, Run
 from .errors import Cancelled, KoebeError, OptionError
 
 PathLike = str | os.PathLike[str]
 Row = dict[str, Any]
 
-_WRONG_USAGE, _INTERRUPTED = 2, 130
 _PATIENCE = 20.0  # seconds for a command that was asked to end
 _BETWEEN_LOOKS = 0.1  # seconds, at a token or at tasks
 _SETTLED = re.compile(r"\[(\d+)/(\d+)\] (.*?): ")  # a line of the command: [3/7] a.obj: done, 0.2 s
@@ -170,11 +168,11 @@ def _run(words: list[str], run: Run | None = None) -> str:
             except subprocess.TimeoutExpired:
                 process.kill()
             raise
-    if process.returncode == _INTERRUPTED:
+    if process.returncode == INTERRUPTED:
         raise Cancelled("the run was interrupted: the same call goes on from there")
     if not printed:  # a completed run prints a line, also for failed meshes
         last = (complaints.strip().splitlines() or [f"koebe batch ended with {process.returncode}"])[-1]
-        if process.returncode == _WRONG_USAGE:
+        if process.returncode == WRONG_USAGE:
             raise OptionError(last.removeprefix("WrongUsage: ").removesuffix(" (see koebe --help)"))
         raise KoebeError(last)
     return printed

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ._option_table import INTERRUPTED, NOT_CONVERGED, REFUSED, WRONG_USAGE
 from .errors import Cancelled, InputError, KoebeError, OptionError
 from .io.corner_mesh import mesh_with_corner_uv
 from .io.export import CUT_TEXT, export, has_one_place_a_vertex, obj_of
@@ -25,7 +26,6 @@ _WRITE_NO_MESH = ("module", "compare", "batch", "sequence", "flatten")
 _MAKE_CUTS = ("parts", "ring", "torus", "schottky")
 _WRITE_A_SURFACE = ("fill", "lift", "transfer")
 _ONLY_OWN_FORMATS = ("batch", "sequence")
-_WRONG_USAGE, _REFUSED, _NOT_CONVERGED, _INTERRUPTED = 2, 3, 4, 130
 _REGION = "--region"
 
 
@@ -47,21 +47,22 @@ def _is_foreign(word: str) -> bool:
 def run(command: str, words: Sequence[str]) -> int:
     """The exit code of the command with converted files."""
     if words[0] in _ONLY_OWN_FORMATS:
-        print(f"koebe: {words[0]} takes OBJ, OFF, PLY, STL and GLB files: convert the others before", file=sys.stderr)
-        return _WRONG_USAGE
+        names = ", ".join(one[1:].upper() for one in NATIVE)
+        print(f"koebe: {words[0]} takes {names} files: convert the others before", file=sys.stderr)
+        return WRONG_USAGE
     try:
         with tempfile.TemporaryDirectory(prefix="koebe-") as folder:
             return _Conversion(command, folder, list(words)).run()
     except KeyboardInterrupt:
-        return _INTERRUPTED
+        return INTERRUPTED
     except Cancelled:
-        return _INTERRUPTED
+        return INTERRUPTED
     except OptionError as error:
         print(f"koebe: {error}", file=sys.stderr)
-        return _WRONG_USAGE
+        return WRONG_USAGE
     except (KoebeError, OSError) as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
-        return _REFUSED
+        return REFUSED
 
 
 @dataclass
@@ -112,7 +113,7 @@ class _Conversion:
             ball = f"{output}.sphere"
             words.append(f"--sphere={self._temporary(ball)}")
         code = self._call(words)
-        if code in (0, _NOT_CONVERGED):
+        if code in (0, NOT_CONVERGED):
             self._write(output, sphere, ball)
         return code
 
@@ -150,7 +151,7 @@ class _Conversion:
             printed, complaints = (text.replace(place, word) for text in (printed, complaints))
         sys.stdout.write(printed)
         sys.stderr.write(complaints)
-        if process.returncode in (0, _NOT_CONVERGED):
+        if process.returncode in (0, NOT_CONVERGED):
             self._rename_input(words)
         return process.returncode
 

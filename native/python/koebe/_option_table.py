@@ -13,6 +13,14 @@ _RANGE = {"above": (operator.gt, "above"), "min": (operator.ge, "from"),
           "max": (operator.le, "to"), "below": (operator.lt, "to below")}  # fmt: skip
 
 
+def table(name: str) -> Any:
+    """A table that the command and Python have in common: "options" or "exit_codes"."""
+    return json.loads(Path(__file__).with_name(f"{name}.json").read_text("utf-8"))
+
+
+DONE, _, WRONG_USAGE, REFUSED, NOT_CONVERGED, INTERRUPTED = (code for _, code, _ in table("exit_codes"))
+
+
 @dataclass(frozen=True)
 class Row:
     """An option of one map.
@@ -59,7 +67,6 @@ class Row:
 @functools.cache
 def rows(of: str) -> dict[str, Row]:
     """The options of a map in Python, by their names."""
-    table = json.loads((Path(__file__).with_name("options.json")).read_text("utf-8"))
     return {
         row["name"]: Row(
             row["name"],
@@ -72,6 +79,6 @@ def rows(of: str) -> dict[str, Row]:
             row.get("range", {}),
             "with" in row,
         )
-        for row in table
+        for row in table("options")
         if of in row["maps"].split() and "python" in row.get("in", "python")
     }

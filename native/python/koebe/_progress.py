@@ -1,11 +1,26 @@
 """The progress and the cancel of a call that consists of several native calls."""
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypedDict
 
 from ._native import _koebe
 from ._options import callback, token
-from ._signatures import Progress
 from .errors import Cancelled
+
+Progress = Callable[[float, str], Any]
+
+
+class SurfaceOptions(TypedDict, total=False):
+    """Which part of the surface is meant."""
+
+    mask: Any
+
+
+class RunOptions(SurfaceOptions, total=False):
+    """Options of each call that takes a while."""
+
+    progress: Progress | None
+    cancel: "_koebe.CancelToken | None"
 
 
 class Run:

@@ -5,9 +5,9 @@
 #include "cli/options/validators.h"
 #include "cli/options/wrong_usage.h"
 #include "cli/process/end_with_input.h"
-#include "cli/process/exit_code.h"
 #include "cli/process/result_line.h"
 #include "cli/process/standard_streams.h"
+#include "exit_code.h"
 
 #include "batch/batch_run.h"
 #include "batch/file_list.h"
@@ -15,6 +15,7 @@
 #include "batch/program.h"
 #include "batch/summary.h"
 #include "core/counted.h"
+#include "io/mesh_formats.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -82,7 +83,7 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
         ->check(number_in({.above = 0.0}))
         ->type_name("SECONDS");
     app.add_option("--format", request.format, "format of the written meshes")
-        ->check(CLI::IsMember({"obj", "ply"}))
+        ->check(CLI::IsMember(io::format_names(io::FormatName::bare, true)))
         ->capture_default_str();
     app.add_flag("--retry", request.retry, "try meshes again that could not be mapped");
     app.add_option("--stale", request.stale, "seconds without a sign of life until another host's claim is taken over")

@@ -3,9 +3,9 @@
 #include "cli/commands/subcommand.h"
 #include "cli/options/wrong_usage.h"
 #include "cli/process/error_line.h"
-#include "cli/process/exit_code.h"
 #include "cli/process/scarce_memory.h"
 #include "cli/process/standard_streams.h"
+#include "exit_code.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -22,6 +22,7 @@
 
 namespace {
 
+using namespace koebe;
 using namespace koebe::cli;
 
 int fail(const std::string& line, int code)

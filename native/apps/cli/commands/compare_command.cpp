@@ -6,10 +6,10 @@
 #include "cli/files/output_files.h"
 #include "cli/options/map_request.h"
 #include "cli/options/option_table.h"
-#include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "cli/process/standard_streams.h"
+#include "exit_code.h"
 
 #include "core/errors.h"
 #include "execution/detachable_run.h"

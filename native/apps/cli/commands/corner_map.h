@@ -17,13 +17,13 @@ namespace koebe::cli {
 
 /// Writes the mesh with UVs per corner.
 template <typename Result>
-void write_corners(MapKind<Result>& kind, WrittenFormat format)
+void write_corners(MapKind<Result>& kind, const MeshFormat* format)
 {
     kind.corner_uvs = [](const MeshInput& input, const Result& result) {
         return polygon_corner_uvs(input.mapped_polygons(), input.triangulation, result.uv);
     };
     kind.write_mesh = [format, uvs = kind.corner_uvs](AtomicFile& file, const MeshInput& input, const Result& result) {
-        return write_with_corner_uvs(file, format, input.polygons, uvs(input, result), {input.file});
+        return write_with_corner_uvs(file, *format, input.polygons, uvs(input, result), {input.file});
     };
 }
 
@@ -79,7 +79,7 @@ struct CornerMapHelp {
     const char* surface;
     const char* picture;  ///< description of --svg; empty: there is no such option
     const char* uvs = "texture coordinates of corners in [0, 1]^2";
-    const char* sphere = nullptr;  ///< description of --sphere; null: there is no such option
+    bool has_sphere = false;       ///< whether there is an option --sphere
     const char* output = nullptr;  ///< description of an OUT that is no mesh with `uvs`
     void (*check)(MapRequest&) = check_map_files;
 };
@@ -101,7 +101,12 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
     add_options(*options, help.name, request->of_files);
     request->show.add(*options, help.name, "show");
     request->importance.add(*options, help.name, "importance");
-    if (help.sphere != nullptr) options->add_option("--sphere", request->sphere, help.sphere)->type_name("FILE");
+    if (help.has_sphere)
+        options
+            ->add_option("--sphere", request->sphere,
+                         "write the sphere itself there, " + io::listed_formats(io::FormatName::word, true) +
+                             ": the same faces, their vertices on the unit sphere")
+            ->type_name("FILE");
     add_report_options(*options, *request, help.picture);
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
     options->callback([request, name = help.name, check = help.check] {

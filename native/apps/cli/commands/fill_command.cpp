@@ -6,10 +6,10 @@
 #include "cli/options/map_request.h"
 #include "cli/options/option_table.h"
 #include "cli/options/validators.h"
-#include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/result_line.h"
 #include "cli/process/standard_streams.h"
+#include "exit_code.h"
 
 #include "core/counted.h"
 #include "execution/detachable_run.h"
@@ -26,7 +26,7 @@ namespace {
 
 struct FillRequest {
     std::string input, output, outer = "longest";
-    WrittenFormat format = WrittenFormat::obj;
+    const MeshFormat* format = nullptr;
     std::vector<Index> loops;
     FileOptions of_files;
     bool all = false, quiet = false;
@@ -106,7 +106,7 @@ int run_fill(const FillRequest& request)
     if (filled.mesh.face_count() == input->polygons.face_count())
         warnings.push_back({WarningKind::no_hole, "there is no hole: the only boundary is the outer one"});
     const std::vector<Warning> losses =
-        write_with_patches(file, request.format, filled.mesh, filled.patch, {input->file});
+        write_with_patches(file, *request.format, filled.mesh, filled.patch, {input->file});
     warnings.insert(warnings.end(), losses.begin(), losses.end());
     context.checkpoint();
     file.commit();

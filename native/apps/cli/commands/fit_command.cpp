@@ -61,14 +61,10 @@ Subcommand add_fit(CLI::App& app)
 {
     auto request = std::make_shared<FitRequest>();
     CLI::App* options = app.add_subcommand("fit", "map a surface with holes to circles at given places");
-    options->add_option("IN", request->input, "surface with holes: OBJ, OFF, PLY, STL or GLB")->required();
+    add_input(*options, request->input, "surface with holes");
     options->add_option("TEMPLATE", request->wanted, "JSON file: centres and radii of the circles (docs/fit.md)")
         ->required();
-    options
-        ->add_option(
-            "OUT", request->output,
-            "OBJ or PLY to write (GLB from GLB): the same vertices and faces, with texture coordinates in [0, 1]^2")
-        ->required();
+    add_mapped_mesh(*options, *request);
     options->add_flag("--extremal", request->extremal, "least largest |mu|, nearly; takes longer");
     add_options(*options, "shapes", request->options);
     add_options(*options, "shapes", request->of_files);

@@ -36,8 +36,8 @@ std::vector<Warning> write_lifted(AtomicFile& file, const LiftRequest& request, 
     PolygonMesh mesh{result.vertices, {result.triangles.data(), result.triangles.data() + result.triangles.size()}};
     for (Index f = 1; f <= static_cast<Index>(result.triangles.rows()); ++f) mesh.face_begin.push_back(3 * f);
     const MeshFile no_file;
-    if (result.uv.rows() > 0) return write_with_corner_uvs(file, request.format, mesh, result.uv, {no_file});
-    return write_with_patches(file, request.format, mesh, result.patch, {no_file});
+    if (result.uv.rows() > 0) return write_with_corner_uvs(file, *request.format, mesh, result.uv, {no_file});
+    return write_with_patches(file, *request.format, mesh, result.patch, {no_file});
 }
 
 int run_lift(const LiftRequest& request)
@@ -93,7 +93,8 @@ Subcommand add_lift(CLI::App& app)
         ->required()
         ->check(CLI::Validator(not_a_pattern, ""));
     add_output(*options, request->output,
-               "OBJ or PLY to write, with texture coordinates unless it is a solid, or STL or 3MF");
+               io::listed_formats(io::FormatName::word, true) +
+                   " to write, with texture coordinates unless it is a solid, or STL or 3MF");
     add_options(*options, "lift", request->chosen);
     add_options(*options, "lift", request->of_files);
     request->graded.add(*options, "lift", "graded");

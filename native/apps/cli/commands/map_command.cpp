@@ -37,7 +37,7 @@ MapKind<UniformizeResult> disk_map(const MapRequest& request)
     MapKind<UniformizeResult> kind;
     kind.write_mesh = [format = request.format](AtomicFile& file, const MeshInput& input,
                                                 const UniformizeResult& result) {
-        return write_with_uvs(file, format, input.polygons, result.uv, {input.file});
+        return write_with_uvs(file, *format, input.polygons, result.uv, {input.file});
     };
     kind.corner_uvs = [](const MeshInput& input, const UniformizeResult& result) {
         return PlanarPoints(0.5 * (1.0 + result.uv(input.polygons.corners, Eigen::all).array()));

@@ -3,13 +3,13 @@
 
 #include "cli/commands/map_kind.h"
 #include "cli/commands/scene_run.h"
-#include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "cli/process/result_line.h"
 #include "cli/process/standard_streams.h"
 #include "execution/stopwatch.h"
 #include "execution/thread_share.h"
+#include "exit_code.h"
 #include "io/extension.h"
 #include "report/json.h"
 

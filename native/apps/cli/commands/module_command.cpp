@@ -8,10 +8,10 @@
 #include "cli/options/option_table.h"
 #include "cli/options/validators.h"
 #include "cli/options/wrong_usage.h"
-#include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "cli/process/standard_streams.h"
+#include "exit_code.h"
 
 #include "certified/capacities.h"
 #include "core/counted.h"

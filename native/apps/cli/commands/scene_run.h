@@ -3,10 +3,10 @@
 
 #include "cli/commands/map_kind.h"
 #include "cli/files/scene_input.h"
-#include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "execution/stopwatch.h"
+#include "exit_code.h"
 #include "io/gltf_writer.h"
 
 #include <string>

@@ -160,7 +160,7 @@ Subcommand add_sequence(CLI::App& app)
         ->required()
         ->type_name("FOLDER");
     options->add_option("--format", request->extension, "format of the written meshes")
-        ->check(CLI::IsMember({"obj", "ply"}))
+        ->check(CLI::IsMember(io::format_names(io::FormatName::bare, true)))
         ->capture_default_str();
     add_options(*options, "sequence", request->options);
     add_options(*options, "sequence", request->of_files);

@@ -2,11 +2,12 @@
 
 #include "cli/options/option_table.h"
 #include "cli/process/error_line.h"
-#include "cli/process/exit_code.h"
 #include "execution/detachable_run.h"
+#include "exit_code.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/file_error.h"
+#include "io/mesh_formats.h"
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"
 #include "shape/module_error.h"
@@ -77,7 +78,8 @@ std::vector<std::string> mesh_files(const std::vector<std::string>& paths)
         for (fs::directory_iterator entry(path, failed), end; !failed && entry != end; entry.increment(failed))
             if (io::is_mesh_file(entry->path()) && !entry->is_directory()) found.push_back(entry->path().string());
         if (failed) io::fail("cannot read " + path, failed);
-        if (found.empty()) throw InputError("the folder " + path + " holds no OBJ, OFF, PLY, STL or GLB file");
+        if (found.empty())
+            throw InputError("the folder " + path + " holds no " + io::listed_formats(io::FormatName::word) + " file");
         std::ranges::sort(found);
         files.insert(files.end(), found.begin(), found.end());
     }

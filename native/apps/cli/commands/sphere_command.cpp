@@ -30,7 +30,7 @@ int run_sphere(const CornerMapRequest<SphereOptions>& request)
         return result;
     };
     kind.write_sphere = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        return write_with_corner_uvs(file, required_format(request.sphere), on_unit_sphere(input, result),
+        return write_with_corner_uvs(file, *required_format(request.sphere), on_unit_sphere(input, result),
                                      polygon_corner_uvs(input.mapped_polygons(), input.triangulation, result.uv),
                                      {input.file, true});
     };
@@ -47,15 +47,14 @@ int run_sphere(const CornerMapRequest<SphereOptions>& request)
 
 Subcommand add_sphere(CLI::App& app)
 {
-    return add_corner_map<SphereOptions>(
-        app,
-        {.name = "sphere",
-         .does = "map a surface without handles to the sphere, its holes round",
-         .surface = "surface of genus 0, closed or with holes",
-         .picture = "write a picture of the sphere there, front and back",
-         .uvs = "texture coordinates of corners",
-         .sphere = "write the sphere itself there, OBJ or PLY: the same faces, their vertices on the unit sphere"},
-        run_sphere);
+    return add_corner_map<SphereOptions>(app,
+                                         {.name = "sphere",
+                                          .does = "map a surface without handles to the sphere, its holes round",
+                                          .surface = "surface of genus 0, closed or with holes",
+                                          .picture = "write a picture of the sphere there, front and back",
+                                          .uvs = "texture coordinates of corners",
+                                          .has_sphere = true},
+                                         run_sphere);
 }
 
 }  // namespace koebe::cli

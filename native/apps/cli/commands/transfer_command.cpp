@@ -6,11 +6,11 @@
 #include "cli/files/output_files.h"
 #include "cli/options/map_request.h"
 #include "cli/options/option_table.h"
-#include "cli/process/exit_code.h"
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "cli/process/result_line.h"
 #include "cli/process/standard_streams.h"
+#include "exit_code.h"
 
 #include "execution/detachable_run.h"
 #include "io/atomic_file.h"
@@ -31,7 +31,7 @@ namespace {
 
 struct TransferRequest {
     std::string first, second, output, json, landmarks;
-    WrittenFormat format = WrittenFormat::obj;
+    const MeshFormat* format = nullptr;
     bool aligned_only = false, extremal = false, quiet = false;
     UniformizeOptions options;
     FileOptions of_files;
@@ -144,7 +144,7 @@ int run_transfer(const TransferRequest& request)
     add_losses("A: ", a->warnings, warnings);
     add_losses("B: ", b->warnings, warnings);
     std::ranges::move(
-        write_with_uvs(files.emplace_back(request.output), request.format, moved, a->surface.uv, {a->mesh.file, true}),
+        write_with_uvs(files.emplace_back(request.output), *request.format, moved, a->surface.uv, {a->mesh.file, true}),
         std::back_inserter(warnings));
     if (!request.json.empty())
         files.emplace_back(request.json)
@@ -167,7 +167,8 @@ Subcommand add_transfer(CLI::App& app)
         app.add_subcommand("transfer", "the points of surface A on surface B, through the two circle domains");
     add_input(*options, request->first, "surface with holes", "A");
     options->add_option("B", request->second, "surface with the same number of holes")->required();
-    add_output(*options, request->output, "OBJ or PLY to write: A's faces, with A's vertices moved onto B");
+    add_output(*options, request->output,
+               io::listed_formats(io::FormatName::word, true) + " to write: A's faces, with A's vertices moved onto B");
     options->add_flag("--no-fit", request->aligned_only,
                       "only lay the domains over each other: bend no hole onto another hole");
     options

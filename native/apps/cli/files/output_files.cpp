@@ -11,13 +11,13 @@
 
 namespace koebe::cli {
 
-WrittenFormat required_format(const std::string& out)
+const MeshFormat* required_format(const std::string& out)
 {
-    if (const auto format = written_format(out)) return *format;
+    if (const MeshFormat* const format = written_format(out)) return format;
     const std::string extension = std::filesystem::path(out).extension().string();
     throw CLI::ValidationError("OUT", (extension.empty() ? "'" + out + "' names no format"
                                                          : "the format '" + extension + "' cannot be written") +
-                                          ": OUT must end in .obj or .ply");
+                                          ": OUT must end in " + io::listed_formats(io::FormatName::extension, true));
 }
 
 void require_different_files(const std::vector<OutputFile>& outputs, const std::vector<std::string>& inputs,

@@ -14,7 +14,7 @@ struct OutputFile {
 };
 
 /// @throws CLI::ValidationError OUT does not have an extension of a format that can be written
-WrittenFormat required_format(const std::string& out);
+const MeshFormat* required_format(const std::string& out);
 
 inline constexpr const char* glb_extension = ".glb";
 

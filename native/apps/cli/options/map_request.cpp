@@ -13,7 +13,9 @@ void require_glb_files(const MapRequest& request)
 {
     if (io::lower_extension(request.input) != glb_extension)
         throw CLI::ValidationError("OUT", "only a GLB file is written as GLB: IN must end in .glb, too");
-    if (!request.sphere.empty()) throw CLI::ValidationError("--sphere", "needs an OUT that ends in .obj or .ply");
+    if (!request.sphere.empty())
+        throw CLI::ValidationError("--sphere",
+                                   "needs an OUT that ends in " + io::listed_formats(io::FormatName::extension, true));
 }
 
 }  // namespace
@@ -21,7 +23,7 @@ void require_glb_files(const MapRequest& request)
 CLI::Option* add_input(CLI::App& app, std::string& path, const std::string& surface, const std::string& name,
                        const std::string& more)
 {
-    return app.add_option(name, path, surface + ": OBJ, OFF, PLY, STL or GLB" + more)->required();
+    return app.add_option(name, path, surface + ": " + io::listed_formats(io::FormatName::word) + more)->required();
 }
 
 void add_output(CLI::App& app, std::string& path, const std::string& description)
@@ -29,11 +31,17 @@ void add_output(CLI::App& app, std::string& path, const std::string& description
     app.add_option("OUT", path, description)->required();
 }
 
+void add_mapped_mesh(CLI::App& app, MapRequest& request, const std::string& coordinates)
+{
+    add_output(app, request.output,
+               io::listed_formats(io::FormatName::word, true) +
+                   " to write (GLB from GLB): the same vertices and faces, with " + coordinates);
+}
+
 void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface, const std::string& coordinates)
 {
     add_input(app, request.input, surface);
-    add_output(app, request.output,
-               "OBJ or PLY to write (GLB from GLB): the same vertices and faces, with " + coordinates);
+    add_mapped_mesh(app, request, coordinates);
 }
 
 void add_report_options(CLI::App& app, MapRequest& request, const std::string& picture)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cli/files/output_files.h"
-#include "core/option_list.h"
 #include "io/mesh_writer.h"
 #include "pipeline/options.h"
 
@@ -19,14 +18,12 @@ namespace koebe::cli {
 struct FileOptions {
     std::optional<double> weld = {};  ///< distance of vertices that are joined in the map (io/welding.h)
     int uv_channel = 0;               ///< the set of UVs that is written, where a file has several
-
-    KOEBE_OPTIONS(FileOptions, weld, uv_channel)
 };
 
 struct MapRequest {
     std::string input, output, json, svg;
-    std::string sphere;                         ///< for `koebe sphere`: the sphere as a mesh
-    WrittenFormat format = WrittenFormat::obj;  ///< of OUT
+    std::string sphere;                  ///< for `koebe sphere`: the sphere as a mesh
+    const MeshFormat* format = nullptr;  ///< of OUT; null: GLB
     UniformizeOptions options;
     FileOptions of_files;
     bool quiet = false;
@@ -38,6 +35,9 @@ CLI::Option* add_input(CLI::App& app, std::string& path, const std::string& surf
                        const std::string& more = "");
 /// Adds OUT.
 void add_output(CLI::App& app, std::string& path, const std::string& description);
+/// Adds OUT for the mapped mesh.
+void add_mapped_mesh(CLI::App& app, MapRequest& request,
+                     const std::string& coordinates = "texture coordinates in [0, 1]^2");
 /// Adds IN and OUT. @param surface description of IN @param coordinates description of OUT's
 void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& surface = "surface with holes",
                         const std::string& coordinates = "texture coordinates in [0, 1]^2");

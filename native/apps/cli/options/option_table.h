@@ -3,6 +3,7 @@
 
 #include "cli/options/validators.h"
 #include "core/types.h"
+#include "each_option.h"
 #include "iteration/sweep_order.h"
 #include "pipeline/options.h"
 
@@ -49,7 +50,7 @@ CLI::Option* add_steps(CLI::App& app, const OptionRow& row, Sweep& steps);
 template <typename Options>
 void add_options(CLI::App& app, std::string_view map, Options& options)
 {
-    Options::each_option([&]<typename Field, typename Owner>(const char* name, Field Owner::*member) {
+    each_option<Options>([&]<typename Field, typename Owner>(const char* name, Field Owner::*member) {
         const OptionRow* const row = find_row(map, name);
         if (row == nullptr) return;
         Owner& owner = options;
@@ -75,7 +76,7 @@ template <typename Options>
 nlohmann::ordered_json option_report(std::string_view map, const Options& options)
 {
     nlohmann::ordered_json report = nlohmann::ordered_json::object();
-    Options::each_option([&]<typename Field, typename Owner>(const std::string& name, Field Owner::*member) {
+    each_option<Options>([&]<typename Field, typename Owner>(const std::string& name, Field Owner::*member) {
         const OptionRow* const row = find_row(map, name);
         if (row == nullptr || name == "threads" || name == "uv_channel") return;
         const Owner& owner = options;

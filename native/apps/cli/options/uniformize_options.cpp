@@ -25,7 +25,7 @@ void add_uniformize_options(CLI::App& app, UniformizeOptions& options, bool& cut
 void check_uniformize_options(const CLI::App& app, const UniformizeOptions& options, bool cut)
 {
     const KoebeMeshOptions& mesh = options.mesh;
-    KoebeMeshOptions::each_option([&](const char* name, auto) {
+    each_option<KoebeMeshOptions>([&](const char* name, auto) {
         const OptionRow* const row = find_row(uniformize_map, name);
         if (row != nullptr && options.engine != Engine::mesh && app.count(row->flag()) > 0)
             throw CLI::ValidationError(row->flag(), "needs --engine mesh");

@@ -1,6 +1,6 @@
 #include "cli/process/end_with_input.h"
 
-#include "cli/process/exit_code.h"
+#include "exit_code.h"
 
 #include <uv.h>
 

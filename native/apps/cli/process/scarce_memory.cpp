@@ -1,6 +1,6 @@
 #include "cli/process/scarce_memory.h"
 
-#include "cli/process/exit_code.h"
+#include "exit_code.h"
 #include "io/atomic_file.h"
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // Runs before the libraries start.
-#include "cli/process/exit_code.h"
+#include "exit_code.h"
 
 #include <new>
 #include <string_view>

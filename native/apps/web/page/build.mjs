@@ -20,7 +20,11 @@ await esbuild.build({
 });
 const worker = readFileSync(join(command, "koebe.js"), "utf8") + text("worker.js");
 write("worker.js", (await esbuild.transform(worker, { minify: true, target: "es2022" })).code);
-write("index.html", text("index.html").replace("/* style.css */", (await esbuild.transform(text("style.css"), { loader: "css", minify: true })).code));
+const rows = text("../../../io/io/mesh_formats.cpp").matchAll(/^ {4}\{"\.(\w+)"/gm);
+const formats = [...rows].map((row) => row[1]);
+const page = text("index.html").replace("EXTENSIONS", formats.map((one) => `.${one}`).join(","))
+  .replace("FORMATS", formats.join(", ").toUpperCase());
+write("index.html", page.replace("/* style.css */", (await esbuild.transform(text("style.css"), { loader: "css", minify: true })).code));
 copyFileSync(join(command, "koebe.wasm"), join(out, "koebe.wasm"));
 copyFileSync(join(here, "../../../blend_samples/face.obj"), join(out, "face.obj"));
 const hash = createHash("sha256");

@@ -9,8 +9,8 @@ import { saveButtons } from "./saving.js";
 import { SurfaceView } from "./surface_view.js";
 
 const $ = (id) => document.getElementById(id);
-const formats = /\.(obj|ply|stl|off|glb)$/i;
-const prices = { "-2": 0.0009, "-1": 0.0018, 0: 0.0037, 1: 0.0075, 2: 0.015 }; // the middle one is the command's own
+const extensions = $("file").accept.split(",");
+const prices = { "-2": 0.0009, "-1": 0.0018, 1: 0.0075, 2: 0.015 }; // about a factor of 2 each; 0: the command's own
 
 /** What is mapped, and how. `center` has the vertices of --center and --point, `circles` is a template. */
 const state = { file: null, shape: "disk", even: 0, balance: "none", price: 0, center: null, circles: null, result: null };
@@ -33,7 +33,7 @@ const domain = new DomainView($("domain"), $("circles"), {
 
 function jobOf({ file, shape, even, balance, price, center, circles }) {
   if (shape === "parts") {
-    const flags = ["--price", String(prices[price])];
+    const flags = prices[price] ? ["--price", String(prices[price])] : [];
     if (even > 0) flags.push("--even", String(even));
     return { file, command: "parts", flags };
   }
@@ -165,7 +165,8 @@ function moveDisk(a) {
 // ---------------------------------------------------------------- what is opened
 
 async function open(name, buffer) {
-  if (!formats.test(name)) return say("Koebe UV reads OBJ, PLY, STL, OFF and GLB.", true);
+  if (!extensions.some((one) => name.toLowerCase().endsWith(one)))
+    return say(`Koebe UV reads ${extensions.map((one) => one.slice(1).toUpperCase()).join(", ")}.`, true);
   try {
     let file = { name, bytes: new Uint8Array(buffer) };
     // What three.js cannot read goes to the command as it is, which says why.

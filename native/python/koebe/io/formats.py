@@ -17,9 +17,10 @@ from typing import Any
 
 import numpy as np
 
+from .._native import _koebe
 from ..errors import FileError, InputError, KoebeError
 
-NATIVE = (".obj", ".off", ".ply", ".stl", ".glb")
+NATIVE: tuple[str, ...] = tuple(_koebe.mesh_formats)
 MESHIO = (".vtk", ".vtu", ".xdmf", ".xmf", ".msh", ".mesh", ".meshb", ".med", ".su2", ".tec", ".inp", ".bdf", ".nas")
 PYVISTA = (".vtp",)
 GIFTI = (".gii", ".gii.gz")

@@ -12,8 +12,8 @@ import numpy as np
 from .._arrays import as_indices
 from .._native import _koebe
 from .._options import flag, whole
-from .._progress import Run
-from .._signatures import Progress, Rims
+from .._progress import Progress, Run
+from .._signatures import Rims
 from ..errors import InputError
 from ..io.files import whole_file
 from ..maps.sphere import SphereMap

@@ -10,7 +10,7 @@ import numpy as np
 from .._arrays import as_indices, as_numbers, as_points
 from .._native import _koebe
 from .._options import callback, flag, takes, token, vertex
-from .._signatures import FitOptions
+from .._signatures import ShapesOptions
 from ..errors import InputError
 from ..maps.input import polygons_of, surface_of
 from ..maps.result import Source, UniformizeResult, with_origin
@@ -18,6 +18,15 @@ from ..maps.uniformize import solver_options
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+
+
+class FitOptions(ShapesOptions, total=False):
+    """Options of `fit_circles`."""
+
+    names: Sequence[str] | None
+    pins: Mapping[int, tuple[int, float]] | None
+    fixed: Sequence[int]
+    extremal: bool
 
 
 class Distortion(TypedDict):

@@ -15,9 +15,9 @@ from .._arrays import as_circles, as_indices, as_numbers, as_points
 from .._native import _koebe
 from .._option_table import rows
 from .._options import choice, choice_of, flag, whole
-from .._progress import Run
+from .._progress import Progress, Run
 from .._report_entries import Warning
-from .._signatures import Progress, Rims
+from .._signatures import Rims
 from ..errors import InputError, OptionError
 from ..maps.result import UniformizeResult
 

@@ -11,8 +11,7 @@ import numpy as np
 from .._arrays import as_points
 from .._native import _koebe
 from .._options import whole
-from .._progress import Run
-from .._signatures import Progress
+from .._progress import Progress, Run
 from ..errors import InputError, KoebeError, OptionError, SolverError
 from ..maps.input import surface_of
 from ..maps.result import Source, UniformizeResult

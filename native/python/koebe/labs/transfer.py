@@ -12,9 +12,8 @@ import numpy as np
 from .._arrays import as_indices, as_numbers
 from .._native import _koebe
 from .._options import callback, flag, token, vertex
-from .._progress import Run
+from .._progress import Progress, Run
 from .._report_entries import Warning
-from .._signatures import Progress
 from ..errors import InputError
 from ..maps.carry import carried, landmark_pairs
 from ..maps.result import Beltrami, UniformizeResult

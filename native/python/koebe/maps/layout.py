@@ -29,6 +29,9 @@ def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -
     return found if len(found) else None
 
 
+MOST_IMPORTANT: float = _koebe.most_important  # texel density at importance 1 over that at 0
+
+
 def pack_disks(radii: Any, margin: float = 0.02) -> tuple[np.ndarray, np.ndarray]:
     """Centres (n, 2) and radii (n,) of disks in these proportions, as large as found to fit the unit square.
 

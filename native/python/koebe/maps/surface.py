@@ -8,7 +8,8 @@ import numpy as np
 from .._arrays import as_points
 from .._native import _koebe
 from .._options import callback, takes, token
-from .._signatures import Progress, SequenceOptions
+from .._progress import Progress
+from .._signatures import SequenceOptions
 from ..errors import InputError
 from .input import is_surface, polygons_of, surface_of
 from .result import Source, UniformizeResult, with_origin
