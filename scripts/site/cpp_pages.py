@@ -31,7 +31,7 @@ WARN_IF_INCOMPLETE_DOC=NO
 WARN_AS_ERROR=FAIL_ON_WARNINGS
 MACRO_EXPANSION=YES
 EXPAND_ONLY_PREDEF=YES
-PREDEFINED=KOEBE_API= "KOEBE_OPTIONS(...)=" "KOEBE_OPTIONS_OVER(...)="
+PREDEFINED=KOEBE_API=
 """
 FILTER = Path(__file__).with_name("doxygen.sed")
 
@@ -78,13 +78,6 @@ def doxygen(folder):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     subprocess.run(["doxygen", "-"], input=settings, text=True, check=True)
-    for path in sorted((folder / "xml").glob("struct*.xml")):  # each_option serves the bindings alone
-        tree = ElementTree.parse(path)
-        for section in tree.iter("sectiondef"):
-            for member in section.findall("memberdef"):
-                if member.findtext("name") == "each_option":
-                    section.remove(member)
-        tree.write(path, encoding="utf-8", xml_declaration=True)
     stamp.write_text(digest.hexdigest())
 
 

@@ -3,7 +3,6 @@
 
 #include "core/api.h"
 #include "core/map_options.h"
-#include "core/option_list.h"
 #include "core/types.h"
 #include "execution/execution.h"
 #include "part_maps/part_map.h"
@@ -50,15 +49,6 @@ struct PartsOptions : MapOptions {
     /// true: parts that are copies or mirror images of another part lie on it (twins.h).
     bool stack = false;
     int threads = 0;  ///< most threads; 0: one for each core. The result is the same for any number
-
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        KOEBE_VISIT(PartsOptions, price, even, loops, importance, darts, density, pixels, tiles, stack, show,
-                    round_cuts)
-        MapOptions::each_option(visit);
-        KOEBE_VISIT(PartsOptions, cut, polygon, slits)
-    }
 };
 
 struct PartReport {

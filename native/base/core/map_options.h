@@ -2,7 +2,6 @@
 // users; the defaults agree with it (tests/python/test_option_table.py).
 #pragma once
 
-#include "core/option_list.h"
 #include "core/types.h"
 
 #include <vector>
@@ -15,30 +14,22 @@ enum class LoopForm { automatic, round, free };
 
 struct MapOptions {
     double most_lost = 0.01;  ///< share of the surface's area that may be lost when stored (quality/take_verdict.h)
-
-    KOEBE_OPTIONS(MapOptions, most_lost)
 };
 
 struct SweepOptions : MapOptions {
     double tolerance = 1e-6;  ///< on the change of the map in a sweep; for circles in units of the unit disk
     int max_sweeps = 50;
-
-    KOEBE_OPTIONS_OVER(MapOptions, SweepOptions, tolerance, max_sweeps)
 };
 
 /// Of a map to a domain whose UVs are cut along edges.
 struct CutDomainOptions : SweepOptions {
     std::vector<Index> polygon = {};  ///< (F) faces of one number are not cut apart; empty: each face by itself
-
-    KOEBE_OPTIONS_OVER(SweepOptions, CutDomainOptions, polygon)
 };
 
 /// Of a map that can be made more even.
 struct EvennessOptions {
     double even = 0.0;                     ///< 0: conformal, 1: true to size (even/even_map.h)
     LoopForm loops = LoopForm::automatic;  ///< with `even`
-
-    KOEBE_OPTIONS(EvennessOptions, even, loops)
 };
 
 }  // namespace koebe

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "conformal/annulus_map.h"
-#include "core/option_list.h"
 #include "iteration/disk_patch.h"
 #include "iteration/sweep_order.h"
 
@@ -29,8 +28,6 @@ struct KoebeMeshOptions {
     AnnulusBackend annulus = AnnulusBackend::harmonic;
     bool record_steps = false;  ///< keep each step's own image (KoebeOutcome::step_images)
     DiskPatchOptions patch;
-
-    KOEBE_OPTIONS(KoebeMeshOptions, partners, schedule, metric, annulus, record_steps)
 };
 
 }  // namespace koebe

@@ -1,7 +1,6 @@
 // The options of a uniformization.
 #pragma once
 
-#include "core/option_list.h"
 #include "core/types.h"
 #include "iteration/iteration_options.h"
 #include "iteration/koebe_mesh_options.h"
@@ -31,17 +30,6 @@ struct UniformizeOptions : IterationOptions, EvennessOptions {
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh
                       ///< side by side. Any number gives the same result
-
-    /// Without the mesh engine's options, which have a visitor of their own.
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        KOEBE_VISIT(UniformizeOptions, method, engine, outer, center, point)
-        SweepOptions::each_option(visit);
-        KOEBE_VISIT(UniformizeOptions, balance, importance, polish)
-        EvennessOptions::each_option(visit);
-        KOEBE_VISIT(UniformizeOptions, threads)
-    }
 };
 
 }  // namespace koebe

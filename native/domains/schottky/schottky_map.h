@@ -26,8 +26,6 @@ KOEBE_API const char* to_string(SchottkyNormalization normalization) noexcept;
 /// The tolerance is on the relative change, in a sweep, of the matrices of the disks that fill the loops.
 struct SchottkyOptions : CutDomainOptions {
     SchottkyNormalization normalization = SchottkyNormalization::area;
-
-    KOEBE_OPTIONS_OVER(CutDomainOptions, SchottkyOptions, normalization)
 };
 
 /// A handle, in the plane of the unit disk, z = 2 (u + i v) - 1 - i.

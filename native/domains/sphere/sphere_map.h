@@ -27,8 +27,6 @@ struct SphereOptions : CutDomainOptions {
     SphereLayout layout = SphereLayout::equirectangular;
     double even = 0.0;  ///< 0: conformal, 1: true to size (sphere/even_sphere.h)
     int threads = 0;    ///< at most; 0: all cores. The result is the same for any number
-
-    KOEBE_OPTIONS_OVER(CutDomainOptions, SphereOptions, layout, even, threads)
 };
 
 /// A loop on the sphere. Its roundness is measured in the disk.

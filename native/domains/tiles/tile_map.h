@@ -4,7 +4,6 @@
 #include "circles/mapped_loop.h"
 #include "core/api.h"
 #include "core/map_options.h"
-#include "core/option_list.h"
 #include "core/warning.h"
 #include "execution/execution.h"
 #include "quality/report.h"
@@ -32,14 +31,6 @@ struct TileOptions : CutDomainOptions, EvennessOptions {
     /// (V) importance of each vertex, 0 to 1, with `even` above 0: faces should be as large beside each other as it
     /// asks for (surface/importance.h). Empty or all equal: no effect.
     std::vector<double> importance = {};
-
-    template <typename Visit>
-    static void each_option(Visit&& visit)
-    {
-        KOEBE_VISIT(TileOptions, outer, inner, holes, importance)
-        CutDomainOptions::each_option(visit);
-        EvennessOptions::each_option(visit);
-    }
 };
 
 /// A loop in the tile.
