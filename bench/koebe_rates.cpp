@@ -90,7 +90,7 @@ UniformizeOptions options_of(const std::string& engine, const std::string& metho
     UniformizeOptions options;
     options.engine = engine == "mesh" ? Engine::mesh : Engine::condensed;
     options.method = method_of(method);
-    options.in_turn = method != "at-once";
+    options.gauss_seidel = method != "at-once";
     return options;
 }
 

@@ -53,8 +53,8 @@ MUTANTS = [
     ),
     (
         "native/base/linear/filled_laplacian.cpp",
-        "is_filled_ = true;\n    cholesky_.refactorize(disks);",
-        "cholesky_.refactorize(disks);",
+        "is_filled_ = true;\n    cholesky_.refactorize(blocks(disks, 0));",
+        "cholesky_.refactorize(blocks(disks, 0));",
     ),
     ("native/base/linear/factor/analysis.cpp", "l.rank[v] >= inner_count", "l.rank[v] >= 0"),
     ("native/making/lift/solid.cpp", "{b, a, count + source[a]}", "{a, b, count + source[a]}"),

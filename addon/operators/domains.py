@@ -8,7 +8,9 @@ from ..blender.targets import target_objects
 from ..jobs.domain_job import DomainJob
 from ..jobs.domain_jobs import job_type
 from ..maps.domain import Domain
-from ..maps.domains import DOMAINS
+from ..maps.handles import SCHOTTKY
+from ..maps.spheres import SPHERE
+from ..maps.tiles import RING, TORUS
 from ..state.option_properties import ACCURACY_NAMES, choice_of, mixin, option_names, written_options_of
 from .run_operator import MapOperator
 
@@ -26,7 +28,7 @@ class DomainOperator(MapOperator):
     def __init_subclass__(cls) -> None:
         cls.bl_idname = f"uv.koebe_{cls.domain.name}"
         cls.bl_label = f"Koebe {cls.domain.button}"
-        cls.bl_description = cls.domain.tooltip
+        cls.__doc__ = cls.bl_description = cls.domain.tooltip
         cls.options_shown = shown(cls.domain.name)
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> DomainJob:
@@ -34,11 +36,22 @@ class DomainOperator(MapOperator):
         return job_type(choice)(target_objects(context), written_options_of(self), choice, selected_only, refused=[])
 
 
-def _operator(domain: Domain) -> type[DomainOperator]:
-    properties = mixin(f"{domain.name.title()}Properties", option_names(domain.name))
-    bases = (DomainOperator, properties, bpy.types.Operator)
-    return type(f"UV_OT_koebe_{domain.name}", bases, {"domain": domain, "__doc__": domain.tooltip})
+class UV_OT_koebe_torus(DomainOperator, mixin("TorusProperties", option_names("torus")), bpy.types.Operator):
+    domain = TORUS
 
 
-OPERATORS = {name: _operator(domain) for name, domain in DOMAINS.items()}
-register, unregister = bpy.utils.register_classes_factory(tuple(OPERATORS.values()))
+class UV_OT_koebe_ring(DomainOperator, mixin("RingProperties", option_names("ring")), bpy.types.Operator):
+    domain = RING
+
+
+class UV_OT_koebe_sphere(DomainOperator, mixin("SphereProperties", option_names("sphere")), bpy.types.Operator):
+    domain = SPHERE
+
+
+class UV_OT_koebe_schottky(DomainOperator, mixin("SchottkyProperties", option_names("schottky")), bpy.types.Operator):
+    domain = SCHOTTKY
+
+
+CLASSES = (UV_OT_koebe_torus, UV_OT_koebe_ring, UV_OT_koebe_sphere, UV_OT_koebe_schottky)
+OPERATORS = {operator.domain.name: operator for operator in CLASSES}
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

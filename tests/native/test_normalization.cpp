@@ -175,7 +175,7 @@ TEST(Normalization, the_center_alone_turns_nothing_and_the_point_alone_only_turn
     }
 }
 
-TEST(Normalization, put_in_place_is_exact_and_changes_nothing_the_second_time)
+TEST(Normalization, normalize_is_exact_and_changes_nothing_the_second_time)
 {
     const CircleDomain domain = make_circle_domain(five_circles(), 1000);
     MapInput whole;
@@ -187,7 +187,7 @@ TEST(Normalization, put_in_place_is_exact_and_changes_nothing_the_second_time)
     map.uv << domain.points.real(), domain.points.imag();
     map.circles = domain.circles;
     map.circles.push_back({Complex(0.3, 0.1), 1e-17});  // smaller than the rounding of its centre
-    put_in_place(whole, map);
+    normalize(whole, map);
     EXPECT_EQ(at(map.uv, whole.center), Complex(0.0, 0.0));
     EXPECT_EQ(at(map.uv, whole.point), Complex(1.0, 0.0));
     for (std::size_t k = 0; k < domain.loops.size(); ++k)
@@ -196,7 +196,7 @@ TEST(Normalization, put_in_place_is_exact_and_changes_nothing_the_second_time)
     const double a = std::abs(domain.points[whole.center]);
     EXPECT_GT(map.circles.back().radius, 1e-17 * (1.0 - a) / (1.0 + a));
     const CircleMap once = map;
-    put_in_place(whole, map);
+    normalize(whole, map);
     EXPECT_TRUE(map.uv == once.uv);
     EXPECT_EQ(map.circles[2].center, once.circles[2].center);
 }

@@ -1,7 +1,6 @@
 #include "circle_domain.h"
 #include "circles/circle_fit.h"
 #include "iteration/koebe_condensed.h"
-#include "linear/condensed_laplacian.h"
 #include "linear/filled_laplacian.h"
 #include "surface/laplacian.h"
 
@@ -19,7 +18,7 @@ struct KoebeRun {
 
 /// The iteration with a Sigma for boundaries of up to so many vertices.
 KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method, std::size_t most_condensed,
-             bool in_turn = false)
+             bool gauss_seidel = false)
 {
     const EdgeLengths lengths = edge_lengths(surface, domain.triangles);
     const Index count = static_cast<Index>(surface.rows());
@@ -34,13 +33,12 @@ KoebeRun run(const CircleDomain& domain, const Vertices& surface, Method method,
     IterationOptions options;
     options.method = method;
     options.tolerance = 1e-9;
-    options.in_turn = in_turn;
-    const std::unique_ptr<BoundarySolver> condensed = condense(laplacian, domain.loops, options, most_condensed);
-    EXPECT_EQ(dynamic_cast<const CondensedLaplacian*>(condensed.get()) != nullptr,
-              domain.loops.size() == 1 || most_condensed > 0);
+    options.gauss_seidel = gauss_seidel;
+    const FactoredSurface condensed = condense(laplacian, domain.loops, options, most_condensed);
+    EXPECT_EQ(condensed.dense != nullptr, domain.loops.size() == 1 || most_condensed > 0);
     ExecutionContext context;
     KoebeRun result;
-    result.outcome = koebe_condensed(laplacian, *condensed, domain.loops, edges,
+    result.outcome = koebe_condensed(laplacian, condensed, domain.loops, edges,
                                      vertex_areas(domain.triangles, lengths, count), options, context);
     for (const VectorXcd& loop : result.outcome.loops) result.circles.push_back(fit_circle_least_squares(loop));
     return result;
@@ -105,7 +103,7 @@ TEST(SparseState, both_methods_are_one_when_all_loops_are_opened_at_once)
     EXPECT_EQ(inversive_distance_error(gk.circles, ck.circles), 0.0);
 }
 
-TEST(CondensedState, steps_in_turn_find_the_same_circles_and_gk_in_half_the_steps_of_ck)
+TEST(CondensedState, steps_gauss_seidel_find_the_same_circles_and_gk_in_half_the_steps_of_ck)
 {
     const CircleDomain domain = make_circle_domain(ten_circles(), 4000);
     const Vertices surface = lift(domain.points, Lift::enneper);

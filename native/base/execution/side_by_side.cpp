@@ -82,11 +82,11 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
         ExecutionContext own({}, {}, [&context] { context.checkpoint(); });
         std::optional<BesideOthers> beside;
         if (!others.empty()) beside.emplace();
-        double told = 0.0;
+        double reported = 0.0;
         run(own, [&] {
             const double share = static_cast<double>(shared.done) / static_cast<double>(count);
-            if (share < told + least_report) return context.checkpoint();
-            told = share;
+            if (share < reported + least_report) return context.checkpoint();
+            reported = share;
             context.advance(share);
         });
         context.checkpoint();

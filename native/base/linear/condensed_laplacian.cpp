@@ -23,6 +23,7 @@ SparseMatrix shifted_and_cut(const SparseMatrix& laplacian, const std::vector<ch
             for (Index column = static_cast<Index>(from); column < static_cast<Index>(until); ++column) work(column);
         });
     };
+    // Count, then fill: columns can then be filled side by side.
     each_column([&](Index column) {
         Index count = is_cut[column] ? 1 : 0;
         if (!is_cut[column])

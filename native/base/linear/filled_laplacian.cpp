@@ -31,6 +31,7 @@ SparseMatrix with_room_for_disks(const SparseMatrix& laplacian, const std::vecto
         std::sort(sorted[k].begin(), sorted[k].end());
         entries += static_cast<std::ptrdiff_t>(loops[k].size() * loops[k].size());
     }
+    // Merges each sorted column of K with the sorted rows of its loop.
     SparseMatrix result(laplacian.rows(), laplacian.cols());
     result.reserve(entries);
     for (Index v = 0; v < static_cast<Index>(laplacian.cols()); ++v) {

@@ -141,6 +141,7 @@ void smooth(const PlanarMesh& mesh, const SizeField& size, std::vector<Complex>&
             const Index f = corner / 3, k = corner % 3;
             return std::pair(points[mesh.triangles(f, (k + 1) % 3)], points[mesh.triangles(f, (k + 2) % 3)]);
         };
+        // The mean of the centroids around, by area over the square of the area wanted there: small faces draw more.
         for (const Index corner : star[i]) {
             const auto [b, c] = others(corner);
             const Complex centroid = (points[v] + b + c) / 3.0;
@@ -149,6 +150,7 @@ void smooth(const PlanarMesh& mesh, const SizeField& size, std::vector<Complex>&
             sum += weight * centroid;
             mass += weight;
         }
+        // Not where a face would lose nine tenths of its area.
         const Complex target = sum / mass;
         bool safe = std::isfinite(target.real()) && std::isfinite(target.imag());
         for (const Index corner : star[i]) {

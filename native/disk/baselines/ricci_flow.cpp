@@ -86,8 +86,11 @@ public:
         KoebeOutcome& outcome = result.outcome;
         CircleState now;
         while (!outcome.converged && outcome.sweeps < options_.max_updates) {
+            // The target: curvature 0 inside, and on each loop the curvature of a circle with its present lengths.
             const double moved = update_target();
             energy_.set_target(target_);
+            // The metric of this curvature: the minimum of the convex Ricci energy. While the target moves, not farther
+            // than it moved.
             NewtonOptions newton = options_.newton;
             newton.tolerance = std::max(newton.tolerance, newton_per_target * std::min(moved, 1e-3));
             const NewtonReport report = newton_.minimize(energy_, u_, newton, context);
@@ -95,6 +98,7 @@ public:
             outcome.steps += report.steps;
             result.curvature_error = report.residuals.back();
             lay_out(result);
+            // The end: circles and target stay.
             CircleState next = circle_state(outcome.loops);
             const double change = circle_change(now, next);
             outcome.history.push_back({outcome.steps, {0, 0}, change, next.mean_roundness, next.circles});
@@ -108,6 +112,7 @@ public:
         }
         if (!outcome.converged && result.reason.empty())
             result.reason = "the boundary's target still moves after " + std::to_string(outcome.sweeps) + " updates";
+        // Faces without a triangle inequality: no metric of this curvature exists on the triangulation.
         result.target = target_;
         result.collapsed = collapsed_faces(energy_.lengths());
         if (!result.collapsed.empty()) {

@@ -102,8 +102,8 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     context.begin_stage("finish", 0.9, 1.0);
     CircleMap map = in_normal_position(flow, input);
     const std::size_t own_flips = flipped_faces(input.surface.triangles, map.uv).size();
-    map = hang_back(whole, cut, std::move(map), context);
-    put_in_place(whole, map);
+    map = with_flaps(whole, cut, std::move(map), context);
+    normalize(whole, map);
     // A surface that is not flat has no layout: flips are everywhere, and untangling them would be useless.
     const UntangleReport untangled = flow.curvature_error < flat ? remove_flips(whole, map, context) : UntangleReport{};
     report_map(vertices, triangles, whole, map, result);

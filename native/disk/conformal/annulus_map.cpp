@@ -132,6 +132,7 @@ AnnulusMap map_by_cylinder(const Triangles& triangles, const EdgeLengths& length
     const YamabeResult metric =
         yamabe_flow(triangles, lengths, VectorXd::Zero(vertex_count), {.flips = flips, .newton = {}}, context);
     const VectorXcd edges = unfolded_edges(metric.triangles, metric.lengths, metric.twin);
+    // A flat cylinder, unrolled; divided by its period, so that one turn is 1.
     VectorXcd strip = positions_along_tree(metric.triangles, edges, vertex_count) / period_of(metric, edges, outer);
     strip.array() -= strip[outer.front()];
     const auto mean_height = [&](const VertexLoop& loop) {
@@ -141,6 +142,7 @@ AnnulusMap map_by_cylinder(const Triangles& triangles, const EdgeLengths& length
     };
     strip.array() -= Complex(0.0, mean_height(outer));
 
+    // z = exp(2 pi i w): the outer loop, at height 0, goes to the unit circle.
     AnnulusMap map;
     map.positions = (Complex(0.0, two_pi) * strip).array().exp();
     const std::vector<char> unused = unused_vertices(triangles, vertex_count);

@@ -137,18 +137,21 @@ DiskMap disk_map(const Triangles& triangles, const EdgeLengths& lengths, Index v
     if (options.center >= 0 && (options.center >= vertex_count || outer[options.center]))
         throw InputError("vertex " + std::to_string(options.center) + " is no inner vertex", ElementKind::vertices,
                          {options.center});
+    // p: the vertex that goes to 0, or a point in the largest face if no vertex is inside.
     map.center = options.center >= 0 ? options.center : deepest_vertex(triangles, lengths, outer);
     Index p = map.center;
     if (p < 0) {
         surface = split_largest_face(surface);
         p = vertex_count;
     }
+    // S without a small star D_n around p is an annulus, and its map nearly the one of S.
     const Punctured punctured = remove_shrunk_star(surface, p, options.halvings);
     const AnnulusMap annulus =
         annulus_map(punctured.rest.triangles, punctured.rest.lengths, punctured.rest.vertex_count, loop, punctured.hole,
                     {.backend = options.backend, .inside = false});
     if (!annulus.converged) throw SolverError("the discrete Yamabe flow of the annulus did not converge");
     map.hole_radius = annulus.inner_radius;
+    // The rim stays, the inside is harmonic again with the star, and p goes to 0 exactly.
     const VectorXcd filled = harmonic_map(surface.triangles, surface.lengths, surface.vertex_count, loop,
                                           gather_loop(annulus.positions, loop));
     map.positions = Moebius{filled[p], Complex(1.0, 0.0)}(filled).head(vertex_count);

@@ -111,6 +111,7 @@ private:
                     region.push_back(v);
                 }
         };
+        // Vertices of these faces, then ring after ring. Rings do not grow over the outer polygon.
         for (const Index f : bad) take(f);
         std::size_t begin = 0;
         for (int ring = 0; ring < rings; ++ring) {
@@ -121,6 +122,8 @@ private:
         }
         std::erase_if(region, [&](Index v) { return complex_.outer(v); });
         const std::size_t before = complex_.taken_out();
+        // An independent set of low degree: each hole is then a small star polygon. If none can go, one that needs a
+        // chord between outer vertices.
         for (const bool chords : {false, true}) {
             std::sort(region.begin(), region.end(), [&](Index a, Index b) {
                 return std::pair(complex_.around(a).size(), a) < std::pair(complex_.around(b).size(), b);

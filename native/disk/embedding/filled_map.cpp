@@ -4,7 +4,7 @@
 #include "circles/moebius.h"
 #include "circles/on_circle.h"
 #include "core/tolerances.h"
-#include "embedding/roomy_rim.h"
+#include "embedding/widened_rim.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 
@@ -19,7 +19,7 @@ namespace koebe {
 namespace {
 
 constexpr double area_rounding = 3e-7;  // twice the area a face can lose by rounding, over its longest edge, disk units
-constexpr double roomy = 1e-4;          // of the mean area: a larger face has room
+constexpr double ample = 1e-4;          // of the mean area: a larger face has room
 constexpr int most_cautions = 4;
 // Relative decreases of the energy. The vertex for 0 gets there only when faces have made room.
 constexpr double settled_without_center = 3e-4, settled_with_center = 1e-5;
@@ -151,9 +151,9 @@ void FilledMap::start(const VectorXcd& rim, const ExecutionContext& context)
     Eigen::Index fewest = filled_.triangles.rows() + 1;
     for (const double share : {0.0, 0.3, 1.0}) {
         if (places_.center >= 0 && share < 1.0) continue;  // the given rim may leave no room for the middle
-        const VectorXcd wider = share > 0.0 ? roomy_rim(filled_, loops_[0], rim, share, places_.center) : rim;
+        const VectorXcd wider = share > 0.0 ? widened_rim(filled_, loops_[0], rim, share, places_.center) : rim;
         now_.points = convex_embedding(filled_, loops_[0], placed_rim(wider), context);
-        const double least = roomy * std::numbers::pi / static_cast<double>(filled_.triangles.rows());
+        const double least = ample * std::numbers::pi / static_cast<double>(filled_.triangles.rows());
         Eigen::Index poor = 0;
         for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) poor += !right(f) || !(area(f) > least);
         if (poor < fewest) {
@@ -214,6 +214,8 @@ FoldoverProblem FilledMap::problem(Pull pull) const
     FoldoverProblem problem;
     problem.points = now_.points;
     problem.mobility = now_.mobility;
+    // Faces that have lost their area to rounding take no part, and hold their corners. Faces of the surface want their
+    // shape on it, faces of the fans a regular one; a floor keeps the area that 32 bits need.
     const PatchShapes shapes = patch_shapes(vertices_, surface_.triangles, now_.points, faces_, pull.shape);
     std::vector<Index> taken;
     std::vector<double> floors, weights;
@@ -233,6 +235,7 @@ FoldoverProblem FilledMap::problem(Pull pull) const
     problem.triangles = filled_.triangles(taken, Eigen::all);
     problem.floor = Eigen::Map<const VectorXd>(floors.data(), static_cast<Eigen::Index>(floors.size()));
     problem.weight = Eigen::Map<const VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
+    // Loops on their circles, and the centres of fans and of the map drawn to their places.
     problem.circles.resize(filled_.vertex_count);
     for (Index v = 0; v < filled_.surface_vertices; ++v)
         if (loop_of_[v] >= 0) problem.circles[v] = now_.circles[loop_of_[v]];

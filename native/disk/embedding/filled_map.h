@@ -30,7 +30,7 @@ public:
         PatchShape shape = PatchShape::surface;  ///< wanted shape of the faces
     };
 
-    /// Starts from convex_embedding. The rim gets more room where faces have too little (roomy_rim.h).
+    /// Starts from convex_embedding. The rim gets more room where faces have too little (widened_rim.h).
     /// @param flaps the rims of flaps are not pulled to the circles of inner loops
     /// @param places vertices with fixed places; the centre is not at 0 if its faces would turn over there
     FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,

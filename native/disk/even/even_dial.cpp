@@ -15,11 +15,11 @@
 namespace koebe {
 namespace {
 
-constexpr double most = 0.6;          // of a loop: so many vertices on one circle make it round
-constexpr double stored = 2e-7;       // over the extent: rounding of 32-bit UVs
-constexpr double on_circle = 1e-5;    // over the radius: vertices as near as this lie on it, as 32-bit UVs
-constexpr double roomy_extent = 2.0;  // extent that the map may get, over its present one
-constexpr double least_even = 1e-4;   // at 0 nothing would move: this is 0, as far as one sees
+constexpr double most = 0.6;           // of a loop: so many vertices on one circle make it round
+constexpr double stored = 2e-7;        // over the extent: rounding of 32-bit UVs
+constexpr double on_circle = 1e-5;     // over the radius: vertices as near as this lie on it, as 32-bit UVs
+constexpr double extent_factor = 2.0;  // extent that the map may get, over its present one
+constexpr double least_even = 1e-4;    // at 0 nothing would move: this is 0, as far as one sees
 
 /// The circle on which most vertices of a loop lie, with these vertices. Vertices far off, such as ears, are left out.
 /// @param rounding of the points
@@ -53,6 +53,7 @@ EvenDial::EvenDial(const Vertices& vertices, const Triangles& triangles, const P
         throw InputError("the map must have a finite point for each vertex");
     Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
     if (surface.loops.empty()) throw TopologyError(TopologyKind::closed, "a closed surface has no flat map", {0});
+    // Every vertex in a face, every face upright: else there is no energy to start from.
     std::vector<char> used(static_cast<std::size_t>(vertices.rows()), 0);
     for (const Index v : triangles.reshaped()) used[v] = 1;
     std::vector<Index> unused;
@@ -70,11 +71,12 @@ EvenDial::EvenDial(const Vertices& vertices, const Triangles& triangles, const P
     }
     if (!turned.empty())
         throw InputError("the map has faces that are turned over, or without area", ElementKind::faces, turned);
+    // In the units of the surface, so that a face true to size has the determinant 1.
     scale_ = scale_to_size(vertices_, triangles_, image);
     if (!std::isfinite(scale_) || !(scale_ > 0.0))
         throw InputError("the surface has no area", ElementKind::faces, all_elements(triangles_.rows()));
     points_ *= scale_;
-    extent_ = roomy_extent * (points_.colwise().maxCoeff() - points_.colwise().minCoeff()).maxCoeff();
+    extent_ = extent_factor * (points_.colwise().maxCoeff() - points_.colwise().minCoeff()).maxCoeff();
     if (!round) return;
     for (const VertexLoop& loop : loops_)
         if (auto one = on_one_circle(loop, points_, stored * extent_)) round_.push_back(std::move(*one));

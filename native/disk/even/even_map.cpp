@@ -1,12 +1,13 @@
 #include "even/even_map.h"
 
 #include "core/errors.h"
-#include "even/void_mesh.h"
+#include "core/types.h"
 #include "even/wanted_shapes.h"
 #include "foldover/face_energy.h"
 #include "foldover/newton_system.h"
 #include "foldover/turn_upright.h"
 #include "planar/boundary_crossings.h"
+#include "planar/planar_mesh.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 #include "surface/laplacian.h"
@@ -16,11 +17,76 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace koebe {
 namespace {
+
+struct VoidMesh {
+    PlanarPoints points;  ///< (V + n, 2) points of the surface, four corners of the frame, other points of the void
+    Triangles triangles;  ///< triangles of the void only, counter-clockwise
+};
+
+constexpr double frame_margin = 0.25;  // of the extent, on each side
+constexpr PlanarMeshOptions coarse{.gradation = 1.0, .smoothing = 0};
+
+VectorXcd polygon_of(const VertexLoop& loop, const PlanarPoints& points)
+{
+    VectorXcd polygon(static_cast<Eigen::Index>(loop.size()));
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        polygon[static_cast<Eigen::Index>(i)] = Complex(points(loop[i], 0), points(loop[i], 1));
+    return polygon;
+}
+
+/// Its corners.
+VectorXcd frame_of(const PlanarPoints& points)
+{
+    const Eigen::RowVector2d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
+    const double margin = frame_margin * (high - low).maxCoeff();
+    VectorXcd frame(4);
+    frame << Complex(low[0] - margin, low[1] - margin), Complex(high[0] + margin, low[1] - margin),
+        Complex(high[0] + margin, high[1] + margin), Complex(low[0] - margin, high[1] + margin);
+    return frame;
+}
+
+/// Triangulates the space between a frame and the outer loop, and the inside of each inner loop.
+/// @param loops simple and apart; the loop that encloses most is the outer loop
+/// @throws InputError loops that are not simple, or not apart
+VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points)
+{
+    const VectorXcd frame = frame_of(points);
+    const Index first_corner = static_cast<Index>(points.rows());
+    std::vector<Complex> added(frame.begin(), frame.end());
+    std::vector<Index> corners;
+    /// @param names of the polygons' vertices; all others are new
+    const auto add = [&](const PlanarMesh& mesh, const std::vector<Index>& names) {
+        const Index known = static_cast<Index>(names.size());
+        const Index first = first_corner + static_cast<Index>(added.size()) - known;
+        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+            for (const Index v : mesh.triangles.row(f)) corners.push_back(v < known ? names[v] : first + v);
+        added.insert(added.end(), mesh.points.begin() + known, mesh.points.end());
+    };
+    const auto size = [&](const VertexLoop& loop) { return std::abs(enclosed_area(loop, points)); };
+    const auto outer = std::ranges::max_element(loops, {}, size);
+    std::vector<Index> names(4);
+    std::iota(names.begin(), names.end(), first_corner);
+    names.insert(names.end(), outer->begin(), outer->end());
+    add(planar_mesh({frame, polygon_of(*outer, points)}, coarse), names);
+    for (auto loop = loops.begin(); loop != loops.end(); ++loop)
+        if (loop != outer) add(planar_mesh({polygon_of(*loop, points)}, coarse), *loop);
+
+    VoidMesh mesh;
+    mesh.points.resize(points.rows() + static_cast<Eigen::Index>(added.size()), 2);
+    mesh.points.topRows(points.rows()) = points;
+    for (std::size_t i = 0; i < added.size(); ++i)
+        mesh.points.row(points.rows() + static_cast<Eigen::Index>(i)) << added[i].real(), added[i].imag();
+    mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+    return mesh;
+}
 
 using Mobility = FoldoverProblem::Mobility;
 
@@ -39,7 +105,7 @@ constexpr double hopeless = 100.0;         // ratio of a face's stretches: above
 constexpr std::size_t any_circle = 3;      // points lie on a circle wherever they are
 constexpr double least_gap = 1e-4;         // between loops, over the extent
 constexpr double area_rounding = 1.5e-7;   // twice the area lost by 32-bit floats, over the edge and the extent
-constexpr double roomy_face = 1000.0;      // times that: a face as large is not hindered
+constexpr double ample_face = 1000.0;      // times that: a face as large is not hindered
 constexpr double shortest_drawn = 1e-7;    // over the extent: shorter edges say nothing about a loop's course
 constexpr std::array grids{1 << 19, 1 << 20, 1 << 21, 1 << 22};  // points along the extent; 32-bit floats have 1 << 24
 
@@ -245,7 +311,7 @@ private:
             const FaceMap map = face_map(problem.reference[f], f);
             problem.weight[f] *= std::min(1.0, hopeless * map.determinant() / map.squared_norm());
             const double least = 0.5 * area_rounding * extent_ * longest_edge(at);
-            problem.floor[f] = std::min(now, wanted) > roomy_face * least ? 0.0 : std::min(least, 0.5 * now) / wanted;
+            problem.floor[f] = std::min(now, wanted) > ample_face * least ? 0.0 : std::min(least, 0.5 * now) / wanted;
         }
         problem.mobility = mobility_;
         problem.track_of = track_of_;
@@ -268,6 +334,7 @@ private:
         problem.triangles.conservativeResize(count, 3);
         problem.weight.conservativeResize(count);
         problem.floor.conservativeResize(count);
+        // A void face keeps its present shape: a light one, so that it only holds the loops apart.
         for (std::size_t i = 0; i < kept.size(); ++i) {
             const Eigen::Index f = own + static_cast<Eigen::Index>(i);
             const auto row = around.triangles.row(kept[i]);
@@ -281,6 +348,7 @@ private:
             const double longest = longest_edge(corners_of(around.points, around.triangles, kept[i]));
             problem.floor[f] = std::min(0.5 * least_gap * extent_ * longest / now, 0.5);
         }
+        // The frame is held, all else of the void is free.
         problem.mobility.resize(static_cast<std::size_t>(around.points.rows()), Mobility::free);
         for (int corner = 0; corner < 4; ++corner)
             problem.mobility[static_cast<std::size_t>(flat_.points.rows()) + corner] = Mobility::held;

@@ -19,8 +19,8 @@ constexpr double lens_reach = 0.9;   // of the way from the hinge to the middle 
 constexpr double lens_aspect = 1.0;  // height of the lens's control point over the hinge's length
 
 /// A flap with its own vertex numbers: the ends of the hinge, the rim, the interior.
-struct HangingFlap {
-    HangingFlap(const Vertices& positions, const Triangles& faces, const Flap& flap)
+struct PlacedFlap {
+    PlacedFlap(const Vertices& positions, const Triangles& faces, const Flap& flap)
         : loop(flap.loop), rim(static_cast<Index>(flap.rim.size())), names{flap.first, flap.last}
     {
         names.insert(names.end(), flap.rim.begin(), flap.rim.end());
@@ -97,7 +97,7 @@ struct HangingFlap {
     int level = 0;      // how often it has been flattened
 };
 
-void lay_on_rim(HangingFlap& flap)
+void lay_on_rim(PlacedFlap& flap)
 {
     const double begin = std::arg(flap.image[0]);
     double sweep = std::arg(flap.image[1] / flap.image[0]);
@@ -107,7 +107,7 @@ void lay_on_rim(HangingFlap& flap)
 }
 
 /// Draws the flap as flat as its level says.
-void draw(HangingFlap& flap, Complex middle)
+void draw(PlacedFlap& flap, Complex middle)
 {
     const Complex a = flap.image[0], b = flap.image[1];
     if (flap.level < lens_level) {
@@ -129,7 +129,7 @@ void draw(HangingFlap& flap, Complex middle)
 }
 
 /// Whether the flap lies inside the hole: the core loop's polygon, convex, clockwise as the surface is on its left.
-bool inside_hole(const HangingFlap& flap, const VectorXcd& hole)
+bool inside_hole(const PlacedFlap& flap, const VectorXcd& hole)
 {
     for (Index i = 0; i < flap.rim; ++i)
         for (Eigen::Index e = 0; e < hole.size(); ++e) {
@@ -139,7 +139,7 @@ bool inside_hole(const HangingFlap& flap, const VectorXcd& hole)
     return true;
 }
 
-bool chains_meet(const HangingFlap& a, const HangingFlap& b)
+bool chains_meet(const PlacedFlap& a, const PlacedFlap& b)
 {
     const auto p = a.chain(), q = b.chain();
     for (std::size_t i = 0; i + 1 < p.size(); ++i)
@@ -154,14 +154,14 @@ bool chains_meet(const HangingFlap& a, const HangingFlap& b)
 }
 
 /// Flattens flaps until each is upright, inside the hole, and apart from the others.
-void settle(std::vector<HangingFlap*>& flaps, const VectorXcd& hole, const ExecutionContext& context)
+void settle(std::vector<PlacedFlap*>& flaps, const VectorXcd& hole, const ExecutionContext& context)
 {
     const Complex middle = hole.mean();
-    for (HangingFlap* flap : flaps) {
+    for (PlacedFlap* flap : flaps) {
         flap->natural = flatten_freely(flap->vertices, flap->triangles, 0, flap->image[0], 1, flap->image[1]);
         draw(*flap, middle);
     }
-    const auto flatten = [&](HangingFlap& flap) {
+    const auto flatten = [&](PlacedFlap& flap) {
         if (flap.level == lens_level) return false;
         ++flap.level;
         draw(flap, middle);
@@ -185,25 +185,27 @@ void settle(std::vector<HangingFlap*>& flaps, const VectorXcd& hole, const Execu
 
 }  // namespace
 
-std::vector<Index> hang_flaps(const Vertices& vertices, const Triangles& triangles, const std::vector<Flap>& flaps,
-                              const std::vector<VertexLoop>& loops, PlanarPoints& uv, const ExecutionContext& context)
+std::vector<Index> lay_flaps(const Vertices& vertices, const Triangles& triangles, const std::vector<Flap>& flaps,
+                             const std::vector<VertexLoop>& loops, PlanarPoints& uv, const ExecutionContext& context)
 {
-    std::vector<HangingFlap> hanging;
+    std::vector<PlacedFlap> placed;
     std::vector<char> cut(vertices.rows(), 0);
     for (const Flap& flap : flaps) {
-        HangingFlap& item = hanging.emplace_back(vertices, triangles, flap);
+        PlacedFlap& item = placed.emplace_back(vertices, triangles, flap);
         item.image[0] = {uv(flap.first, 0), uv(flap.first, 1)};
         item.image[1] = {uv(flap.last, 0), uv(flap.last, 1)};
         for (const Index v : flap.rim) cut[v] = 1;
     }
+    // Flaps of the outer loop lie along the unit circle: a disk is convex. The others lie inside their hole, whose
+    // polygon the loop without its flaps is.
     std::vector<Index> off_circle;
     for (std::size_t k = 0; k < loops.size(); ++k) {
-        std::vector<HangingFlap*> of_loop;
-        for (HangingFlap& flap : hanging)
+        std::vector<PlacedFlap*> of_loop;
+        for (PlacedFlap& flap : placed)
             if (flap.loop == static_cast<int>(k)) of_loop.push_back(&flap);
         if (of_loop.empty()) continue;
         if (k == 0) {
-            for (HangingFlap* flap : of_loop) lay_on_rim(*flap);
+            for (PlacedFlap* flap : of_loop) lay_on_rim(*flap);
             continue;
         }
         VectorXcd hole(static_cast<Eigen::Index>(loops[k].size()));
@@ -212,10 +214,10 @@ std::vector<Index> hang_flaps(const Vertices& vertices, const Triangles& triangl
             if (!cut[v]) hole[corners++] = {uv(v, 0), uv(v, 1)};
         hole.conservativeResize(corners);
         settle(of_loop, hole, context);
-        for (const HangingFlap* flap : of_loop)
+        for (const PlacedFlap* flap : of_loop)
             off_circle.insert(off_circle.end(), flap->names.begin() + 2, flap->names.begin() + 2 + flap->rim);
     }
-    for (const HangingFlap& flap : hanging)
+    for (const PlacedFlap& flap : placed)
         for (std::size_t i = 2; i < flap.names.size(); ++i)
             uv.row(flap.names[i]) << flap.image[i].real(), flap.image[i].imag();
     return off_circle;

@@ -17,7 +17,7 @@ namespace koebe {
 /// @param uv (V, 2) of the surface; the core's vertices are given, the flaps' are filled in
 /// @param loops of the surface, the outer one first
 /// @return the vertices off their loop's circle, in the flaps' order
-std::vector<Index> hang_flaps(const Vertices& vertices, const Triangles& triangles, const std::vector<Flap>& flaps,
-                              const std::vector<VertexLoop>& loops, PlanarPoints& uv, const ExecutionContext& context);
+std::vector<Index> lay_flaps(const Vertices& vertices, const Triangles& triangles, const std::vector<Flap>& flaps,
+                             const std::vector<VertexLoop>& loops, PlanarPoints& uv, const ExecutionContext& context);
 
 }  // namespace koebe

@@ -129,6 +129,7 @@ private:
         for (std::size_t i = place_[flap.first] + 1; loop[i % loop.size()] != flap.last; ++i)
             flap.rim.push_back(loop[i % loop.size()]);
 
+        // All blocks behind the hinge, over the chords between them.
         std::vector<Index> reached{part_of_[face_of(surface_.twin[hinge])]};
         std::vector<Index> from{surface_.twin[hinge]};
         for (std::size_t head = 0; head < reached.size(); ++head) {

@@ -77,6 +77,7 @@ NewtonReport ConvexNewton::minimize(ConvexEnergy& energy, VectorXd& u, const New
             return report;
         }
         context.checkpoint();
+        // H d = -g; H 1 = 0, so the mean of d is free, and taken as 0.
         VectorXd direction;
         try {
             direction = solve(energy.hessian(), -gradient);
@@ -85,6 +86,8 @@ NewtonReport ConvexNewton::minimize(ConvexEnergy& energy, VectorXd& u, const New
             return report;
         }
         direction.array() -= direction.mean();
+        // The energy has no closed form, but it is convex: along d its slope must not yet have turned to more than half
+        // of what it was.
         const double slope = gradient.dot(direction);
         const double first = std::min(1.0, largest_change / std::max(direction.lpNorm<Eigen::Infinity>(), 1e-300));
         double step = first;

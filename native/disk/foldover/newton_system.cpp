@@ -81,6 +81,7 @@ std::vector<NewtonSystem::Column> NewtonSystem::columns(Eigen::Index f) const
 {
     std::vector<Column> result;
     for (int k = 0; k < 3; ++k) {
+        // A corner beyond a seam moves with the periods. The first period keeps its direction.
         for (std::size_t j = 0; j < problem_.periods.size(); ++j) {
             const int times = problem_.lift[f][k][j];
             if (times == 0) continue;
@@ -92,6 +93,7 @@ std::vector<NewtonSystem::Column> NewtonSystem::columns(Eigen::Index f) const
             result.push_back({first, k, times * Eigen::Vector2d::UnitX()});
             result.push_back({first + 1, k, times * Eigen::Vector2d::UnitY()});
         }
+        // A free vertex has two unknowns.
         const Index v = problem_.triangles(f, k), first = first_unknown_[v];
         if (first < 0) continue;
         if (problem_.mobility[v] == Mobility::free) {
@@ -99,6 +101,7 @@ std::vector<NewtonSystem::Column> NewtonSystem::columns(Eigen::Index f) const
             result.push_back({first + 1, k, Eigen::Vector2d::UnitY()});
             continue;
         }
+        // A vertex on a line or circle has one, along it, and moves with the centre and the radius if these are free.
         const Eigen::Vector2d along = tangent(v);
         result.push_back({first, k, along});
         if (!rides(v)) continue;
@@ -300,6 +303,7 @@ std::pair<VectorXd, double> NewtonSystem::descent()
 
 FoldoverPlaces NewtonSystem::moved(const VectorXd& step, double share) const
 {
+    // Lines, circles and periods first: the vertices on them are carried along.
     FoldoverPlaces result = problem_;
     for (std::size_t i = 0; i < result.tracks.size(); ++i)
         result.tracks[i] = problem_.tracks[i].moved(step.data() + first_of_track_[i], share);

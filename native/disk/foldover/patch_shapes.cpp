@@ -58,6 +58,8 @@ VectorXd wanted_areas(const Vertices& vertices, const Triangles& triangles, cons
                 around[corner].surface += spatial;
             }
         }
+    // The local scale at a corner: squared lengths in the map over those on the surface, of the edges around it. A
+    // face takes the geometric mean of its corners.
     const auto corner_mean = [&](std::size_t i, auto value) {
         double log_sum = 0.0;
         for (const Index corner : corners.row(i)) log_sum += std::log(std::max(value(around[corner]), 1e-300));
@@ -72,6 +74,7 @@ VectorXd wanted_areas(const Vertices& vertices, const Triangles& triangles, cons
         double factor = 1.0;
         if (shape != PatchShape::true_size)
             factor = corner_mean(i, [](const Sums& s) { return s.planar / std::max(s.surface, 1e-300); });
+        // At least a thin triangle's area, so that needles keep a size.
         const double longest = std::max({l0, l1, l2});
         areas[i] = factor * std::max(triangle_area(l0, l1, l2), 0.5 * least_height * longest * longest);
         areas[i] = std::max(areas[i], least_size * least_size);
@@ -80,6 +83,7 @@ VectorXd wanted_areas(const Vertices& vertices, const Triangles& triangles, cons
             around[corner].count += 1.0;
         }
     }
+    // Equilateral triangles have the mean area around their corners.
     if (shape == PatchShape::equilateral)
         for (std::size_t i = 0; i < faces.size(); ++i)
             areas[i] = corner_mean(i, [](const Sums& s) { return s.area / s.count; });

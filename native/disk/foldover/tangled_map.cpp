@@ -28,8 +28,7 @@ TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const s
       place_(surface.vertex_count, Place::inside),
       flap_(surface.vertex_count, 0),
       loop_of_(surface.vertex_count, -1),
-      begin_(surface.vertex_count + 1, 0),
-      faces_of_(surface.triangles.size())
+      vertex_faces_(surface.triangles, surface.vertex_count)
 {
     for (std::size_t k = 0; k < loops.size(); ++k)
         for (const Index v : loops[k]) {
@@ -40,12 +39,6 @@ TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const s
         place_[v] = Place::off_circle;
         flap_[v] = 1;
     }
-    const Triangles& triangles = surface.triangles;
-    for (Eigen::Index i = 0; i < triangles.size(); ++i) ++begin_[triangles.data()[i] + 1];
-    for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-    std::vector<Index> cursor(begin_.begin(), begin_.end() - 1);
-    for (Eigen::Index i = 0; i < triangles.size(); ++i)
-        faces_of_[cursor[triangles.data()[i]]++] = static_cast<Index>(i / 3);
 }
 
 std::vector<Index> TangledMap::tangled() const
@@ -73,9 +66,9 @@ std::size_t TangledMap::flipped(const std::vector<Index>& faces) const
 
 bool TangledMap::collapsed(Index vertex) const
 {
-    for (Index i = begin_[vertex]; i < begin_[vertex + 1]; ++i)
-        for (int k = 0; k < 3; ++k)
-            if ((uv_.row(triangles()(faces_of_[i], k)) - uv_.row(vertex)).norm() > least_edge) return false;
+    for (const Index f : faces_around(vertex))
+        for (const Index v : triangles().row(f))
+            if ((uv_.row(v) - uv_.row(vertex)).norm() > least_edge) return false;
     return true;
 }
 
@@ -86,7 +79,7 @@ bool TangledMap::mobile(Index vertex, PatchBoundary boundary) const
     return may && !held(vertex) && !collapsed(vertex);
 }
 
-bool TangledMap::hangs(Index face) const
+bool TangledMap::touches_flap(Index face) const
 {
     return std::any_of(triangles().row(face).begin(), triangles().row(face).end(),
                        [&](Index v) { return flap_[v] != 0; });

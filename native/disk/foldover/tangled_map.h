@@ -3,6 +3,7 @@
 
 #include "circles/circle.h"
 #include "mesh/topology.h"
+#include "mesh/vertex_faces.h"
 
 #include <algorithm>
 #include <span>
@@ -31,10 +32,8 @@ public:
     PlanarPoints& uv() { return uv_; }
     const PlanarPoints& uv() const { return uv_; }
 
-    std::span<const Index> faces_around(Index vertex) const
-    {
-        return {faces_of_.data() + begin_[vertex], faces_of_.data() + begin_[vertex + 1]};
-    }
+    const VertexFaces& vertex_faces() const { return vertex_faces_; }
+    std::span<const Index> faces_around(Index vertex) const { return vertex_faces_[vertex]; }
     /// The loop of a vertex; -1 inside.
     int loop_of(Index vertex) const { return loop_of_[vertex]; }
     Place place(Index vertex) const { return place_[vertex]; }
@@ -48,7 +47,7 @@ public:
     /// Whether a vertex may move, and its faces are large enough to be moved in 64-bit positions.
     bool mobile(Index vertex, PatchBoundary boundary) const;
     /// Whether a face has a vertex on the rim of a flap.
-    bool hangs(Index face) const;
+    bool touches_flap(Index face) const;
 
     /// Faces that are flipped as stored, and not below resolution.
     std::vector<Index> tangled() const;
@@ -74,7 +73,7 @@ private:
     std::vector<char> flap_;  // 1 for vertices off their circles from the start: flap rims
     std::vector<Index> held_;
     std::vector<int> loop_of_;
-    std::vector<Index> begin_, faces_of_;  // faces around each vertex
+    VertexFaces vertex_faces_;
 };
 
 }  // namespace koebe

@@ -40,17 +40,7 @@ std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std:
                                                PatchBoundary boundary)
 {
     std::vector<char> taken(map.triangles().rows(), 0);
-    std::vector<Index> region = faces;
-    for (const Index f : faces) taken[f] = 1;
-    std::size_t ring_begin = 0;
-    for (int ring = 0; ring < rings; ++ring) {
-        const std::size_t ring_end = region.size();
-        for (; ring_begin < ring_end; ++ring_begin)
-            for (int k = 0; k < 3; ++k) {
-                for (const Index f : map.faces_around(map.triangles()(region[ring_begin], k)))
-                    if (!std::exchange(taken[f], 1)) region.push_back(f);
-            }
-    }
+    for (const Index f : map.vertex_faces().with_rings(map.triangles(), faces, rings)) taken[f] = 1;
     // Vertices on the edge of the region are held: groups meet only there.
     const auto moves = [&](Index v) {
         for (const Index f : map.faces_around(v))

@@ -12,7 +12,9 @@ enum class Method { gk, ck, against_outer };
 
 struct IterationOptions : SweepOptions {
     Method method = Method::gk;
-    bool in_turn = false;  ///< the condensed engine takes GK's steps one after another, too (koebe_condensed)
+    /// The condensed engine takes GK's steps one after another too, each from the angles of the last one: block
+    /// Gauss-Seidel, as the paper has it, in place of block Jacobi (koebe_condensed).
+    bool gauss_seidel = false;
 };
 
 }  // namespace koebe

@@ -7,8 +7,6 @@
 #include "iteration/grounded_state.h"
 #include "iteration/sparse_state.h"
 #include "iteration/sweep_order.h"
-#include "linear/condensed_laplacian.h"
-#include "linear/filled_laplacian.h"
 #include "surface/deepest_vertex.h"
 
 #include <algorithm>
@@ -23,10 +21,12 @@ constexpr double dense_copies = 5.0;  // Sigma, A, its factor, the inverse, and 
 
 constexpr std::size_t few_loops = 8;  // up to here CK and the first algorithm take one step after another
 
-bool goes_in_turn(const std::vector<VertexLoop>& loops, const IterationOptions& options)
+/// Whether each step starts from the angles of the last one (block Gauss-Seidel). Otherwise all steps of a sweep start
+/// from the same angles (block Jacobi). Two loops have one step a sweep, and no order.
+bool is_gauss_seidel(const std::vector<VertexLoop>& loops, const IterationOptions& options)
 {
-    if (loops.size() <= 2) return false;  // with one or two loops there is one order
-    return options.in_turn || (options.method != Method::gk && loops.size() <= few_loops);
+    if (loops.size() <= 2) return false;
+    return options.gauss_seidel || (options.method != Method::gk && loops.size() <= few_loops);
 }
 
 constexpr double longest = 3000.0;  // a Sigma of 72 MB
@@ -51,17 +51,30 @@ VectorXd flux_of_deepest_source(BoundarySolver& surface, const VectorXd& areas)
     return surface.solve_interior(source).boundary_flux;
 }
 
-std::unique_ptr<FilledState> first_state(const SparseMatrix& laplacian, BoundarySolver& surface,
+/// The Riemann map (section 4.3): the rim's angles are the running sum of the flux from a source inside.
+KoebeOutcome riemann_map(BoundarySolver& surface, const VectorXd& edges, const VectorXd& areas)
+{
+    KoebeOutcome outcome;
+    const VectorXd angles = angles_from_flux(flux_of_deepest_source(surface, areas), edges, outcome.raised_angles);
+    outcome.loops.push_back(unit_circle_points(centered_angles(angles, vertex_weights(edges))));
+    outcome.converged = true;
+    return outcome;
+}
+
+/// @param jacobi whether all steps of a sweep start from the same angles
+/// @param areas for the source of CK's steps one after another
+std::unique_ptr<FilledState> first_state(const SparseMatrix& laplacian, const FactoredSurface& surface,
                                          const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
-                                         bool at_once, const VectorXd& flux_of_source,
+                                         const VectorXd& areas, Method method, bool jacobi,
                                          const std::vector<VectorXd>& first)
 {
-    if (auto* const filled = dynamic_cast<FilledLaplacian*>(&surface))
-        return std::make_unique<SparseState>(laplacian, *filled, loops, edges, first);
-    auto& condensed = dynamic_cast<CondensedLaplacian&>(surface);
-    require_memory(dense_copies * 8.0 * std::pow(surface.boundary_size(), 2), "the boundary's dense matrices");
-    if (at_once) return std::make_unique<DenseGroundedState>(condensed, loops, edges, first);
-    return std::make_unique<CondensedState>(condensed, loops, edges, flux_of_source, first);
+    if (surface.sparse) return std::make_unique<SparseState>(laplacian, *surface.sparse, loops, edges, first);
+    CondensedLaplacian& dense = *surface.dense;
+    const VectorXd source =
+        !jacobi && method == Method::ck ? flux_of_deepest_source(dense, areas) : VectorXd::Zero(dense.boundary_size());
+    require_memory(dense_copies * 8.0 * std::pow(dense.boundary_size(), 2), "the boundary's dense matrices");
+    if (jacobi) return std::make_unique<DenseGroundedState>(dense, loops, edges, first);
+    return std::make_unique<CondensedState>(dense, loops, edges, source, first);
 }
 
 /// The first angles from the last outcome; empty unless there is one angle per loop vertex.
@@ -91,54 +104,48 @@ private:
 
 }  // namespace
 
-std::unique_ptr<BoundarySolver> condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
-                                         const IterationOptions& options, std::optional<std::size_t> most_condensed)
+FactoredSurface condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                         const IterationOptions& options, std::optional<std::size_t> most_condensed)
 {
     std::vector<Index> boundary;
     for (const VertexLoop& loop : loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
-    const bool all = goes_in_turn(loops, options);
+    const bool all = is_gauss_seidel(loops, options);
     const auto vertex_count = static_cast<double>(laplacian.rows());
     const Index grounded =
         !all && grounds_outer_loop(loops, boundary.size(), vertex_count) ? static_cast<Index>(loops[0].size()) : 0;
     const std::size_t most = most_condensed.value_or(static_cast<std::size_t>(all ? longest : most_kept(vertex_count)));
     if (loops.size() > 1 && boundary.size() - grounded > most)
-        return std::make_unique<FilledLaplacian>(laplacian, loops);
-    return std::make_unique<CondensedLaplacian>(laplacian, boundary, grounded);
+        return {.dense = nullptr, .sparse = std::make_unique<FilledLaplacian>(laplacian, loops)};
+    return {.dense = std::make_unique<CondensedLaplacian>(laplacian, boundary, grounded), .sparse = nullptr};
 }
 
-KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, BoundarySolver& surface,
+KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const FactoredSurface& surface,
                              const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
                              const VectorXd& areas, const IterationOptions& options, ExecutionContext& context,
                              const KoebeOutcome* last)
 {
-    KoebeOutcome outcome;
     const int loop_count = static_cast<int>(loops.size());
-    const bool at_once = !goes_in_turn(loops, options) || dynamic_cast<FilledLaplacian*>(&surface);
-    const bool sourced = loop_count == 1 || (!at_once && options.method == Method::ck);
-    const VectorXd flux_of_source =
-        sourced ? flux_of_deepest_source(surface, areas) : VectorXd::Zero(surface.boundary_size());
-    if (loop_count == 1) {
-        const VectorXd angles = angles_from_flux(flux_of_source, edges[0], outcome.raised_angles);
-        outcome.loops.push_back(unit_circle_points(centered_angles(angles, vertex_weights(edges[0]))));
-        outcome.converged = true;
-        return outcome;
-    }
+    if (loop_count == 1) return riemann_map(surface.solver(), edges[0], areas);
+
+    // The state: one angle for each boundary vertex, from the last outcome or from the flux through the open loops.
+    KoebeOutcome outcome;
     const std::vector<VectorXd> first = first_angles(last, loops);
     const std::unique_ptr<FilledState> state =
-        first_state(laplacian, surface, loops, edges, at_once, flux_of_source, first);
-    const Sweep sweep = fixed_sweep(loop_count, options.method);
-    std::vector<Sweep> order;  // the steps that a sweep takes together, one set after another
-    if (state->opens_at_once())
-        order.push_back(sweep);
-    else
-        for (const OpenedLoops& step : sweep) order.push_back({step});
+        first_state(laplacian, surface, loops, edges, areas, options.method, !is_gauss_seidel(loops, options), first);
     CircleState now;
     if (loop_count > 2) {
         state->start(outcome.raised_angles);
         now = circle_state(state->images());
     }
-    // Steps that take effect together share the resulting change and roundness.
-    const auto record = [&](const Sweep& together) {
+
+    // The steps of a sweep: block Jacobi takes all of them together, block Gauss-Seidel one after another.
+    const Sweep sweep = fixed_sweep(loop_count, options.method);
+    std::vector<Sweep> order;
+    if (state->opens_at_once())
+        order.push_back(sweep);
+    else
+        for (const OpenedLoops& step : sweep) order.push_back({step});
+    const auto record = [&](const Sweep& together) {  // these steps share the resulting change and roundness
         outcome.loops = state->images();
         CircleState next = circle_state(outcome.loops);
         for (const OpenedLoops& open : together)
@@ -147,6 +154,9 @@ KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, BoundarySolver& surf
                                        next.circles});
         now = std::move(next);
     };
+
+    // Sweeps, until the circles stay. With two loops one step is exact. From the angles of a last outcome the
+    // contraction q is known: the next sweep moves the circles by q times the change.
     Contraction contraction(first.empty() ? 1.0 : last->contraction);
     while (!outcome.converged && outcome.sweeps < options.max_sweeps) {
         // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): record() changes now

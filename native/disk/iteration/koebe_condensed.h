@@ -4,7 +4,8 @@
 #include "execution/execution.h"
 #include "iteration/iteration_options.h"
 #include "iteration/koebe_outcome.h"
-#include "linear/boundary_solver.h"
+#include "linear/condensed_laplacian.h"
+#include "linear/filled_laplacian.h"
 
 #include <memory>
 #include <optional>
@@ -12,15 +13,23 @@
 
 namespace koebe {
 
+/// The factored Laplacian of a surface: one of the two solvers, or none before it is factored.
+struct FactoredSurface {
+    std::unique_ptr<CondensedLaplacian> dense;  ///< has a Sigma
+    std::unique_ptr<FilledLaplacian> sparse;    ///< for long boundaries, without a Sigma
+
+    explicit operator bool() const { return dense || sparse; }
+    BoundarySolver& solver() const { return dense ? static_cast<BoundarySolver&>(*dense) : *sparse; }
+};
+
 /// Condenses the Laplacian of a surface with these loops as the iteration needs it. Grounds an outer loop with a third
-/// of all boundary vertices, unless these are few; then Sigma has the inner loops only. Returns a FilledLaplacian,
-/// without a Sigma, where more than `most_condensed` boundary vertices would be kept.
-/// @param options if they take steps one after another, nothing is grounded
+/// of all boundary vertices, unless these are few; then Sigma has the inner loops only. There is no Sigma where more
+/// than `most_condensed` boundary vertices would be kept.
+/// @param options with steps one after another nothing is grounded
 /// @param most_condensed default 5 sqrt(V), at most 3,000; with steps one after another 3,000
 /// @throws SolverError
-std::unique_ptr<BoundarySolver> condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
-                                         const IterationOptions& options,
-                                         std::optional<std::size_t> most_condensed = {});
+FactoredSurface condense(const SparseMatrix& laplacian, const std::vector<VertexLoop>& loops,
+                         const IterationOptions& options, std::optional<std::size_t> most_condensed = {});
 
 /// Runs the iteration (paper, section 4.4) on the state of one angle per boundary vertex.
 ///
@@ -38,8 +47,8 @@ std::unique_ptr<BoundarySolver> condense(const SparseMatrix& laplacian, const st
 /// step. Where the boundary is too long for a Sigma, A is one sparse matrix, and selected inversion gives the blocks
 /// N_kk.
 ///
-/// CK and against_outer up to 8 loops, and all methods with IterationOptions::in_turn, take the steps of a sweep one
-/// after another, as in the paper's theorems. Each step eliminates R. Without a Sigma this is not possible.
+/// CK and against_outer up to 8 loops, and all methods with IterationOptions::gauss_seidel, take the steps of a sweep
+/// one after another, as in the paper's theorems. Each step eliminates R. Without a Sigma this is not possible.
 ///
 /// @param laplacian of the surface
 /// @param surface condense() of the Laplacian with the same options
@@ -50,7 +59,7 @@ std::unique_ptr<BoundarySolver> condense(const SparseMatrix& laplacian, const st
 /// It ends as soon as the next sweep would move the circles by less than a third of the tolerance, if it contracts the
 /// change by the same factor
 /// @throws SolverError, Cancelled
-KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, BoundarySolver& surface,
+KoebeOutcome koebe_condensed(const SparseMatrix& laplacian, const FactoredSurface& surface,
                              const std::vector<VertexLoop>& loops, const std::vector<VectorXd>& edges,
                              const VectorXd& areas, const IterationOptions& options, ExecutionContext& context,
                              const KoebeOutcome* last = nullptr);

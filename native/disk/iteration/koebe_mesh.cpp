@@ -283,6 +283,7 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
     const int loop_count = static_cast<int>(loops.size());
     require_possible(mesh_options, loop_count, options.method);
     MeshKoebe state(vertices, triangles, lengths, loops, mesh_options);
+    // One loop: the Riemann map (section 4.3) is exact.
     if (loops.size() == 1) {
         state.open_disk();
         result.positions = state.disk_image();
@@ -290,6 +291,7 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
         outcome.converged = true;
         return result;
     }
+    // The steps: a schedule, pairs that change from sweep to sweep (Fig. 4), or the same pairs in each sweep.
     const std::vector<Sweep> round = !mesh_options.schedule.empty() ? std::vector<Sweep>{mesh_options.schedule}
                                      : mesh_options.partners == Partners::changing
                                          ? round_of_changing_pairs(loop_count)
@@ -301,11 +303,14 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
         const Sweep& next_sweep = round[(outcome.sweeps + 1) % round.size()];
         for (std::size_t s = 0; s < sweep.size(); ++s) {
             context.advance(1.0 - std::pow(0.5, outcome.sweeps + static_cast<double>(s) / sweep.size()));
+            // Section 4.4: open the loops of the step, map to a disk or an annulus, fill the holes again. The metric
+            // may be reflected in a circle inside a hole that the next step opens.
             VectorXcd image = state.step(sweep[s], s + 1 < sweep.size() ? sweep[s + 1] : next_sweep.front());
             if (mesh_options.record_steps) outcome.step_images.push_back(std::move(image));
             context.checkpoint();
             result.positions = state.disk_image();
             outcome.loops = gather_loops(result.positions, loops);
+            // Section 4.4, the test: sum of |c_k - c_k'|^2 + |r_k - r_k'|^2, over a whole round.
             CircleState next = circle_state(outcome.loops);
             outcome.history.push_back({++outcome.steps,
                                        {sweep[s].front(), sweep[s].back()},

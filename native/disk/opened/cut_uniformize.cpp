@@ -226,9 +226,11 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
     require_importance(options, result.vertex_count);
+    // Cut the surface open, into pieces of genus 0 with a boundary.
     context.begin_stage("cut", 0.0, opening_share);
     OpenedSurface opened = open_surface(vertices, triangles, {.polygon = polygon}, context);
     const double opening = run.elapsed();
+    // Map each piece: large ones one after another with all threads, small ones side by side.
     const PieceMapper mapper(opened, mesh, options);
     const double all = static_cast<double>(triangles.rows());
     double done = 0.0;
@@ -257,6 +259,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
             result.pieces[small[k]] = mapper.map(small[k], own, failures[small[k]]);
         });
     }
+    // One report of all maps. Only if no piece has a map, the first failure is the answer.
     std::exception_ptr failure;
     for (std::size_t i = 0; i < result.pieces.size(); ++i) {
         const MappedPiece& piece = result.pieces[i];
@@ -271,6 +274,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
     std::ranges::sort(result.turned);
     if (failure && std::ranges::none_of(result.pieces, &MappedPiece::mapped)) std::rethrow_exception(failure);
 
+    // Pack the disks. Where rounding at its place flips a face of a piece, its disk gets larger.
     Sheet sheet(opened.pieces);
     std::vector<double> radii = radii_by_area(opened.pieces, options.importance);
     std::vector<Circle> places;
@@ -289,6 +293,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
         result.pieces[i].place = places[i];
         PieceMapper::rename(opened.pieces[i], result.pieces[i].map);
     }
+    // UVs of all faces, those left out too, and the verdict on them as stored.
     result.uv = sheet.corners(result.face_count);
     draw_left_out(opened.left_out, triangles, result.uv);
     result.cuts = std::move(opened.cuts);

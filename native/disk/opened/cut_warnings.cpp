@@ -81,6 +81,7 @@ std::vector<Warning> merged(const std::vector<MappedPiece>& pieces)
             if (!std::exchange(met[warning.kind], true)) ++pieces_with[warning.kind];
         }
     }
+    // A sentence for each kind, with the elements of all pieces. Numbers of loops mean nothing without their piece.
     std::vector<Warning> result;
     for (const auto& [kind, own] : by_kind) {
         if (pieces.size() == 1) {
@@ -127,6 +128,7 @@ std::vector<Warning> cut_warnings(const CutUniformizeResult& result)
     if (!result.left_out.empty()) warnings.push_back(left_out_warning(result.left_out));
     warn_reoriented(result.turned, warnings);
     for (Warning& warning : merged(result.pieces)) warnings.push_back(std::move(warning));
+    // Of the whole sheet: a piece may be right by itself, and flipped where it lies.
     std::vector<Index> flipped;
     const Distortion& distortion = result.distortion;
     std::ranges::set_difference(distortion.flipped, distortion.below_resolution, std::back_inserter(flipped));

@@ -110,7 +110,7 @@ bool make_disk_even(const MapInput& whole, double even, LoopForm loops, CircleMa
             relaxed.uv.row(v) << place.real(), place.imag();
         }
     }
-    put_in_place(whole, relaxed);
+    normalize(whole, relaxed);
     if (loops != LoopForm::free) remove_flips(whole, relaxed, context);
     MapFaults faults = find_faults(triangles, whole.loops, relaxed.uv, relaxed.circles);
     if (loops == LoopForm::free) faults.bad_circles.clear();  // these are no circles of the map

@@ -63,13 +63,13 @@ UntangleReport search(const MapInput& whole, CircleMap& map, ExecutionContext& c
 
 }  // namespace
 
-CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
+CircleMap with_flaps(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
 {
     if (cut.flaps.empty()) return map;
     const PlanarPoints core_uv = std::move(map.uv);
     map.uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
     map.uv(cut.vertices, Eigen::all) = core_uv;
-    map.off_circle = hang_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, map.uv, context);
+    map.off_circle = lay_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, map.uv, context);
     std::sort(map.off_circle.begin(), map.off_circle.end());
     return map;
 }

@@ -9,9 +9,9 @@
 
 namespace koebe {
 
-/// Hangs the flaps back (hang_flaps). Leaves flips as they are.
+/// Adds the flaps to the map of the core (lay_flaps). Leaves flips as they are.
 /// @param map of the core's vertices; without flaps, of the surface's own vertices
-CircleMap hang_back(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
+CircleMap with_flaps(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
 
 /// Turns flipped faces back (untangle). The surface's centre and point do not move. Circles shrink where the faces
 /// between them find no place to be upright, and then the search starts again with its full effort. If up to 16 faces

@@ -4,7 +4,6 @@
 #include "circles/circle_fit.h"
 #include "circles/crowded_circles.h"
 #include "core/errors.h"
-#include "iteration/koebe_condensed.h"
 #include "iteration/koebe_mesh.h"
 #include "pipeline/refinement.h"
 #include "surface/curvature_weights.h"
@@ -42,7 +41,7 @@ KoebeOutcome run_engine(const MapInput& input, const AssembledInput& assembled, 
         return koebe_mesh(input.vertices, input.surface, input.loops, options, context, options.mesh).outcome;
     if (!assembled.factored) return {};
     const IntrinsicMetric& metric = assembled.metric;
-    return koebe_condensed(assembled.laplacian, *assembled.boundary, input.loops, input.edges,
+    return koebe_condensed(assembled.laplacian, assembled.boundary, input.loops, input.edges,
                            vertex_areas(metric.triangles, metric.lengths, input.surface.vertex_count), options, context,
                            last);
 }
@@ -76,7 +75,7 @@ void AssembledInput::take_metric(const MapInput& input)
 {
     if (std::exchange(moved, false)) return;
     factored = false;
-    boundary.reset();
+    boundary = {};
     places.reset();
     uses = 1;
     metric = intrinsic_metric(input.vertices, input.surface);
@@ -112,20 +111,20 @@ void AssembledInput::factorize(const MapInput& input, const IterationOptions& op
 {
     try {
         if (boundary)
-            boundary->renew(laplacian);
+            boundary.solver().renew(laplacian);
         else
             boundary = condense(laplacian, input.loops, options);
         factored = true;
     } catch (...) {
-        boundary.reset();
+        boundary = {};
         throw;
     }
 }
 
 void AssembledInput::reorder(const MapInput& input)
 {
-    if (!boundary || boundary->reorder_boundary(boundary_of(input))) return;
-    boundary.reset();
+    if (!boundary || boundary.solver().reorder_boundary(boundary_of(input))) return;
+    boundary = {};
     factored = false;
 }
 

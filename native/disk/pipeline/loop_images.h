@@ -2,13 +2,10 @@
 #pragma once
 
 #include "execution/execution.h"
-#include "iteration/iteration_options.h"
-#include "iteration/koebe_outcome.h"
-#include "linear/boundary_solver.h"
+#include "iteration/koebe_condensed.h"
 #include "pipeline/map_input.h"
 #include "surface/intrinsic_metric.h"
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,11 +14,11 @@ namespace koebe {
 /// The matrices of a surface, assembled in two steps, and again when its vertices have moved.
 struct AssembledInput {
     IntrinsicMetric metric;
-    SparseMatrix laplacian;                    ///< curvature_weights of the metric
-    int uses = 0;                              ///< metrics so far on its triangles, counted up to two
-    std::optional<LaplacianPlaces> places;     ///< of these triangles, from the third metric on them
-    std::unique_ptr<BoundarySolver> boundary;  ///< the Laplacian's factor
-    bool factored = false;                     ///< whether the factor is of the present Laplacian
+    SparseMatrix laplacian;                 ///< curvature_weights of the metric
+    int uses = 0;                           ///< metrics so far on its triangles, counted up to two
+    std::optional<LaplacianPlaces> places;  ///< of these triangles, from the third metric on them
+    FactoredSurface boundary;               ///< the Laplacian's factor
+    bool factored = false;                  ///< whether the factor is of the present Laplacian
 
     bool moved = false;  ///< whether move_metric has replaced take_metric
 

@@ -5,7 +5,7 @@
 #include "circles/circle_fit.h"
 #include "circles/circle_projection.h"
 #include "circles/crowded_circles.h"
-#include "flaps/rim_room.h"
+#include "flaps/least_arcs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ MatrixXd points_on_circles(const MapInput& input, const FlapCut& cut, const std:
         map.roundness.push_back(roundness(images[k], map.circles[k]));
         const VectorXcd projected =
             k == 0 ? project_onto_circle(map.circles[k], images[k], 1,
-                                         rim_room(input.surface, input.loops[0], cut.flaps, cut.vertices))
+                                         least_arcs(input.surface, input.loops[0], cut.flaps, cut.vertices))
                    : project_onto_circle(map.circles[k], images[k], -1);
         boundary.middleRows(row, projected.size()) << projected.real(), projected.imag();
         row += projected.size();

@@ -20,7 +20,7 @@ struct MapSolver {
 
 /// Fits circles, makes two loops concentric, puts the boundary on its circles, makes the interior harmonic
 /// (balance_flux).
-/// @param cut the flaps that will hang on the rim
+/// @param cut the flaps that will lie on the rim
 /// @return a map of the surface's vertices; nothing if circles leave the disk or meet, or no finite map extends them
 std::optional<CircleMap> map_from_loops(const MapSolver& solver, const FlapCut& cut, const KoebeOutcome& outcome);
 

@@ -97,12 +97,14 @@ MapInput prepare_input(const Vertices& vertices, const Triangles& triangles, con
     input.original_faces = std::move(form.original_faces);
     input.thinnest = form.thinnest;
 
+    // The elements that the options name, in the numbers of the canonical form.
     const std::size_t outer = choose_outer_loop(input, options);
     input.center = find_center(input, options, static_cast<Index>(vertices.rows()));
     input.importance = find_importance(input, options, static_cast<Index>(vertices.rows()));
     if (options.point >= 0)
         input.point = static_cast<Index>(std::ranges::find(input.original, options.point) - input.original.begin());
     input.outer_rank = rank_by_lowest_vertex(input, input.surface.loops[outer]);
+    // The order of the iteration: the outer loop, then by falling length.
     std::vector<std::size_t> order(input.surface.loops.size());
     std::iota(order.begin(), order.end(), 0);
     std::vector<double> length;

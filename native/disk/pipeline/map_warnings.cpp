@@ -68,6 +68,7 @@ std::vector<LostRegion> lost_regions(const MapInput& whole, const PlanarPoints& 
             below_resolution.push_back(static_cast<Index>(f));
             flipped[f] = 1;
         }
+    // Lengths in UV units and 64 bits: what is stored of these faces is rounding.
     const auto longest_edge = [&](Index f) {
         double longest = 0.0;
         for (int k = 0; k < 3; ++k)
@@ -81,6 +82,7 @@ std::vector<LostRegion> lost_regions(const MapInput& whole, const PlanarPoints& 
         region.faces.push_back(seed);
         Index smallest = seed;
         region.shortest = longest_edge(seed);
+        // Grow over neighbours that are too small, flipped or not.
         for (std::size_t head = 0; head < region.faces.size(); ++head) {
             const Index f = region.faces[head];
             region.flipped += flipped[f];
@@ -98,6 +100,7 @@ std::vector<LostRegion> lost_regions(const MapInput& whole, const PlanarPoints& 
                 }
             }
         }
+        // The loop with the vertex nearest to the tip in space.
         region.tip = triangles(smallest, 0);
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < whole.loops.size(); ++k)
@@ -180,6 +183,7 @@ std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv
                  "error " +
                  figure(distortion.angle_error_deg.mean) + " degrees). Subdivide the mesh"});
     if (!flaps.empty()) warnings.push_back(flap_warning(whole, flaps));
+    // What the repair did, and what it could not.
     std::vector<Index> freed;
     for (const Index v : untangled.freed) freed.push_back(whole.original[v]);
     warn_off_circle(std::move(freed), warnings);

@@ -31,7 +31,7 @@ Complex center_of(const MapInput& whole, const FlapCut& cut, const CircleMap& ma
     if (cut.flaps.empty()) return complex_at(map.uv, whole.center);
     const auto kept = std::ranges::find(cut.vertices, whole.center);
     if (kept != cut.vertices.end()) return complex_at(map.uv, static_cast<Index>(kept - cut.vertices.begin()));
-    return complex_at(hang_back(whole, cut, map, context).uv, whole.center);
+    return complex_at(with_flaps(whole, cut, map, context).uv, whole.center);
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ void move_points(const MapInput& whole, const Moebius& moebius, CircleMap& map)
     map.uv << points.real(), points.imag();
 }
 
-void put_in_place(const MapInput& whole, CircleMap& map)
+void normalize(const MapInput& whole, CircleMap& map)
 {
     if (held_vertices(whole).empty()) return;
     Moebius moebius;

@@ -25,9 +25,9 @@ void move_points(const MapInput& whole, const Moebius& moebius, CircleMap& map);
 /// Moves each vertex by the automorphism that sends the surface's centre to 0 and its point to 1, exactly. Does nothing
 /// if the surface has neither.
 /// @param map of the whole surface, changed in place
-void put_in_place(const MapInput& whole, CircleMap& map);
+void normalize(const MapInput& whole, CircleMap& map);
 
-/// The surface's centre and point, if it has them: vertices that stay where put_in_place has put them.
+/// The surface's centre and point, if it has them: vertices that stay where normalize has put them.
 std::vector<Index> held_vertices(const MapInput& whole);
 
 }  // namespace koebe

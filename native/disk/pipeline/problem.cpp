@@ -104,7 +104,7 @@ VectorXcd places_of_loops(const Problem& problem)
     return result;
 }
 
-void lay_over_first(Problem& problem, CircleMap& map)
+void align_with_first(Problem& problem, CircleMap& map)
 {
     const MapInput& input = problem.input();
     std::vector<Complex> points, targets;

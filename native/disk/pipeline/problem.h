@@ -23,10 +23,10 @@ struct Problem {
     KoebeOutcome outcome;          ///< of the last run; the next one starts from it
     AngleForecast forecast;        ///< of the first angles, from the last runs
     Index vertex_count = 0;        ///< of the input
-    VectorXcd first_places;        ///< where lay_over_first is to bring the input's vertices, NaN inside; or empty
+    VectorXcd first_places;        ///< where align_with_first is to bring the input's vertices, NaN inside; or empty
 
     const MapInput& input() const { return core ? *core : whole; }
-    MapSolver solver() const { return {*assembled.boundary, assembled.laplacian, input()}; }
+    MapSolver solver() const { return {assembled.boundary.solver(), assembled.laplacian, input()}; }
 };
 
 /// @throws InputError, TopologyError, OutOfMemory
@@ -51,7 +51,7 @@ VectorXcd places_of_loops(const Problem& problem);
 
 /// Moves a map of the last run by the automorphism of the disk that brings its loops nearest to first_places, if there
 /// are any. Circles are fitted before, so they do not depend on it. Afterwards the run's images of loops are the map's.
-void lay_over_first(Problem& problem, CircleMap& map);
+void align_with_first(Problem& problem, CircleMap& map);
 
 /// Maps the problem and reports on the map. @param vertices, triangles of the input, for the report
 /// @param prepare prepares the problem; its time counts as topology

@@ -43,32 +43,6 @@ VectorXd least_steps(Eigen::Index count)
     return VectorXd::Constant(count, std::min(drawable, 0.3 * 2.0 * std::numbers::pi / static_cast<double>(count)));
 }
 
-/// Factors, iterates and makes the map, if there is one.
-/// @param from, until the range of the progress
-std::optional<CircleMap> iterate(Problem& problem, const UniformizeOptions& options, double from, double until,
-                                 ExecutionContext& context, Stopwatch& stage, StageSeconds& seconds)
-{
-    const auto at = [&](double share) { return from + share * (until - from); };
-    if (!problem.assembled.factored) {
-        context.begin_stage("factor", at(0.0), at(0.45));
-        try {
-            problem.assembled.factorize(problem.input(), options);
-        } catch (const OutOfMemory&) {
-            throw;
-        } catch (const SolverError&) {  // the map is made without a factor, and warns
-        }
-    }
-    seconds.factor += stage.lap();
-    context.begin_stage("iterate", at(0.45), at(0.95));
-    problem.outcome = loop_images(problem.input(), problem.assembled, options, context, &problem.outcome);
-    seconds.iterate += stage.lap();
-    context.begin_stage("finish", at(0.95), at(1.0));
-    if (!problem.assembled.factored || problem.outcome.loops.empty()) return {};
-    std::optional<CircleMap> map = map_from_loops(problem.solver(), problem.cut, problem.outcome);
-    if (map) lay_over_first(problem, *map);
-    return map;
-}
-
 /// Makes the map that is one to one from the start (embedded_map), on the iteration's circles if it found any.
 /// @param failed the map from the iteration, if any
 CircleMap embed(const MapInput& whole, const FlapCut& cut, const std::optional<CircleMap>& failed, FixedPlaces places,
@@ -95,19 +69,6 @@ CircleMap embed(const MapInput& whole, const FlapCut& cut, const std::optional<C
     return map;
 }
 
-/// Polishes the map. Takes the polish back if the map then has a fault, though the polish checks its own steps.
-void polish(const MapInput& whole, CircleMap& map, MapFaults& faults, ExecutionContext& context)
-{
-    PlanarPoints before = map.uv;
-    polish_angles(whole.vertices, whole.surface, whole.loops, map.circles, map.off_circle, map.uv, context,
-                  held_vertices(whole));
-    MapFaults polished = find_faults(whole.surface.triangles, whole.loops, map.uv, map.circles);
-    if (polished.any() && !faults.any())
-        map.uv = std::move(before);
-    else
-        faults = std::move(polished);
-}
-
 /// The image of each step on the input's vertices.
 std::vector<PlanarPoints> on_input(const std::vector<VectorXcd>& images, const MapInput& input, Index vertex_count)
 {
@@ -132,127 +93,254 @@ void rename(std::vector<Index>& numbers, const std::vector<Index>& names)
     for (Index& number : numbers) number = names.at(static_cast<std::size_t>(number));
 }
 
+/// A run of map_problem. Each stage takes the state of the stages before it.
+class MapRun {
+public:
+    MapRun(const UniformizeOptions& options, ExecutionContext& context);
+
+    void prepare(const std::function<Problem&()>& prepare);
+    void take_metric();
+    void map_core();
+    void change_outer_loop();
+    void normalize_core();
+    void attach_flaps();
+    void remove_flips();
+    void embed_where_it_failed();
+    void polish();
+    void make_even();
+    UniformizeResult report(const Vertices& vertices, const Triangles& triangles);
+
+private:
+    const MapInput& whole() const { return problem_->whole; }
+    void map_core(double from, double until);
+    void factorize();
+    MapFaults faults_of(const CircleMap& map) const
+    {
+        return find_faults(whole().surface.triangles, whole().loops, map.uv, map.circles);
+    }
+
+    const UniformizeOptions& options_;
+    ExecutionContext& context_;
+    Stopwatch total_, stage_;
+    Problem* problem_ = nullptr;
+    std::optional<CircleMap> map_;  // of the core up to attach_flaps, then of the whole surface
+    MapFaults faults_;              // of the map of the whole surface
+    UntangleReport untangled_;
+    std::vector<Warning> iteration_warnings_, late_warnings_;
+    std::optional<ConformalDomain> conformal_;  // before the map was made more even
+    UniformizeResult result_;
+};
+
+MapRun::MapRun(const UniformizeOptions& options, ExecutionContext& context) : options_(options), context_(context)
+{
+    require_even_disk(options.even, options.center);
+    result_.even = 0.0;
+    result_.method = options.method;
+    result_.engine = options.engine;
+    result_.center = options.center;
+    result_.point = options.point;
+}
+
+void MapRun::prepare(const std::function<Problem&()>& prepare)
+{
+    context_.begin_stage("topology", 0.0, 0.05);
+    problem_ = &prepare();
+    result_.vertex_count = problem_->vertex_count;
+    result_.face_count = static_cast<Index>(whole().surface.triangles.rows());
+    result_.seconds.topology = stage_.lap();
+}
+
+void MapRun::take_metric()
+{
+    context_.begin_stage("metric", 0.05, 0.15);
+    problem_->assembled.take_metric(problem_->input());
+    result_.seconds.metric = stage_.lap();
+}
+
+void MapRun::map_core()
+{
+    const bool again = chooses_outer_loop(options_, whole());
+    map_core(0.15, again ? 0.5 : 0.9);
+    if (map_ && options_.balance == Balance::area)
+        result_.unbalanced_area = measure_distortion(whole().vertices, whole().surface.triangles,
+                                                     with_flaps(whole(), problem_->cut, *map_, context_).uv)
+                                      .area;
+}
+
+void MapRun::map_core(double from, double until)
+{
+    const auto at = [&](double share) { return from + share * (until - from); };
+    Problem& problem = *problem_;
+    AssembledInput& assembled = problem.assembled;
+    // K + diag(0, 1 on B) = L L', which gives Sigma = K_BB - K_BI K_II^-1 K_IB. The surface may have it already.
+    if (!assembled.factored) {
+        context_.begin_stage("factor", at(0.0), at(0.45));
+        factorize();
+    }
+    result_.seconds.factor += stage_.lap();
+    // Koebe's iteration: one angle for each boundary vertex, and from the angles the images of the loops.
+    context_.begin_stage("iterate", at(0.45), at(0.95));
+    problem.outcome = loop_images(problem.input(), assembled, options_, context_, &problem.outcome);
+    result_.seconds.iterate += stage_.lap();
+    // Circles, and K_II z_I = -K_IB z_B inside.
+    context_.begin_stage("finish", at(0.95), at(1.0));
+    map_.reset();
+    if (!assembled.factored || problem.outcome.loops.empty()) return;
+    map_ = map_from_loops(problem.solver(), problem.cut, problem.outcome);
+    if (map_) align_with_first(problem, *map_);
+}
+
+/// Without a factor there is no map of the core, and embed_where_it_failed makes the map.
+void MapRun::factorize()
+{
+    try {
+        problem_->assembled.factorize(problem_->input(), options_);
+    } catch (const OutOfMemory&) {
+        throw;
+    } catch (const SolverError&) {
+    }
+}
+
+void MapRun::change_outer_loop()
+{
+    if (!map_ || !chooses_outer_loop(options_, whole())) return;
+    const int outer = better_outer_loop(problem_->input(), *map_);
+    if (outer == 0) return;
+    put_outside(outer, problem_->whole, problem_->cut, problem_->core);
+    problem_->assembled.reorder(problem_->input());
+    result_.seconds.finish += stage_.lap();
+    map_core(0.5, 0.9);
+}
+
+void MapRun::normalize_core()
+{
+    if (map_ && options_.balance == Balance::area) map_ = with_area_balanced(problem_->solver(), *map_);
+    if (map_ && whole().center >= 0)
+        map_ = with_center_moved(problem_->solver(), whole(), problem_->cut, *map_, context_);
+    // The iteration and its map end here.
+    const KoebeOutcome& outcome = problem_->outcome;
+    iteration_warnings_ = iteration_warnings(outcome, !map_);
+    result_.outer_loop = whole().outer_rank;
+    result_.converged = outcome.converged && map_.has_value();
+    result_.sweeps = outcome.sweeps;
+    result_.steps = outcome.steps;
+    result_.history = outcome.history;
+    result_.step_images = on_input(outcome.step_images, problem_->input(), result_.vertex_count);
+}
+
+void MapRun::attach_flaps()
+{
+    context_.begin_stage("finish", 0.9, 1.0);
+    if (!map_) return;
+    map_ = with_flaps(whole(), problem_->cut, *std::move(map_), context_);
+    normalize(whole(), *map_);
+    context_.advance(0.2);
+}
+
+void MapRun::remove_flips()
+{
+    if (!map_) return;
+    if (options_.repair) untangled_ = koebe::remove_flips(whole(), *map_, context_);
+    context_.advance(0.5);
+    if (options_.repair) faults_ = faults_of(*map_);
+}
+
+void MapRun::embed_where_it_failed()
+{
+    if (map_ && !faults_.any()) return;
+    const std::optional<CircleMap> failed = std::move(map_);
+    map_ = embed(whole(), problem_->cut, failed, {whole().center, whole().point}, context_);
+    normalize(whole(), *map_);
+    untangled_ = {};
+    faults_ = faults_of(*map_);
+    if (!faults_.any() || whole().center < 0) return;
+    // The vertex at 0 can be what turns faces over. One to one is more important.
+    CircleMap elsewhere = embed(whole(), problem_->cut, failed, {-1, whole().point}, context_);
+    MapFaults faults = faults_of(elsewhere);
+    if (faults.any()) return;
+    map_ = std::move(elsewhere);
+    faults_ = std::move(faults);
+    result_.converged = false;
+    late_warnings_.push_back({WarningKind::out_of_place,
+                              "the vertex could not be moved to the centre without turning faces over",
+                              {options_.center}});
+}
+
+/// Takes the polish back if the map then has a fault, though the polish checks its own steps.
+void MapRun::polish()
+{
+    if (!options_.polish) return;
+    context_.begin_stage("polish", 0.97, 1.0);
+    const Triangles& triangles = whole().surface.triangles;
+    result_.unpolished_angle_error_deg = measure_distortion(whole().vertices, triangles, map_->uv).angle_error_deg;
+    PlanarPoints before = map_->uv;
+    polish_angles(whole().vertices, whole().surface, whole().loops, map_->circles, map_->off_circle, map_->uv, context_,
+                  held_vertices(whole()));
+    MapFaults polished = faults_of(*map_);
+    if (polished.any() && !faults_.any())
+        map_->uv = std::move(before);
+    else
+        faults_ = std::move(polished);
+}
+
+void MapRun::make_even()
+{
+    if (!(options_.even > 0.0)) return;
+    context_.begin_stage("even", 0.98, 1.0);
+    ConformalDomain conformal = domain_of(whole(), *map_, result_.vertex_count);
+    if (faults_.any() || !make_disk_even(whole(), options_.even, options_.loops, *map_, context_))
+        return warn_not_even({}, late_warnings_);
+    result_.even = options_.even;
+    conformal_ = std::move(conformal);
+}
+
+UniformizeResult MapRun::report(const Vertices& vertices, const Triangles& triangles)
+{
+    // The map in the input's numbers, with what can be measured on it.
+    report_map(vertices, triangles, whole(), *map_, result_);
+    if (conformal_) keep_conformal(*std::move(conformal_), result_);
+    if (!options_.vertex_names.empty()) rename(problem_->whole.original, options_.vertex_names);
+    if (!options_.face_names.empty()) rename(problem_->whole.original_faces, options_.face_names);
+    // Warnings in the order of the stages, and last that the map is not one to one.
+    append(result_.warnings, circle_warnings(*map_));
+    append(result_.warnings, input_warnings(whole()));
+    append(result_.warnings, std::move(iteration_warnings_));
+    append(result_.warnings, flip_warnings(whole(), map_->uv, problem_->cut.flaps, untangled_, result_.distortion));
+    append(result_.warnings, std::move(late_warnings_));
+    result_.overlaps = static_cast<Index>(faults_.crossings.size());
+    if (faults_.any()) {
+        result_.converged = false;
+        result_.warnings.push_back(
+            faults_.warning("no one-to-one map was found: ", whole().original, whole().original_faces));
+    }
+    take_verdict({.most_lost = options_.most_lost, .done = true}, result_);
+    result_.seconds.finish += stage_.lap();
+    result_.seconds.total = total_.lap();
+    result_.peak_memory_mb = peak_memory_mb();
+    context_.advance(1.0);
+    return std::move(result_);
+}
+
 }  // namespace
 
 UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangles,
                              const std::function<Problem&()>& prepare, const UniformizeOptions& options,
                              ExecutionContext& context)
 {
-    UniformizeResult result;
-    require_even_disk(options.even, options.center);
-    result.even = 0.0;  // a value for maps that are not made more even below
-    result.method = options.method;
-    result.engine = options.engine;
-    result.center = options.center;
-    result.point = options.point;
     fix_product_blocks();
     const ThreadShare threads(options.threads);
-    Stopwatch total, stage;
-
-    context.begin_stage("topology", 0.0, 0.05);
-    Problem& problem = prepare();
-    const MapInput& whole = problem.whole;
-    result.vertex_count = problem.vertex_count;
-    result.face_count = static_cast<Index>(whole.surface.triangles.rows());
-    result.seconds.topology = stage.lap();
-
-    context.begin_stage("metric", 0.05, 0.15);
-    problem.assembled.take_metric(problem.input());
-    result.seconds.metric = stage.lap();
-
-    // If the outer loop must be chosen, the map may be made twice, first with the longest loop.
-    const bool choose = chooses_outer_loop(options, whole);
-    std::optional<CircleMap> map = iterate(problem, options, 0.15, choose ? 0.5 : 0.9, context, stage, result.seconds);
-    if (map && options.balance == Balance::area)
-        result.unbalanced_area =
-            measure_distortion(whole.vertices, whole.surface.triangles, hang_back(whole, problem.cut, *map, context).uv)
-                .area;
-    if (map && choose)
-        if (const int outer = better_outer_loop(problem.input(), *map); outer != 0) {
-            put_outside(outer, problem.whole, problem.cut, problem.core);
-            problem.assembled.reorder(problem.input());
-            result.seconds.finish += stage.lap();
-            map = iterate(problem, options, 0.5, 0.9, context, stage, result.seconds);
-        }
-    if (map && options.balance == Balance::area) map = with_area_balanced(problem.solver(), *map);
-    if (map && whole.center >= 0) map = with_center_moved(problem.solver(), whole, problem.cut, *map, context);
-    result.outer_loop = whole.outer_rank;
-    result.converged = problem.outcome.converged && map.has_value();
-    result.sweeps = problem.outcome.sweeps;
-    result.steps = problem.outcome.steps;
-    result.history = problem.outcome.history;
-    result.step_images = on_input(problem.outcome.step_images, problem.input(), result.vertex_count);
-
-    context.begin_stage("finish", 0.9, 1.0);
-    UntangleReport untangled;
-    MapFaults faults;
-    if (map) {
-        map = hang_back(whole, problem.cut, std::move(*map), context);
-        put_in_place(whole, *map);
-        context.advance(0.2);
-        if (options.repair) untangled = remove_flips(whole, *map, context);
-        context.advance(0.5);
-        if (options.repair) faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
-    }
-    const bool no_circles = !map;
-    bool out_of_place = false;
-    if (!map || faults.any()) {
-        const std::optional<CircleMap> failed = std::move(map);
-        map = embed(whole, problem.cut, failed, {whole.center, whole.point}, context);
-        put_in_place(whole, *map);
-        untangled = {};
-        faults = find_faults(whole.surface.triangles, whole.loops, map->uv, map->circles);
-        if (faults.any() && whole.center >= 0) {  // one to one is more important
-            CircleMap elsewhere = embed(whole, problem.cut, failed, {-1, whole.point}, context);
-            if (MapFaults none = find_faults(whole.surface.triangles, whole.loops, elsewhere.uv, elsewhere.circles);
-                !none.any()) {
-                map = std::move(elsewhere);
-                faults = std::move(none);
-                out_of_place = true;
-            }
-        }
-    }
-    if (options.polish) {
-        context.begin_stage("polish", 0.97, 1.0);
-        result.unpolished_angle_error_deg =
-            measure_distortion(whole.vertices, whole.surface.triangles, map->uv).angle_error_deg;
-        polish(whole, *map, faults, context);
-    }
-    bool not_even = false;
-    std::optional<ConformalDomain> conformal;
-    if (options.even > 0.0) {
-        context.begin_stage("even", 0.98, 1.0);
-        conformal = domain_of(whole, *map, result.vertex_count);
-        not_even = faults.any() || !make_disk_even(whole, options.even, options.loops, *map, context);
-        result.even = not_even ? 0.0 : options.even;
-    }
-    report_map(vertices, triangles, whole, *map, result);
-    if (conformal && !not_even) keep_conformal(std::move(*conformal), result);
-    if (!options.vertex_names.empty()) rename(problem.whole.original, options.vertex_names);
-    if (!options.face_names.empty()) rename(problem.whole.original_faces, options.face_names);
-    append(result.warnings, circle_warnings(*map));
-    append(result.warnings, input_warnings(whole));
-    append(result.warnings, iteration_warnings(problem.outcome, no_circles));
-    append(result.warnings, flip_warnings(whole, map->uv, problem.cut.flaps, untangled, result.distortion));
-    if (out_of_place) {
-        result.converged = false;
-        result.warnings.push_back({WarningKind::out_of_place,
-                                   "the vertex could not be moved to the centre without turning faces over",
-                                   {options.center}});
-    }
-    if (not_even) warn_not_even({}, result.warnings);
-    result.overlaps = static_cast<Index>(faults.crossings.size());
-    if (faults.any()) {
-        result.converged = false;
-        result.warnings.push_back(
-            faults.warning("no one-to-one map was found: ", whole.original, whole.original_faces));
-    }
-    take_verdict({.most_lost = options.most_lost, .done = true}, result);
-    result.seconds.finish += stage.lap();
-    result.seconds.total = total.lap();
-    result.peak_memory_mb = peak_memory_mb();
-    context.advance(1.0);
-    return result;
+    MapRun run(options, context);
+    run.prepare(prepare);         // S of genus 0, the loops g_0 ... g_n in the order of the iteration, flaps cut off
+    run.take_metric();            // K, the cotan Laplacian: u' K u = integral of |grad u|^2 (section 4.1)
+    run.map_core();               // Sigma, Koebe's iteration (sections 4.2 to 4.4), circles, harmonic inside
+    run.change_outer_loop();      // with another loop as g_0, if the texels then are more even: w = r / (z - c)
+    run.normalize_core();         // z -> (z - a) / (1 - conj(a) z), with even texels or a vertex at 0 (section 4.3)
+    run.attach_flaps();           // each inside its hole, or along the unit circle
+    run.remove_flips();           // det Dz > 0 in each face, as UVs of 32 bits store it
+    run.embed_where_it_failed();  // Tutte's theorem: one to one, not conformal
+    run.polish();                 // least sum of |angle errors|, the circles kept
+    run.make_even();              // from conformal to true to size
+    return run.report(vertices, triangles);
 }
 
 UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,

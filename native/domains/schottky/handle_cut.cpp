@@ -86,6 +86,7 @@ Vertices in_unit_cube(const Vertices& vertices)
 bool take_loops(HandleCut& cut, const Triangles& triangles, const std::vector<std::array<int, 2>>& handle_of)
 {
     cut.surface = require_bordered_genus_zero(triangles, static_cast<Index>(cut.vertices.rows()));
+    // Each cut has two sides, with the same vertices of the input in opposite directions.
     LoopSteps steps;
     std::vector<CutLoop> loops;
     for (std::size_t k = 0; k < cut.surface.loops.size(); ++k) {
@@ -97,11 +98,13 @@ bool take_loops(HandleCut& cut, const Triangles& triangles, const std::vector<st
             steps[{cut.original[loop.vertices[i]], cut.original[loop.vertices[(i + 1) % n]]}] = {k, i};
     }
     for (std::size_t k = 0; k < loops.size(); ++k) find_other_side(cut, k, steps, loops[k]);
+    // Every vertex of a cut lies on two sides, every vertex of a hole on one: the cuts share no vertex.
     std::map<Index, int> met;
     for (const CutLoop& loop : loops)
         for (const Index v : loop.vertices) met[cut.original[v]] += loop.partner < 0 ? 2 : 1;
     if (std::ranges::any_of(met, [](const auto& entry) { return entry.second != 2; })) return false;
 
+    // Holes first, then the two sides of each handle.
     const std::vector<std::size_t> order = order_of(loops, handle_of);
     std::vector<int> number(loops.size());
     for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);

@@ -76,6 +76,7 @@ void warn(const FundamentalCircles& circles, const SchottkyFaults& faults, bool 
         result.warnings.push_back({WarningKind::coarse_mesh,
                                    "the two sides of a handle's cut miss each other by half their radius or more: the "
                                    "faces there are too large"});
+    // Of the UVs: loops off their circles, flips, and a boundary that crosses itself.
     std::vector<Index> off_circle;
     for (const SchottkyHole& hole : result.holes)
         off_circle.insert(off_circle.end(), hole.off_circle.begin(), hole.off_circle.end());

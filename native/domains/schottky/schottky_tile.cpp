@@ -180,6 +180,7 @@ SchottkyTile SchottkyTiling::by_circles(const SchottkyPlane& plane, const Fundam
 /// Changes words so that edges join all units. The largest piece does not move.
 std::vector<GroupWord> SchottkyTiling::joined(std::vector<GroupWord> words) const
 {
+    // The word of a unit such that no seam runs along h: the word on this side, and the letter of the cut.
     const auto next_to = [&](Index face, Index h) {
         GroupWord word = word_of(words[unit_[face]], face);
         append_letter(word, across_[h].letter);
@@ -187,6 +188,7 @@ std::vector<GroupWord> SchottkyTiling::joined(std::vector<GroupWord> words) cons
     };
     std::vector<int> piece(words.size(), -1);
     std::vector<Index> largest;
+    // Walks over units that lie side by side already, or moves them there.
     const auto spread = [&](std::vector<Index> units, int own, bool move) {
         for (std::size_t head = 0; head < units.size(); ++head)
             for (const Index face : faces_of_[units[head]])
@@ -202,6 +204,7 @@ std::vector<GroupWord> SchottkyTiling::joined(std::vector<GroupWord> words) cons
                 }
         return units;
     };
+    // The largest connected piece stays, and all others come to it.
     for (std::size_t u = 0; u < words.size(); ++u) {
         if (piece[u] >= 0) continue;
         piece[u] = static_cast<int>(u);

@@ -2,26 +2,89 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/types.h"
 #include "execution/each_in_pieces.h"
 #include "execution/stopwatch.h"
 #include "linear/sparse_cholesky.h"
 #include "mesh/nearest_first.h"
 #include "sphere/spherical_balance.h"
 #include "sphere/spherical_points.h"
-#include "sphere/split_edges.h"
 #include "surface/intrinsic_metric.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace koebe {
 namespace {
+
+/// Vertices, the surface's first, and faces.
+struct Polyhedron {
+    Vertices vertices;
+    Triangles triangles;
+};
+
+/// Splits edges in two, and their faces in two to four; faces stay flat.
+/// @param too_long takes an edge's ends @return whether an edge was split
+bool split_edges(Polyhedron& mesh, const std::function<bool(Index, Index)>& too_long)
+{
+    const auto is_long = [&](Index h) { return too_long(origin(mesh.triangles, h), target(mesh.triangles, h)); };
+    if (found_in_pieces(static_cast<Index>(mesh.triangles.size()), is_long).empty()) return false;
+    std::map<std::pair<Index, Index>, Index> middle;
+    std::vector<Eigen::RowVector3d> added;
+    std::vector<std::array<Index, 3>> faces;
+    const Index first = static_cast<Index>(mesh.vertices.rows());
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        std::array<Index, 3> v{}, half{};
+        for (int k = 0; k < 3; ++k) {
+            const Index a = mesh.triangles(f, k), b = mesh.triangles(f, (k + 1) % 3);
+            v[static_cast<std::size_t>(k)] = a;
+            half[static_cast<std::size_t>(k)] = -1;
+            if (!too_long(a, b)) continue;
+            const auto [at, is_new] = middle.try_emplace(std::minmax(a, b), first + static_cast<Index>(added.size()));
+            if (is_new) added.emplace_back(0.5 * (mesh.vertices.row(a) + mesh.vertices.row(b)));
+            half[static_cast<std::size_t>(k)] = at->second;
+        }
+        const auto count = std::ranges::count_if(half, [](Index h) { return h >= 0; });
+        // Turn the face so that the first edge is split, or the first and the second.
+        std::size_t turn = 0;
+        while (count > 0 && !(half[turn] >= 0 && (count == 1 || half[(turn + 1) % 3] >= 0))) ++turn;
+        std::rotate(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(turn), v.end());
+        std::rotate(half.begin(), half.begin() + static_cast<std::ptrdiff_t>(turn), half.end());
+        if (count == 0) {
+            faces.push_back(v);
+        } else if (count == 1) {
+            faces.push_back({v[0], half[0], v[2]});
+            faces.push_back({half[0], v[1], v[2]});
+        } else if (count == 2) {
+            faces.push_back({half[0], v[1], half[1]});
+            faces.push_back({v[0], half[0], half[1]});
+            faces.push_back({v[0], half[1], v[2]});
+        } else {
+            faces.push_back({v[0], half[0], half[2]});
+            faces.push_back({half[0], v[1], half[1]});
+            faces.push_back({half[2], half[1], v[2]});
+            faces.push_back({half[0], half[1], half[2]});
+        }
+    }
+    mesh.vertices.conservativeResize(first + static_cast<Eigen::Index>(added.size()), 3);
+    for (std::size_t i = 0; i < added.size(); ++i) mesh.vertices.row(first + static_cast<Index>(i)) = added[i];
+    mesh.triangles.resize(static_cast<Eigen::Index>(faces.size()), 3);
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            mesh.triangles(static_cast<Eigen::Index>(f), static_cast<Eigen::Index>(k)) = faces[f][k];
+    return true;
+}
 
 constexpr double longest_side = 0.25;        // on the sphere: longer edges are split
 constexpr double longest_coarse_side = 0.1;  // for a mesh of few faces
@@ -239,6 +302,7 @@ ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd&
     VectorXcd z = std::move(sphere.z);
     const Index count = static_cast<Index>(mesh.vertices.rows());
 
+    // Two caps that overlap at the equator, each a Dirichlet problem in its own stereographic chart.
     const Vertices start = on_sphere(z);
     std::vector<char> south(static_cast<std::size_t>(count)), north(static_cast<std::size_t>(count));
     for (Index v = 0; v < count; ++v) {
@@ -247,6 +311,8 @@ ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd&
     }
     const CapChart upper(laplacian, south), lower(laplacian, north);
     map.seconds.factor += stage.lap();
+    // Alternating Schwarz: z, then 1 / z, each harmonic inside its cap with the other cap's values on the rim. A
+    // Moebius map then balances the areas, and a turn lays the map over the last one.
     VectorXcd best = z;
     double least_change = std::numeric_limits<double>::infinity();
     for (int sweep = 0; sweep < options.max_sweeps && !map.converged; ++sweep) {
@@ -272,6 +338,7 @@ ClosedSphereMap closed_sphere_map(const PeriodicSurface& domain, const VectorXd&
         }
         least_change = std::min(least_change, change);
     }
+    // The vertices of the surface without those that were added, balanced among themselves.
     map.z = best.head(domain.surface.vertex_count);
     map.z = balance_on_sphere(map.z, weights).move(map.z);
     map.seconds.iterate += stage.lap();

@@ -3,6 +3,7 @@
 #include "core/sort_unique.h"
 #include "core/tolerances.h"
 #include "execution/each_in_pieces.h"
+#include "mesh/vertex_faces.h"
 #include "sphere/placed_face.h"
 #include "sphere/sphere_check.h"
 #include "sphere/sphere_polygons.h"
@@ -49,7 +50,7 @@ public:
           held_(static_cast<std::size_t>(surface.points.rows()), 0)
     {
         gather_polygons();
-        gather_corners();
+        vertex_faces_ = VertexFaces(triangles_, static_cast<Index>(surface_.points.rows()));
     }
 
     PlanarPoints run(SphereLayoutReport& report)
@@ -101,29 +102,12 @@ private:
         polygon_begin_.push_back(static_cast<Index>(by_polygon_.size()));
     }
 
-    /// Faces by vertex.
-    void gather_corners()
-    {
-        faces_begin_.assign(static_cast<std::size_t>(surface_.points.rows()) + 1, 0);
-        for (Eigen::Index h = 0; h < triangles_.size(); ++h) ++faces_begin_[triangles_.data()[h] + 1];
-        std::partial_sum(faces_begin_.begin(), faces_begin_.end(), faces_begin_.begin());
-        faces_of_.resize(static_cast<std::size_t>(triangles_.size()));
-        std::vector<Index> next(faces_begin_.begin(), faces_begin_.end() - 1);
-        for (Eigen::Index h = 0; h < triangles_.size(); ++h)
-            faces_of_[next[triangles_.data()[h]]++] = static_cast<Index>(h / 3);
-    }
-
     bool sphere_is_folded() const
     {
         return !found_in_pieces(static_cast<Index>(face_count()), [&](Index f) {
                     return upright_on_sphere(triangles_, surface_.points, f) == (surface_.turned[f] != 0) &&
                            longest_edge_on_sphere(triangles_, surface_.points, f) >= sphere_resolution;
                 }).empty();
-    }
-
-    std::span<const Index> faces_around(Index v) const
-    {
-        return {faces_of_.data() + faces_begin_[v], static_cast<std::size_t>(faces_begin_[v + 1] - faces_begin_[v])};
     }
 
     SphereCorners corners(Index f) const
@@ -167,7 +151,7 @@ private:
     {
         std::vector<Index> polygons;
         for (const Index v : vertices)
-            for (const Index f : faces_around(v)) polygons.push_back(polygon_of_[f]);
+            for (const Index f : vertex_faces_[v]) polygons.push_back(polygon_of_[f]);
         sort_unique(polygons);
         double least = 1.0;
         for (const Index g : polygons) {
@@ -263,15 +247,8 @@ private:
     /// Faces within so many rings of some faces, ascending.
     std::vector<Index> near(const std::vector<Index>& faces) const
     {
-        std::vector<Index> result = faces;
-        for (int ring = 0; ring < rings_around; ++ring) {
-            std::vector<Index> next = result;
-            for (const Index f : result)
-                for (const Index v : triangles_.row(f))
-                    next.insert(next.end(), faces_around(v).begin(), faces_around(v).end());
-            sort_unique(next);
-            result = std::move(next);
-        }
+        std::vector<Index> result = vertex_faces_.with_rings(triangles_, faces, rings_around);
+        std::ranges::sort(result);
         return result;
     }
 
@@ -311,7 +288,7 @@ private:
         const SpherePoint home = places_.row(v);
         SpherePoint best = home;
         double step = 0.0;
-        for (const Index f : faces_around(v))
+        for (const Index f : vertex_faces_[v])
             for (const SpherePoint& p : corners(f)) step = std::max(step, (p - home).norm());
         for (int halving = 0; halving < step_halvings && most < wanted; ++halving, step *= 0.5) {
             const SpherePoint middle = best, x = middle.unitOrthogonal(), y = middle.cross(x);
@@ -337,7 +314,8 @@ private:
     PlanarPoints uv_;
     LayoutMarks marks_;
     std::vector<char> held_;  // (V) 1 for vertices at cone points
-    std::vector<Index> by_polygon_, polygon_of_, polygon_begin_, faces_of_, faces_begin_;
+    std::vector<Index> by_polygon_, polygon_of_, polygon_begin_;
+    VertexFaces vertex_faces_;
     std::size_t moves_ = 0, most_moves_ = most_vertex_moves;
 };
 

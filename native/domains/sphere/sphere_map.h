@@ -25,7 +25,7 @@ KOEBE_API const char* to_string(SphereLayout layout) noexcept;
 /// For a closed surface the tolerance is on the change of the points.
 struct SphereOptions : CutDomainOptions {
     SphereLayout layout = SphereLayout::equirectangular;
-    double even = 0.0;  ///< 0: conformal, 1: true to size (sphere/even_sphere.h)
+    double even = 0.0;  ///< 0: conformal, 1: true to size (even/even_map.h)
     int threads = 0;    ///< at most; 0: all cores. The result is the same for any number
 };
 

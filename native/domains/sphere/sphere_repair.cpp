@@ -6,6 +6,7 @@
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/repair_effort.h"
+#include "mesh/vertex_faces.h"
 #include "sphere/sphere_check.h"
 
 #include <Eigen/Geometry>
@@ -69,12 +70,10 @@ private:
     {
         const std::size_t vertices = static_cast<std::size_t>(domain_.surface.vertex_count);
         loop_of_.assign(vertices, -1);
-        faces_of_.resize(vertices);
         off_.assign(vertices, 0);
         for (std::size_t k = 0; k < domain_.loops.size(); ++k)
             for (const Index v : domain_.loops[k]) loop_of_[v] = static_cast<int>(k);
-        for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
-            for (const Index v : triangles_.row(f)) faces_of_[v].push_back(f);
+        faces_of_ = VertexFaces(triangles_, domain_.surface.vertex_count);
         for (const Index v : map_.off_circle) off_[v] = 1;
     }
 
@@ -100,20 +99,8 @@ private:
     std::vector<std::vector<Index>> patches(const std::vector<Index>& seeds, int rings) const
     {
         std::vector<char> chosen(static_cast<std::size_t>(triangles_.rows()), 0);
-        std::vector<Index> faces = seeds, front = seeds;
-        for (const Index f : seeds) chosen[f] = 1;
-        for (int ring = 0; ring < rings; ++ring) {
-            std::vector<Index> next;
-            for (const Index f : front)
-                for (const Index v : triangles_.row(f))
-                    for (const Index g : faces_of_[v])
-                        if (!chosen[g]) {
-                            chosen[g] = 1;
-                            next.push_back(g);
-                        }
-            faces.insert(faces.end(), next.begin(), next.end());
-            front = std::move(next);
-        }
+        const std::vector<Index> faces = faces_of_.with_rings(triangles_, seeds, rings);
+        for (const Index f : faces) chosen[f] = 1;
         std::vector<std::vector<Index>> result;
         for (const Index seed : faces) {
             if (chosen[seed] != 1) continue;
@@ -301,7 +288,7 @@ private:
     RepairEffort effort_;
     const std::size_t most_;  // effort
     std::vector<int> loop_of_;
-    std::vector<std::vector<Index>> faces_of_;
+    VertexFaces faces_of_;
     std::vector<char> off_;
     std::size_t work_ = 0;
 };

@@ -57,12 +57,14 @@ void sharpen_tips(VectorXd& along, const VectorXd& side)
     along.maxCoeff(&high);
     along.minCoeff(&low);
     if (high == low || m < 4) return;
+    // A tip between two vertices lies beyond both: at the top of the parabola through three of them.
     const double top = turning_point(high), bottom = turning_point(low);
     high = tip_near(high, side, 1.0);
     low = tip_near(low, side, -1.0);
     if (high == low) return;
     along[high] = top;
     along[low] = bottom;
+    // On both sides the vertices run in order from tip to tip, a least distance apart.
     for (const Eigen::Index step : {Eigen::Index{1}, m - 1}) {
         std::vector<Eigen::Index> way;
         for (Eigen::Index b = high; b != low; b = (b + step) % m) way.push_back(b);

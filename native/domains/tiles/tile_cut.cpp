@@ -67,6 +67,7 @@ std::vector<Lift> lifts_in_cell(const PeriodicSurface& domain, const FlatMap& ma
 void join_parts(const PeriodicSurface& domain, std::vector<Lift>& lift)
 {
     const Index face_count = static_cast<Index>(domain.surface.triangles.rows());
+    // Parts of the tile between its seams.
     std::vector<Index> part(face_count, -1);
     std::vector<std::vector<Index>> parts;
     for (Index seed = 0; seed < face_count; ++seed) {
@@ -83,6 +84,7 @@ void join_parts(const PeriodicSurface& domain, std::vector<Lift>& lift)
             }
         parts.push_back(std::move(queue));
     }
+    // From the largest part outwards: each other part moves by the period between it and the part beside it.
     const auto largest = std::ranges::max_element(parts, {}, [](const auto& faces) { return faces.size(); });
     std::vector<char> placed(parts.size(), 0);
     placed[largest - parts.begin()] = 1;

@@ -6,6 +6,7 @@
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/untangle.h"
+#include "mesh/vertex_faces.h"
 #include "tiles/tile_cut.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ TileSheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std:
     for (Index h = 0; h < mesh.halfedge_count(); ++h)
         if (domain.surface.twin[h] > h && is_seam(domain, lift, h)) mesh.cut(h);
     number_fans(mesh);
+    // One vertex of the sheet for each fan, at the place of its lift.
     TileSheet sheet;
     sheet.surface = analyze_surface(mesh.fans, mesh.fan_count);
     sheet.source.resize(mesh.fan_count);
@@ -115,20 +117,6 @@ void turn_back_in(const PeriodicSurface& domain, const std::vector<Lift>& lift, 
     sort_unique(map.off_circle);
 }
 
-/// Faces within so many rings of some faces.
-std::vector<Index> around(const Triangles& triangles, Index vertex_count, std::vector<Index> faces, int rings)
-{
-    std::vector<char> near(static_cast<std::size_t>(vertex_count), 0);
-    for (int ring = 0; ring <= rings; ++ring) {
-        for (const Index f : faces)
-            for (const Index v : triangles.row(f)) near[v] = 1;
-        faces.clear();
-        for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
-            if (near[triangles(f, 0)] || near[triangles(f, 1)] || near[triangles(f, 2)]) faces.push_back(f);
-    }
-    return faces;
-}
-
 /// Moves the neighbourhoods of a ring's flipped faces by foldover-free minimization (Garanzha et al. 2021); vertices of
 /// rims and slits stay on their lines.
 void slide_along_lines(const PeriodicSurface& domain, const std::vector<Lift>& lift, int rings, HoleShape shape,
@@ -154,7 +142,9 @@ void slide_along_lines(const PeriodicSurface& domain, const std::vector<Lift>& l
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
         if (flat(sheet.uv, f)) seeds.push_back(f);
     if (seeds.empty()) return;
-    std::vector<Index> faces = around(triangles, sheet.surface.vertex_count, seeds, rings);
+    std::vector<Index> faces =
+        VertexFaces(triangles, sheet.surface.vertex_count).with_rings(triangles, seeds, rings + 1);
+    std::ranges::sort(faces);
 
     using Mobility = FoldoverProblem::Mobility;
     const Index count = sheet.surface.vertex_count;

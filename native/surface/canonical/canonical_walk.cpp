@@ -224,6 +224,7 @@ FaceWalk walk_from(const JoinedFaces& faces, const std::vector<Index>& starts)
     walk.entered.reserve(triangles.rows());
     walk.vertices.reserve(faces.vertex_count);
     std::vector<bool> is_met(triangles.rows(), false), is_numbered(faces.vertex_count, false);
+    // A face is entered by the half-edge from its first vertex, so the walk depends on no number of the input.
     const auto meet = [&](Index h) {
         if (is_numbered[origin(triangles, h)]) return;
         is_numbered[origin(triangles, h)] = true;
@@ -242,6 +243,7 @@ FaceWalk walk_from(const JoinedFaces& faces, const std::vector<Index>& starts)
         meet(start);
         cross(start);
         meet(next_halfedge(start));
+        // Breadth first: over the second and the third side of each face.
         for (; head < walk.entered.size(); ++head) {
             if (head + steps_ahead < walk.entered.size()) {
                 const Index ahead = walk.entered[head + steps_ahead];

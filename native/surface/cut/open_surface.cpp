@@ -2,19 +2,241 @@
 
 #include "core/enum_words.h"
 #include "core/errors.h"
-#include "cut/edge_chains.h"
+#include "core/sort_unique.h"
+#include "core/types.h"
+#include "cut/edge_graph.h"
 #include "cut/handle_loops.h"
-#include "cut/left_out_faces.h"
 #include "cut/seamed_mesh.h"
-#include "cut/slit.h"
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <map>
+#include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace koebe {
 namespace {
+
+/// Paths of vertices that go along each edge once, as long as possible without a branch. A closed path ends with its
+/// first vertex.
+std::vector<std::vector<Index>> edge_chains(std::vector<std::pair<Index, Index>> edges)
+{
+    for (auto& edge : edges) edge = std::minmax({edge.first, edge.second});
+    sort_unique(edges);
+
+    struct End {
+        Index vertex, other;
+        std::size_t edge;
+    };
+    std::vector<End> ends;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        ends.push_back({edges[e].first, edges[e].second, e});
+        ends.push_back({edges[e].second, edges[e].first, e});
+    }
+    std::ranges::sort(ends, {}, [](const End& end) { return std::pair(end.vertex, end.other); });
+    // Number of edge ends at a vertex, and the first of them.
+    const auto at = [&](Index v) {
+        const auto first = std::ranges::lower_bound(ends, v, {}, &End::vertex);
+        return std::pair(std::ranges::upper_bound(ends, v, {}, &End::vertex) - first, first);
+    };
+
+    std::vector<char> walked(edges.size(), 0);
+    std::vector<std::vector<Index>> chains;
+    const auto walk = [&](const End& first) {
+        if (walked[first.edge]) return;
+        walked[first.edge] = 1;
+        std::vector<Index> chain{first.vertex, first.other};
+        for (auto next = at(chain.back()); next.first == 2; next = at(chain.back())) {
+            const End& end = walked[next.second->edge] ? *std::next(next.second) : *next.second;
+            if (walked[end.edge]) break;
+            walked[end.edge] = 1;
+            chain.push_back(end.other);
+        }
+        chains.push_back(std::move(chain));
+    };
+    for (const End& end : ends)
+        if (at(end.vertex).first != 2) walk(end);
+    for (const End& end : ends) walk(end);
+    return chains;
+}
+
+using Corners = std::array<Index, 3>;
+
+bool is_degenerate(const Triangles& triangles, Index f)
+{
+    return triangles(f, 0) == triangles(f, 1) || triangles(f, 1) == triangles(f, 2) ||
+           triangles(f, 2) == triangles(f, 0);
+}
+
+Corners sorted_corners(const Triangles& triangles, Index f)
+{
+    Corners corners{triangles(f, 0), triangles(f, 1), triangles(f, 2)};
+    std::ranges::sort(corners);
+    return corners;
+}
+
+/// (F) the first face with the same vertices, perhaps the face itself.
+std::vector<Index> first_alike(const Triangles& triangles)
+{
+    std::vector<Index> order;
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
+        if (!is_degenerate(triangles, f)) order.push_back(f);
+    std::ranges::stable_sort(
+        order, [&](Index f, Index g) { return sorted_corners(triangles, f) < sorted_corners(triangles, g); });
+    std::vector<Index> first(static_cast<std::size_t>(triangles.rows()));
+    std::iota(first.begin(), first.end(), 0);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        if (sorted_corners(triangles, order[i]) == sorted_corners(triangles, order[i - 1]))
+            first[order[i]] = first[order[i - 1]];
+    return first;
+}
+
+/// Removes the duplicate's mark from polygons that do not duplicate one other polygon as a whole.
+void keep_partial_polygons(const std::vector<Index>& polygon, std::vector<Index>& first)
+{
+    std::map<Index, std::vector<Index>> faces;
+    for (std::size_t f = 0; f < first.size(); ++f) faces[polygon[f]].push_back(static_cast<Index>(f));
+    for (const auto& one : faces) {
+        const Index number = one.first;
+        const std::vector<Index>& own = one.second;
+        const Index other = polygon[first[own.front()]];
+        const bool whole = std::ranges::all_of(
+            own, [&](Index f) { return first[f] != f && polygon[first[f]] == other && other != number; });
+        if (!whole)
+            for (const Index f : own) first[f] = f;
+    }
+}
+
+/// (V) a face at each vertex that is not left out, or -1.
+std::vector<Index> face_at(const Triangles& triangles, Index vertex_count, const std::vector<Index>& first)
+{
+    std::vector<Index> face(vertex_count, -1);
+    for (Index f = static_cast<Index>(triangles.rows()) - 1; f >= 0; --f)
+        if (first[f] == f && !is_degenerate(triangles, f))
+            for (int k = 0; k < 3; ++k) face[triangles(f, k)] = f;
+    return face;
+}
+
+/// Finds faces that name a vertex twice, and faces with the three vertices of an earlier face. A polygon is a duplicate
+/// only as a whole: if all its faces duplicate faces of one other polygon.
+/// @param polygon (F) or empty, as in OpenOptions
+std::vector<LeftOutFace> left_out_faces(const Triangles& triangles, Index vertex_count,
+                                        const std::vector<Index>& polygon)
+{
+    std::vector<Index> first = first_alike(triangles);
+    if (!polygon.empty()) keep_partial_polygons(polygon, first);
+    const std::vector<Index> at = face_at(triangles, vertex_count, first);
+    std::vector<LeftOutFace> result;
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {
+        if (is_degenerate(triangles, f)) {
+            Index like = -1;
+            for (int k = 0; k < 3 && like < 0; ++k) like = at[triangles(f, k)];
+            result.push_back({f, like, true});
+        } else if (first[f] != f) {
+            result.push_back({f, first[f], false});
+        }
+    }
+    return result;
+}
+
+Index farthest_fan(const PathTree& tree)
+{
+    return static_cast<Index>(std::ranges::max_element(tree.distance) - tree.distance.begin());
+}
+
+/// Two edges that meet, for a surface without boundary: the shortest pair found by one look at each edge.
+std::vector<Index> short_slit(const SeamedMesh& mesh)
+{
+    std::array<std::vector<double>, 2> length;
+    std::array<std::vector<Index>, 2> edge;
+    for (int i = 0; i < 2; ++i) {
+        length[i].assign(mesh.fan_count, std::numeric_limits<double>::max());
+        edge[i].assign(mesh.fan_count, no_twin);
+    }
+    // The two shortest edges at each fan.
+    const auto offer = [&](Index fan, Index h) {
+        if (mesh.length[h] < length[0][fan]) {
+            length[1][fan] = length[0][fan];
+            edge[1][fan] = edge[0][fan];
+            length[0][fan] = mesh.length[h];
+            edge[0][fan] = h;
+        } else if (mesh.length[h] < length[1][fan]) {
+            length[1][fan] = mesh.length[h];
+            edge[1][fan] = h;
+        }
+    };
+    for (Index h = 0; h < mesh.halfedge_count(); ++h)
+        if (!mesh.whole[h] && mesh.twin[h] > h) {
+            offer(origin(mesh.fans, h), h);
+            offer(target(mesh.fans, h), h);
+        }
+    Index best = -1;
+    for (Index v = 0; v < mesh.fan_count; ++v)
+        if (edge[1][v] != no_twin && (best < 0 || length[0][v] + length[1][v] < length[0][best] + length[1][best]))
+            best = v;
+    return best < 0 ? std::vector<Index>{} : std::vector<Index>{edge[0][best], edge[1][best]};
+}
+
+std::vector<Index> slit_of_closed(const SeamedMesh& mesh)
+{
+    const EdgeGraph graph(mesh, 1.0);
+    const Index end = farthest_fan(shortest_paths(graph, {0}));
+    const PathTree tree = shortest_paths(graph, {end});
+    std::vector<Index> path = tree.path(farthest_fan(tree));
+    return path.size() >= 2 ? path : short_slit(mesh);
+}
+
+double length_of_loop(const SeamedMesh& mesh, const std::vector<Index>& loop)
+{
+    double length = 0.0;
+    for (const Index h : loop) length += mesh.length[h];
+    return length;
+}
+
+/// The path along which a surface is opened, so that its boundary gets long.
+///
+/// Without boundary: a shortest path between two vertices far apart, each the farthest from another (two sweeps). With
+/// loops: a path from the longest loop towards the farthest other loop, up to the first loop that it meets; without
+/// another loop, to the farthest vertex.
+/// @param mesh connected, of genus 0
+/// @return half-edges in order, at least two without boundary; empty if no path is worth it
+std::vector<Index> long_slit(const SeamedMesh& mesh)
+{
+    const auto loops = boundary_halfedges(mesh);
+    if (loops.empty()) return slit_of_closed(mesh);
+    const auto longest = static_cast<std::size_t>(
+        std::ranges::max_element(loops, {}, [&](const auto& loop) { return length_of_loop(mesh, loop); }) -
+        loops.begin());
+    std::vector<Index> loop_of(mesh.fan_count, -1), sources;
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        for (const Index h : loops[k]) loop_of[origin(mesh.fans, h)] = static_cast<Index>(k);
+    for (const Index h : loops[longest]) sources.push_back(origin(mesh.fans, h));
+    const PathTree tree = shortest_paths(EdgeGraph(mesh, 1.0), sources);
+    std::vector<Index> nearest(loops.size(), -1);
+    for (Index v = 0; v < mesh.fan_count; ++v)
+        if (const Index k = loop_of[v]; k >= 0 && (nearest[k] < 0 || tree.distance[v] < tree.distance[nearest[k]]))
+            nearest[k] = v;
+    Index end = loops.size() == 1 ? farthest_fan(tree) : nearest[longest];
+    if (loops.size() > 1)
+        for (const Index v : nearest)
+            if (tree.distance[v] > tree.distance[end]) end = v;
+    std::vector<Index> path = tree.path(end);
+    std::ranges::reverse(path);
+    // Stop at the first other loop: beyond it the path would cut a part off.
+    Index at = end;
+    std::vector<Index> fans{end};
+    while (tree.parent[at] != at) fans.push_back(at = tree.parent[at]);
+    std::ranges::reverse(fans);
+    for (std::size_t i = 1; i < fans.size(); ++i)
+        if (loop_of[fans[i]] >= 0) {
+            path.resize(i);
+            break;
+        }
+    return path;
+}
 
 constexpr int most_base_points = 24;
 /// Limit of faces times base points for all handles of a surface: some seconds.
@@ -68,6 +290,7 @@ public:
         std::vector<SeamedMesh> done;
         const double all = static_cast<double>(mesh.face.size());
         double finished = 0.0;
+        // Cut until no part wants a cut. The parts end in the order of their first faces.
         while (!pending.empty()) {
             Work work = std::move(pending.back());
             pending.pop_back();
@@ -173,6 +396,8 @@ OpenedSurface open_surface(const Vertices& vertices, const Triangles& triangles,
         throw InputError("no face has three different vertices", ElementKind::faces, all);
     }
     context.checkpoint();
+    // Seams where faces cannot be joined: an edge with more than two faces, faces that disagree, pinched vertices. Then
+    // the cuts that make each part a disk or a planar surface.
     Seams seams = seam_faces(vertices, triangles, faces, options.polygon);
     for (auto& chain : edge_chains(std::move(seams.crowded)))
         result.cuts.push_back({CutKind::crowded_edge, std::move(chain)});

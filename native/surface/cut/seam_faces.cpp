@@ -107,6 +107,7 @@ private:
         const std::vector<Index>& twin = seams_.mesh.twin;
         std::vector<signed char> side(face_count, -1);
         std::vector<Index> queue, polygon;
+        // Faces of one polygon have one side.
         const auto give = [&](Index seed, signed char seed_side) {
             side[seed] = seed_side;
             polygon.assign(1, seed);
@@ -127,6 +128,7 @@ private:
                 for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h)
                     if (twin[h] != no_twin && side[face_of(twin[h])] < 0)
                         give(face_of(twin[h]), static_cast<signed char>(side[queue[head]] ^ alike(h, twin[h])));
+            // The minority turns.
             const auto turned = std::ranges::count_if(queue, [&](Index f) { return side[f] == 1; });
             if (2 * turned > static_cast<std::ptrdiff_t>(queue.size()))
                 for (const Index f : queue) side[f] ^= 1;

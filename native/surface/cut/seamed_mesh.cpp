@@ -74,6 +74,7 @@ std::vector<SeamedMesh> connected_parts(const SeamedMesh& mesh)
     const auto [part, count] = part_of_faces(mesh);
     std::vector<Index> size(count, 0), place(part.size());
     for (std::size_t f = 0; f < part.size(); ++f) place[f] = size[part[f]]++;
+    // Half-edges keep their places in their faces: 3 f + k becomes 3 place[f] + k.
     std::vector<SeamedMesh> parts(count);
     for (Index p = 0; p < count; ++p) {
         parts[p].corners.resize(size[p], 3);

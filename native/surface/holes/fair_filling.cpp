@@ -204,6 +204,7 @@ FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& tri
         label.resize(mesh.number_of_faces(), k);
     }
 
+    // The surface keeps its vertices and faces, and their numbers; the patches follow.
     FilledSurface filled{Vertices(mesh.number_of_vertices(), 3), Triangles(mesh.number_of_faces(), 3), std::move(label),
                          filling_warnings(surface.reoriented)};
     filled.vertices.topRows(vertices.rows()) = vertices;

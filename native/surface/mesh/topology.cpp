@@ -171,6 +171,7 @@ std::vector<Index> find_handle_loop(const Surface& surface)
     const Index face_count = static_cast<Index>(surface.triangles.rows());
     const Index halfedge_count = 3 * face_count;
 
+    // The nodes of the dual graph: the faces, then the loops.
     std::vector<Index> loop_of(surface.vertex_count, -1);
     for (std::size_t k = 0; k < surface.loops.size(); ++k)
         for (const Index v : surface.loops[k]) loop_of[v] = static_cast<Index>(k);
@@ -178,6 +179,7 @@ std::vector<Index> find_handle_loop(const Surface& surface)
     for (Index h = 0; h < halfedge_count; ++h)
         if (surface.twin[h] == no_twin) loop_halfedges[loop_of[origin(surface.triangles, h)]].push_back(h);
 
+    // The tree, from face 0 over the dual edges.
     std::vector<char> dual_tree(halfedge_count, 0);
     std::vector<char> visited(face_count + surface.loops.size(), 0);
     std::vector<Index> queue{0};
@@ -200,6 +202,7 @@ std::vector<Index> find_handle_loop(const Surface& surface)
         }
     }
 
+    // The cotree: over the vertices, along edges that the tree does not cross.
     std::vector<std::vector<Index>> outgoing(surface.vertex_count);
     for (Index h = 0; h < halfedge_count; ++h) {
         if (dual_tree[h]) continue;
@@ -216,6 +219,7 @@ std::vector<Index> find_handle_loop(const Surface& surface)
                 parent[w] = queue[head];
                 queue.push_back(w);
             }
+    // An edge in neither, and the two paths from its ends to where they meet.
     const auto path_to_root = [&](Index v) {
         std::vector<Index> path{v};
         while (parent[v] != v) path.push_back(v = parent[v]);

@@ -61,6 +61,7 @@ Verdict judge_faces(const Vertices& vertices, const Triangles& triangles, const 
         parts[begin / at_a_time] = std::move(sums);
     });
     Verdict verdict;
+    // Sums of fixed pieces, in their order: any number of threads gives the same last digits.
     VerdictSums all;
     for (const VerdictSums& part : parts) {
         all.angles.add(part.angles);

@@ -41,6 +41,7 @@ VectorXcd flatten_freely(const Vertices& vertices, const Triangles& triangles, I
     for (Index& u : unknown)
         if (u == 0) u = count++;
 
+    // LSCM: a map of a flat triangle p is conformal if and only if the sum of W_k z_k is 0, W_k = p_{k+2} - p_{k+1}.
     std::vector<Eigen::Triplet<Complex, Index>> entries;
     VectorXcd right = VectorXcd::Zero(triangles.rows());
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
@@ -54,6 +55,7 @@ VectorXcd flatten_freely(const Vertices& vertices, const Triangles& triangles, I
                 right[f] -= weight * image[v];
         }
     }
+    // Least squares, by the normal equations.
     using ComplexMatrix = Eigen::SparseMatrix<Complex, Eigen::ColMajor, Index>;
     ComplexMatrix system(static_cast<Index>(triangles.rows()), count);
     system.setFromTriplets(entries.begin(), entries.end());

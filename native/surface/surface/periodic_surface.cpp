@@ -286,6 +286,7 @@ PeriodicSurface periodic_ring(const Vertices& vertices, const Triangles& triangl
     order_loops(domain, {first, second});
     domain.first_hole = 2;
 
+    // The shift across each half-edge: a closed form that sums up to 1 round the ring, and to 0 round each hole.
     const DualGraph dual(surface);
     OneForm form = OneForm::Zero(dual.halfedge_count());
     const std::vector<char> open(static_cast<std::size_t>(dual.halfedge_count()), 0);

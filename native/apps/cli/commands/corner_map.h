@@ -15,61 +15,76 @@
 
 namespace koebe::cli {
 
-/// Writes the mesh with UVs per corner.
-template <typename Result>
-void write_corners(MapKind<Result>& kind, const MeshFormat* format)
-{
-    kind.corner_uvs = [](const MeshInput& input, const Result& result) {
-        return polygon_corner_uvs(input.mapped_polygons(), input.triangulation, result.uv);
-    };
-    kind.write_mesh = [format, uvs = kind.corner_uvs](AtomicFile& file, const MeshInput& input, const Result& result) {
-        return write_with_corner_uvs(file, *format, input.polygons, uvs(input, result), {input.file});
-    };
-}
-
-/// The kind of a map whose result is a CornerMapReport. The caller sets draw and first_words.
-template <typename Result, typename Options>
-MapKind<Result> corner_map_kind(const MapRequest& request, const Options& chosen,
-                                Result (*map)(const Vertices&, const Triangles&, const Options&, ExecutionContext&))
-{
-    MapKind<Result> kind;
-    kind.compute = [&chosen, map](const MeshInput& input, ExecutionContext& context) {
-        Options options = chosen;
-        options.polygon = input.triangulation.face;
-        name_mapped_vertices(input, options);
-        Result result = with_filed_faces(
-            input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, options, context); });
-        result.turned = filed_faces(input.triangulation, result.turned);
-        add_input_warnings(input, result.warnings);
-        return result;
-    };
-    write_corners(kind, request.format);
-    kind.report = [](const Result& result) { return to_json(result); };
-    return kind;
-}
-
-/// The kind of such a map in pieces, whose faces are those of the file.
-template <typename Result, typename Options, typename Piece>
-MapKind<Result> piece_map_kind(const MapRequest& request, const Options& chosen,
-                               Result (*map)(const Vertices&, const Triangles&, const Options&, ExecutionContext&),
-                               std::vector<Piece> Result::*pieces)
-{
-    auto kind = corner_map_kind<Result, Options>(request, chosen, map);
-    kind.many_pieces = true;
-    kind.compute = [compute = kind.compute, pieces](const MeshInput& input, ExecutionContext& context) {
-        Result result = compute(input, context);
-        for (Piece& piece : result.*pieces) piece.faces = filed_faces(input.triangulation, piece.faces);
-        return result;
-    };
-    return kind;
-}
-
 /// The request for such a map: files and options.
 template <typename Options>
 struct CornerMapRequest : MapRequest {
     Options chosen;
     WeightsOption show, importance;
     bool ends_with_input = false;
+};
+
+/// A map that writes the mesh with UVs per corner.
+template <typename Result>
+class CornerKind : public MapKind<Result> {
+public:
+    explicit CornerKind(const MeshFormat* format) : format_(format) {}
+
+    PlanarPoints corner_uvs(const MeshInput& input, const Result& result) const override
+    {
+        return polygon_corner_uvs(input.mapped_polygons(), input.triangulation, result.uv);
+    }
+    std::vector<Warning> write_mesh(AtomicFile& file, const MeshInput& input, const Result& result) const override
+    {
+        return write_with_corner_uvs(file, *format_, input.polygons, corner_uvs(input, result), {input.file});
+    }
+
+private:
+    const MeshFormat* format_;
+};
+
+/// Such a map whose result is a CornerMapReport.
+template <typename Result, typename Options>
+class CornerMapKind : public CornerKind<Result> {
+public:
+    using Map = Result (*)(const Vertices&, const Triangles&, const Options&, ExecutionContext&);
+
+    CornerMapKind(const CornerMapRequest<Options>& request, Map map)
+        : CornerKind<Result>(request.format), request_(request), map_(map)
+    {
+    }
+
+    Result compute(const MeshInput& input, ExecutionContext& context) const override
+    {
+        Options options = request_.chosen;
+        options.polygon = input.triangulation.face;
+        name_mapped_vertices(input, options);
+        Result result = with_filed_faces(
+            input, [&] { return map_(input.polygons.vertices, input.triangulation.triangles, options, context); });
+        result.turned = filed_faces(input.triangulation, result.turned);
+        add_input_warnings(input, result.warnings);
+        return result;
+    }
+
+protected:
+    const CornerMapRequest<Options>& request_;
+
+private:
+    Map map_;
+};
+
+/// Such a map in pieces.
+template <typename Result, typename Options, auto pieces>
+class PieceMapKind : public CornerMapKind<Result, Options> {
+public:
+    using CornerMapKind<Result, Options>::CornerMapKind;
+
+    bool many_pieces() const override { return true; }
+    Result compute(const MeshInput& input, ExecutionContext& context) const override
+    {
+        Result result = CornerMapKind<Result, Options>::compute(input, context);
+        for (auto& piece : result.*pieces) piece.faces = filed_faces(input.triangulation, piece.faces);
+        return result;
+    }
 };
 
 /// The words of the help for such a map.

@@ -34,31 +34,37 @@ void name_filed_faces(const MeshInput& input, CutUniformizeResult& result)
     add_input_warnings(input, result.warnings);
 }
 
-}  // namespace
+class CutUniformizeKind final : public CornerKind<CutUniformizeResult> {
+public:
+    explicit CutUniformizeKind(const MapRequest& request) : CornerKind(request.format), chosen_(request.options) {}
 
-int run_cut_map(const MapRequest& request)
-{
-    MapKind<CutUniformizeResult> kind;
-    kind.any_polygon = true;
-    kind.many_pieces = true;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        UniformizeOptions options = request.options;
+    bool any_polygon() const override { return true; }
+    bool many_pieces() const override { return true; }
+    CutUniformizeResult compute(const MeshInput& input, ExecutionContext& context) const override
+    {
+        UniformizeOptions options = chosen_;
         name_mapped_vertices(input, options);
         require_fitting_vertices(input, options);
         CutUniformizeResult result = uniformize_with_cuts(input.polygons.vertices, input.triangulation.triangles,
                                                           input.triangulation.face, options, context);
         name_filed_faces(input, result);
         return result;
-    };
-    write_corners(kind, request.format);
-    kind.draw = [uvs = kind.corner_uvs](const MeshInput& input, const CutUniformizeResult& result) {
-        return to_svg(result, input.polygons, uvs(input, result));
-    };
-    kind.report = [](const CutUniformizeResult& result) { return to_json(result); };
-    kind.first_words = [](const CutUniformizeResult& result) {
+    }
+    std::string draw(const MeshInput& input, const CutUniformizeResult& result) const override
+    {
+        return to_svg(result, input.polygons, corner_uvs(input, result));
+    }
+    std::string first_words(const CutUniformizeResult& result) const override
+    {
         return counted(result.pieces.size(), "piece") + ", " + counted(result.cuts.size(), "cut");
-    };
-    return run_map_of(request, kind);
-}
+    }
+
+private:
+    const UniformizeOptions& chosen_;
+};
+
+}  // namespace
+
+int run_cut_map(const MapRequest& request) { return run_map_of(request, CutUniformizeKind(request)); }
 
 }  // namespace koebe::cli

@@ -22,13 +22,16 @@ struct FitRequest : MapRequest {
     bool extremal = false;
 };
 
-int run_fit(const FitRequest& request)
-{
-    const CircleTemplate wanted = read_template(request.wanted);
-    const MapKind<UniformizeResult> disk = disk_map(request);
-    MapKind<FitResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        CircleTemplate named = wanted;
+class FitKind final : public DiskKind<FitResult> {
+public:
+    explicit FitKind(const FitRequest& request)
+        : DiskKind(request), wanted_(read_template(request.wanted)), extremal_(request.extremal)
+    {
+    }
+
+    FitResult compute(const MeshInput& input, ExecutionContext& context) const override
+    {
+        CircleTemplate named = wanted_;
         const auto name_mapped = [&input](TemplateRim& rim) {
             if (rim.pin) rim.pin->vertex = input.mapped(rim.pin->vertex);
         };
@@ -36,24 +39,24 @@ int run_fit(const FitRequest& request)
         std::ranges::for_each(named.rims, name_mapped);
         FitResult result = with_filed_faces(input, [&] {
             return fit_circles(input.polygons.vertices, input.triangulation.triangles, named,
-                               {.map = request.options, .extremal = request.extremal}, context);
+                               {.map = request_.options, .extremal = extremal_}, context);
         });
         make_polygons_convex(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, result,
                              context, false);  // the fit's |mu| is least as it is
         input.give_to_joined(result.uv);
         add_input_warnings(input, result.warnings);
         return result;
-    };
-    kind.write_mesh = disk.write_mesh;
-    kind.corner_uvs = disk.corner_uvs;
-    kind.draw = disk.draw;
-    kind.report = [](const FitResult& result) { return to_json(result); };
-    kind.first_words = [](const FitResult& result) {
+    }
+    std::string first_words(const FitResult& result) const override
+    {
         return counted(result.loops.size() - 1, "circle") + ", |mu| " + formatted("%.2g", result.of_faces.mean) +
                ", at most " + formatted("%.2g", result.of_faces.max);
-    };
-    return run_map_of(request, kind);
-}
+    }
+
+private:
+    CircleTemplate wanted_;
+    bool extremal_;
+};
 
 }  // namespace
 
@@ -76,7 +79,7 @@ Subcommand add_fit(CLI::App& app)
         request->entries["options"].update(option_report("shapes", request->of_files));
         request->entries["options"]["extremal"] = request->extremal;
     });
-    return {options, [request] { return run_fit(*request); }};
+    return {options, [request] { return run_map_of(*request, FitKind(*request)); }};
 }
 
 }  // namespace koebe::cli

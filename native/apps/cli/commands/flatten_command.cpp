@@ -48,29 +48,30 @@ void write_further_pages(const FlattenRequest& request, std::vector<AtomicFile>&
     }
 }
 
-std::string flatten_words(const FlattenResult& result)
-{
-    const Page& page = result.pattern.page;
-    return counted(result.pieces.size(), "piece") + " on " +
-           counted(static_cast<std::size_t>(result.pattern.pages()), page.any() ? "page" : "sheet") + ", cuts " +
-           formatted("%.0f", result.cut_length) + " mm, stretch " + formatted("%.2g", result.stretch.mean) +
-           " % in the mean and " + formatted("%.2g", result.stretch.max) + " % at most";
-}
+class FlattenKind final : public PieceMapKind<FlattenResult, FlattenOptions, &FlattenResult::pieces> {
+public:
+    explicit FlattenKind(const FlattenRequest& request) : PieceMapKind(request, flatten) {}
 
-int run_flatten(const FlattenRequest& request)
-{
-    auto kind = piece_map_kind(request, request.chosen, flatten, &FlattenResult::pieces);
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput&, const FlattenResult& result) {
-        file.write(is_dxf(request.output) ? pattern_dxf(result.pattern) : pattern_svg(result.pattern).front());
-        return std::vector<Warning>();
-    };
-    if (!is_dxf(request.output))
-        kind.write_more = [&](std::vector<AtomicFile>& files, const FlattenResult& result) {
-            write_further_pages(request, files, result);
-        };
-    kind.first_words = flatten_words;
-    return run_map_of(request, kind);
-}
+    std::vector<Warning> write_mesh(AtomicFile& file, const MeshInput&, const FlattenResult& result) const override
+    {
+        file.write(is_dxf(request_.output) ? pattern_dxf(result.pattern) : pattern_svg(result.pattern).front());
+        return {};
+    }
+    void write_more(std::vector<AtomicFile>& files, const FlattenResult& result) const override
+    {
+        if (!is_dxf(request_.output)) write_further_pages(request_, files, result);
+    }
+    std::string first_words(const FlattenResult& result) const override
+    {
+        const Page& page = result.pattern.page;
+        return counted(result.pieces.size(), "piece") + " on " +
+               counted(static_cast<std::size_t>(result.pattern.pages()), page.any() ? "page" : "sheet") + ", cuts " +
+               formatted("%.0f", result.cut_length) + " mm, stretch " + formatted("%.2g", result.stretch.mean) +
+               " % in the mean and " + formatted("%.2g", result.stretch.max) + " % at most";
+    }
+};
+
+int run_flatten(const FlattenRequest& request) { return run_map_of(request, FlattenKind(request)); }
 
 }  // namespace
 

@@ -40,34 +40,39 @@ std::vector<Warning> write_lifted(AtomicFile& file, const LiftRequest& request, 
     return write_with_patches(file, *request.format, mesh, result.patch, {no_file});
 }
 
-int run_lift(const LiftRequest& request)
-{
-    MapKind<LiftResult> kind;
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        LiftOptions chosen = request.chosen;
-        chosen.graded = request.graded.read("a share of the size");
+class LiftKind final : public MapKind<LiftResult> {
+public:
+    explicit LiftKind(const LiftRequest& request) : request_(request) {}
+
+    LiftResult compute(const MeshInput& input, ExecutionContext& context) const override
+    {
+        LiftOptions chosen = request_.chosen;
+        chosen.graded = request_.graded.read("a share of the size");
         name_mapped_vertices(input, chosen);
         LiftResult result = with_filed_faces(input, [&] {
-            return lift(input.polygons.vertices, input.triangulation.triangles, request.pattern, chosen, context);
+            return lift(input.polygons.vertices, input.triangulation.triangles, request_.pattern, chosen, context);
         });
         add_input_warnings(input, result.warnings);
         return result;
-    };
-    kind.write_mesh = [&](AtomicFile& file, const MeshInput&, const LiftResult& result) {
-        return write_lifted(file, request, result);
-    };
-    kind.report = [](const LiftResult& result) { return to_json(result); };
-    kind.first_words = [&](const LiftResult& result) {
-        if (io::lower_extension(request.pattern) == ".obj" && is_pattern_file(request.pattern))
+    }
+    std::vector<Warning> write_mesh(AtomicFile& file, const MeshInput&, const LiftResult& result) const override
+    {
+        return write_lifted(file, request_, result);
+    }
+    std::string first_words(const LiftResult& result) const override
+    {
+        if (io::lower_extension(request_.pattern) == ".obj" && is_pattern_file(request_.pattern))
             return "bent, " + counted(static_cast<std::size_t>(result.face_count), "face");
         return (result.outlines == 0 ? "relief, "  // of an image
                                      : counted(static_cast<std::size_t>(result.outlines), "outline") +
-                                           (request.chosen.perforate ? " cut out, " : " raised, ")) +
+                                           (request_.chosen.perforate ? " cut out, " : " raised, ")) +
                counted(static_cast<std::size_t>(result.face_count), "face") + ", " +
                (result.uv.rows() == 0 ? "closed" : counted(static_cast<std::size_t>(result.loops_after), "loop"));
-    };
-    return run_map_of(request, kind);
-}
+    }
+
+private:
+    const LiftRequest& request_;
+};
 
 std::string pattern_help()
 {
@@ -110,7 +115,7 @@ Subcommand add_lift(CLI::App& app)
         request->entries["options"].update(option_report("lift", request->of_files));
         request->graded.check(*request);
     });
-    return {options, [request] { return run_lift(*request); }};
+    return {options, [request] { return run_map_of(*request, LiftKind(*request)); }};
 }
 
 }  // namespace koebe::cli

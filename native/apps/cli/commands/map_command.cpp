@@ -1,12 +1,10 @@
 #include "cli/commands/map_command.h"
 
 #include "cli/commands/map_run.h"
-#include "cli/options/loop_options.h"
-#include "core/counted.h"
-#include "pipeline/convex_disk.h"
-#include "report/svg.h"
+#include "cli/commands/uniformize_kind.h"
 
-#include <algorithm>
+#include "core/counted.h"
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,45 +30,9 @@ void add_losses(const std::string& file, const std::vector<Warning>& losses, std
     }
 }
 
-MapKind<UniformizeResult> disk_map(const MapRequest& request)
-{
-    MapKind<UniformizeResult> kind;
-    kind.write_mesh = [format = request.format](AtomicFile& file, const MeshInput& input,
-                                                const UniformizeResult& result) {
-        return write_with_uvs(file, *format, input.polygons, result.uv, {input.file});
-    };
-    kind.corner_uvs = [](const MeshInput& input, const UniformizeResult& result) {
-        return PlanarPoints(0.5 * (1.0 + result.uv(input.polygons.corners, Eigen::all).array()));
-    };
-    kind.draw = [](const MeshInput& input, const UniformizeResult& result) { return to_svg(result, input.polygons); };
-    kind.report = [](const UniformizeResult& result) { return to_json(result); };
-    kind.first_words = [](const UniformizeResult& result) {
-        double roundness = 0.0;
-        for (const LoopReport& loop : result.loops) roundness = std::max(roundness, loop.roundness.paper);
-        return counted(result.loops.size(), "loop") + ", " + counted(static_cast<std::size_t>(result.sweeps), "sweep") +
-               ", roundness " + formatted("%.1e", roundness);
-    };
-    return kind;
-}
-
 int run_map(const MapRequest& request, const MapFunction& compute)
 {
-    MapKind<UniformizeResult> kind = disk_map(request);
-    kind.compute = [&](const MeshInput& input, ExecutionContext& context) {
-        UniformizeOptions options = request.options;
-        name_mapped_vertices(input, options);
-        UniformizeResult result = with_filed_faces(input, [&] {
-            require_fitting_vertices(input, options);
-            UniformizeResult made = compute(input.polygons.vertices, input.triangulation.triangles, options, context);
-            make_polygons_convex(input.polygons.vertices, input.triangulation.triangles, input.triangulation.face, made,
-                                 context);
-            return made;
-        });
-        input.give_to_joined(result.uv);
-        add_input_warnings(input, result.warnings);
-        return result;
-    };
-    return run_map_of(request, kind);
+    return run_map_of(request, UniformizeKind(request, compute));
 }
 
 }  // namespace koebe::cli

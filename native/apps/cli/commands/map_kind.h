@@ -6,51 +6,71 @@
 #include "cli/process/roomy_heap.h"
 #include "core/warning.h"
 #include "io/atomic_file.h"
-#include "pipeline/result.h"
 #include "quality/distortion.h"
+#include "report/svg.h"
 
-#include <nlohmann/json.hpp>
-
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace koebe::cli {
 
-/// The differences between kinds of maps. The result has `seconds`, `converged`, `warnings` and `distortion`.
+/// A kind of map. Each command has a class of its own for its kind. The result has `seconds`, `converged`, `warnings`
+/// and `distortion`, and to_json() makes its report.
 template <typename Result>
-struct MapKind {
-    bool any_polygon = false;  ///< see ReadOptions
-    bool many_pieces = false;  ///< threads work on several pieces side by side
+class MapKind {
+public:
+    virtual ~MapKind() = default;
+
+    virtual bool any_polygon() const { return false; }  ///< see ReadOptions
+    virtual bool many_pieces() const { return false; }  ///< threads work on several pieces side by side
     /// Computes the map. All numbers in the result are the file's.
-    std::function<Result(const MeshInput&, ExecutionContext&)> compute;
+    virtual Result compute(const MeshInput&, ExecutionContext&) const = 0;
     /// Writes the mesh. Returns warnings about replaced or lost contents of the file.
-    std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_mesh;
-    /// Writes the mesh of --sphere, if requested; returns such warnings.
-    std::function<std::vector<Warning>(AtomicFile&, const MeshInput&, const Result&)> write_sphere;
-    /// Writes more files than the request names, if there are any.
-    std::function<void(std::vector<AtomicFile>&, const Result&)> write_more;
+    virtual std::vector<Warning> write_mesh(AtomicFile&, const MeshInput&, const Result&) const = 0;
+    /// Writes the mesh of --sphere; returns such warnings.
+    virtual std::vector<Warning> write_sphere(AtomicFile&, const MeshInput&, const Result&) const { return {}; }
+    /// Writes more files than the request names.
+    virtual void write_more(std::vector<AtomicFile>&, const Result&) const {}
     /// u and v of the file's corners, (C, 2), for a GLB file.
-    std::function<PlanarPoints(const MeshInput&, const Result&)> corner_uvs;
-    std::function<std::string(const MeshInput&, const Result&)> draw;
-    std::function<nlohmann::ordered_json(const Result&)> report;
-    std::function<std::string(const Result&)> first_words;  ///< of the result line, after the file's name
+    virtual PlanarPoints corner_uvs(const MeshInput&, const Result&) const { return {}; }
+    virtual std::string draw(const MeshInput&, const Result&) const { return {}; }
+    virtual std::string first_words(const Result&) const = 0;  ///< of the result line, after the file's name
 };
 
 /// Begins a run, before anything is read. @return how its file is read @throws FileError a file cannot be written
 template <typename Result>
 ReadOptions begin_run(const MapRequest& request, const MapKind<Result>& kind)
 {
-    if (!kind.many_pieces) take_roomy_heap();
+    if (!kind.many_pieces()) take_roomy_heap();
     require_writable_files(map_files(request), !request.quiet);
-    return {.any_polygon = kind.any_polygon,
+    return {.any_polygon = kind.any_polygon(),
             .hash = !request.json.empty(),
             .weld = request.of_files.weld,
             .threads = request.options.threads};
 }
 
-/// The kind of a map to the disk, without its computation.
-MapKind<UniformizeResult> disk_map(const MapRequest& request);
+/// A map to the disk.
+template <typename Result>
+class DiskKind : public MapKind<Result> {
+public:
+    explicit DiskKind(const MapRequest& request) : request_(request) {}
+
+    std::vector<Warning> write_mesh(AtomicFile& file, const MeshInput& input, const Result& result) const override
+    {
+        return write_with_uvs(file, *request_.format, input.polygons, result.uv, {input.file});
+    }
+    PlanarPoints corner_uvs(const MeshInput& input, const Result& result) const override
+    {
+        return 0.5 * (1.0 + result.uv(input.polygons.corners, Eigen::all).array());
+    }
+    std::string draw(const MeshInput& input, const Result& result) const override
+    {
+        return to_svg(result, input.polygons);
+    }
+
+protected:
+    const MapRequest& request_;
+};
 
 /// The result line: the file, the first words, and the figures that all maps have.
 std::string map_line(const MapRequest& request, const std::string& first_words, const Distortion& distortion,

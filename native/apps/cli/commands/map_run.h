@@ -29,12 +29,12 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
     add_losses("", kind.write_mesh(files.emplace_back(request.output), input, result), result.warnings);
     if (!request.sphere.empty())
         add_losses("--sphere: ", kind.write_sphere(files.emplace_back(request.sphere), input, result), result.warnings);
-    if (kind.write_more) kind.write_more(files, result);
+    kind.write_more(files, result);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(kind.draw(input, result));
     result.seconds.write = writing.elapsed();
     result.seconds.total = run.elapsed();
     if (!request.json.empty()) {
-        nlohmann::ordered_json report = kind.report(result);
+        nlohmann::ordered_json report = to_json(result);
         report["input"] = std::filesystem::path(request.input).filename().string();
         if (!input.sha256.empty()) report["input_sha256"] = input.sha256;
         report.update(request.entries);

@@ -11,19 +11,23 @@
 namespace koebe::cli {
 namespace {
 
-int run_parts(const CornerMapRequest<PartsOptions>& request)
-{
-    auto kind = piece_map_kind(request, request.chosen, parts_of, &PartsResult::parts);
-    kind.draw = [](const MeshInput&, const PartsResult& result) {
+class PartsKind final : public PieceMapKind<PartsResult, PartsOptions, &PartsResult::parts> {
+public:
+    explicit PartsKind(const CornerMapRequest<PartsOptions>& request) : PieceMapKind(request, parts_of) {}
+
+    std::string draw(const MeshInput&, const PartsResult& result) const override
+    {
         return parts_svg(result.uv, result.part, result.tiles);
-    };
-    kind.first_words = [](const PartsResult& result) {
+    }
+    std::string first_words(const PartsResult& result) const override
+    {
         return counted(result.parts.size(), "part") + ", cuts " + formatted("%.2f", result.cut_length) +
                " times the root of the area, texel density within a factor " +
                formatted("%.3g", result.density_ratio_5_95);
-    };
-    return run_map_of(request, kind);
-}
+    }
+};
+
+int run_parts(const CornerMapRequest<PartsOptions>& request) { return run_map_of(request, PartsKind(request)); }
 
 }  // namespace
 

@@ -63,7 +63,7 @@ int run_scene_of(const MapRequest& request, const MapKind<Result>& kind)
             MappedMesh& mesh = mapped.emplace_back();
             mesh.uvs = gltf_points(uvs);
             report_as_in_file(input, uvs, mesh.uvs, result);
-            mesh.report = kind.report(result);
+            mesh.report = to_json(result);
             mesh.first_words = kind.first_words(result);
             if (!request.svg.empty()) mesh.picture = kind.draw(input, result);
             mesh.distortion = result.distortion;

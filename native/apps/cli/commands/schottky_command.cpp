@@ -9,15 +9,21 @@
 namespace koebe::cli {
 namespace {
 
-int run_schottky(const CornerMapRequest<SchottkyOptions>& request)
-{
-    auto kind = corner_map_kind<SchottkyResult, SchottkyOptions>(request, request.chosen, schottky_map);
-    kind.draw = [](const MeshInput&, const SchottkyResult& result) { return schottky_svg(result); };
-    kind.first_words = [](const SchottkyResult& result) {
+class SchottkyKind final : public CornerMapKind<SchottkyResult, SchottkyOptions> {
+public:
+    explicit SchottkyKind(const CornerMapRequest<SchottkyOptions>& request) : CornerMapKind(request, schottky_map) {}
+
+    std::string draw(const MeshInput&, const SchottkyResult& result) const override { return schottky_svg(result); }
+    std::string first_words(const SchottkyResult& result) const override
+    {
         return counted(result.handles.size(), "handle") + ", " + counted(result.holes.size(), "loop") + ", " +
                counted(static_cast<std::size_t>(result.sweeps), "sweep");
-    };
-    return run_map_of(request, kind);
+    }
+};
+
+int run_schottky(const CornerMapRequest<SchottkyOptions>& request)
+{
+    return run_map_of(request, SchottkyKind(request));
 }
 
 }  // namespace

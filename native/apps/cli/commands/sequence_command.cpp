@@ -1,6 +1,7 @@
 // koebe sequence FILES... --output FOLDER
 #include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
+#include "cli/commands/uniformize_kind.h"
 #include "cli/options/loop_options.h"
 #include "cli/options/option_table.h"
 #include "cli/options/uniformize_options.h"
@@ -100,11 +101,11 @@ private:
             result = with_filed_faces(input, [&] { return mapped(file, input, context); });
             add_input_warnings(input, result.warnings);
             result.seconds.read = input.seconds;
-            write_map(request, disk_map(request), input, result, run, context);
+            write_map(request, UniformizeKind(request), input, result, run, context);
         }
         if (!all_.quiet) {
-            print(map_line(request, disk_map(request).first_words(result), result.distortion, result.seconds.total,
-                           result.converged, result.warnings),
+            print(map_line(request, UniformizeKind(request).first_words(result), result.distortion,
+                           result.seconds.total, result.converged, result.warnings),
                   "; the files are written");
             show_warnings(result.warnings);
         }

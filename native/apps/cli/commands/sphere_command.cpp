@@ -18,30 +18,36 @@ PolygonMesh on_unit_sphere(const MeshInput& input, const SphereResult& result)
     return mesh;
 }
 
-int run_sphere(const CornerMapRequest<SphereOptions>& request)
-{
-    auto kind = corner_map_kind<SphereResult, SphereOptions>(request, request.chosen, sphere_map);
-    kind.compute = [compute = kind.compute](const MeshInput& input, ExecutionContext& context) {
-        SphereResult result = compute(input, context);
+class SphereKind final : public CornerMapKind<SphereResult, SphereOptions> {
+public:
+    explicit SphereKind(const CornerMapRequest<SphereOptions>& request) : CornerMapKind(request, sphere_map) {}
+
+    SphereResult compute(const MeshInput& input, ExecutionContext& context) const override
+    {
+        SphereResult result = CornerMapKind::compute(input, context);
         input.give_to_joined(result.points);
         for (auto faces : {&SphereLayoutReport::crossing, &SphereLayoutReport::moved, &SphereLayoutReport::torn,
                            &SphereLayoutReport::flipped, &SphereLayoutReport::below_resolution})
             result.layout.*faces = filed_faces(input.triangulation, result.layout.*faces);
         return result;
-    };
-    kind.write_sphere = [&](AtomicFile& file, const MeshInput& input, const SphereResult& result) {
-        return write_with_corner_uvs(file, *required_format(request.sphere), on_unit_sphere(input, result),
-                                     polygon_corner_uvs(input.mapped_polygons(), input.triangulation, result.uv),
-                                     {input.file, true});
-    };
-    kind.draw = [](const MeshInput& input, const SphereResult& result) {
+    }
+    std::vector<Warning> write_sphere(AtomicFile& file, const MeshInput& input,
+                                      const SphereResult& result) const override
+    {
+        return write_with_corner_uvs(file, *required_format(request_.sphere), on_unit_sphere(input, result),
+                                     corner_uvs(input, result), {input.file, true});
+    }
+    std::string draw(const MeshInput& input, const SphereResult& result) const override
+    {
         return sphere_svg(input.triangulation.triangles, result);
-    };
-    kind.first_words = [](const SphereResult& result) {
+    }
+    std::string first_words(const SphereResult& result) const override
+    {
         return counted(result.loops.size(), "loop") + ", " + counted(static_cast<std::size_t>(result.sweeps), "sweep");
-    };
-    return run_map_of(request, kind);
-}
+    }
+};
+
+int run_sphere(const CornerMapRequest<SphereOptions>& request) { return run_map_of(request, SphereKind(request)); }
 
 }  // namespace
 

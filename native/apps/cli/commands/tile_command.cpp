@@ -12,42 +12,41 @@ namespace koebe::cli {
 namespace {
 
 using TileRequest = CornerMapRequest<TileOptions>;
-using TileFunction = TileResult (*)(const Vertices&, const Triangles&, const TileOptions&, ExecutionContext&);
 
 constexpr const char* picture = "write a picture of the tile and its copies there";
 
-std::string tile_words(const TileResult& result)
-{
-    const bool torus = result.periods.size() > 1;
-    std::string words = counted(result.loops.size(), "loop") + ", modulus ";
-    if (torus) words += formatted("%.5g", result.modulus.real()) + (result.modulus.imag() < 0.0 ? "" : "+");
-    return words + formatted("%.5g", result.modulus.imag()) + "i";
-}
+class TileKind final : public CornerMapKind<TileResult, TileOptions> {
+public:
+    using CornerMapKind::CornerMapKind;
 
-int run_tile(const TileRequest& request, TileFunction map)
-{
-    auto kind = corner_map_kind(request, request.chosen, map);
-    kind.draw = [](const MeshInput&, const TileResult& result) { return tile_svg(result); };
-    kind.first_words = tile_words;
-    return run_map_of(request, kind);
-}
+    std::string draw(const MeshInput&, const TileResult& result) const override { return tile_svg(result); }
+    std::string first_words(const TileResult& result) const override
+    {
+        const bool torus = result.periods.size() > 1;
+        std::string words = counted(result.loops.size(), "loop") + ", modulus ";
+        if (torus) words += formatted("%.5g", result.modulus.real()) + (result.modulus.imag() < 0.0 ? "" : "+");
+        return words + formatted("%.5g", result.modulus.imag()) + "i";
+    }
+};
 
 }  // namespace
 
 Subcommand add_torus(CLI::App& app)
 {
-    return add_corner_map<TileOptions>(app,
-                                       {"torus", "map a surface with one handle to a flat torus, its holes round",
-                                        "surface of genus 1, with or without holes", picture},
-                                       [](const TileRequest& request) { return run_tile(request, torus_map); });
+    return add_corner_map<TileOptions>(
+        app,
+        {"torus", "map a surface with one handle to a flat torus, its holes round",
+         "surface of genus 1, with or without holes", picture},
+        [](const TileRequest& request) { return run_map_of(request, TileKind(request, torus_map)); });
 }
 
 Subcommand add_ring(CLI::App& app)
 {
-    return add_corner_map<TileOptions>(app,
-                                       {"ring", "map a surface with two loops or more to an unrolled cylinder",
-                                        "surface of genus 0 with two loops or more", picture},
-                                       [](const TileRequest& request) { return run_tile(request, ring_map); });
+    return add_corner_map<TileOptions>(
+        app,
+        {"ring", "map a surface with two loops or more to an unrolled cylinder",
+         "surface of genus 0 with two loops or more", picture},
+        [](const TileRequest& request) { return run_map_of(request, TileKind(request, ring_map)); });
 }
 
 }  // namespace koebe::cli

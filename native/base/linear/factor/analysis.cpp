@@ -2,19 +2,102 @@
 
 #include "core/errors.h"
 #include "core/sort_unique.h"
+#include "core/types.h"
 #include "execution/memory_limit.h"
 #include "execution/thread_share.h"
 #include "linear/cholmod_support.h"
 #include "linear/factor/dissection.h"
 #include "linear/factor/elimination_order.h"
-#include "linear/factor/piece_analysis.h"
 #include "linear/factor/row_groups.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace koebe::detail {
 namespace {
+
+/// The supernodes of a piece of P rows. Row numbers below P are the piece's own in the order of elimination; P + i is
+/// row i of its interface.
+struct PieceSupernodes {
+    std::vector<Index> order;  ///< rows of the matrix in the order of elimination
+    std::vector<Index> first;  ///< first column of each supernode, and the end
+    std::vector<Index> row_begin, rows;
+};
+
+/// The piece's columns, lower triangle, then its interface with a diagonal only.
+SparseMatrix with_interface(const SparseMatrix& matrix, const std::vector<Index>& rows,
+                            const std::vector<Index>& interface, const std::vector<Index>& rank,
+                            const std::vector<Index>& number)
+{
+    const Index size = static_cast<Index>(rows.size()), all = size + static_cast<Index>(interface.size());
+    SparseMatrix result(all, all);
+    std::size_t entries = interface.size();
+    for (const Index v : rows) entries += matrix.outerIndexPtr()[v + 1] - matrix.outerIndexPtr()[v];
+    result.reserve(static_cast<Eigen::Index>(entries));
+    // The rows of the piece, then the interface, whose own block the symbolic analysis needs as a diagonal alone.
+    std::vector<Index> beyond;
+    for (Index c = 0; c < size; ++c) {
+        result.startVec(c);
+        beyond.clear();
+        for (SparseMatrix::InnerIterator it(matrix, rows[c]); it; ++it) {
+            const Index w = static_cast<Index>(it.row());
+            if (rank[w] >= 0)
+                beyond.push_back(rank[w]);
+            else if (number[w] >= c)
+                result.insertBack(number[w], c) = it.value();
+        }
+        std::sort(beyond.begin(), beyond.end());
+        for (const Index r : beyond)
+            result.insertBack(size + (std::lower_bound(interface.begin(), interface.end(), r) - interface.begin()), c) =
+                1.0;
+    }
+    for (Index c = size; c < all; ++c) {
+        result.startVec(c);
+        result.insertBack(c, c) = 1.0;
+    }
+    result.finalize();
+    return result;
+}
+
+/// @param matrix both triangles
+/// @param rows of the piece, ascending
+/// @param interface in the factor's order, ascending
+/// @param rank of rows outside pieces in the factor's order; -1 for rows of pieces
+/// @param number of each row within its piece
+PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Index>& rows,
+                              const std::vector<Index>& interface, const std::vector<Index>& rank,
+                              const std::vector<Index>& number)
+{
+    const Index size = static_cast<Index>(rows.size());
+    const SparseMatrix own = with_interface(matrix, rows, interface, rank, number);
+    std::vector<Index> last(interface.size());
+    std::iota(last.begin(), last.end(), size);
+    CholmodCommon common;
+    std::vector<Index> order = elimination_order(own, last, true, common);
+    common->nmethods = 1;
+    common->method[0].ordering = CHOLMOD_GIVEN;
+    common->postorder = 0;
+    cholmod_sparse lower = view(own, -1);
+    const Factor symbolic = detail::own(cholmod_analyze_p(&lower, order.data(), nullptr, 0, common.get()), common);
+    common.require(symbolic != nullptr, "symbolic analysis");
+
+    PieceSupernodes result;
+    const Index* first = static_cast<const Index*>(symbolic->super);
+    const Index* row_begin = static_cast<const Index*>(symbolic->pi);
+    const Index* all_rows = static_cast<const Index*>(symbolic->s);
+    // Cut a supernode off where it enters the interface.
+    Index count = 0;
+    while (count < static_cast<Index>(symbolic->nsuper) && first[count] < size) ++count;
+    result.first.assign(first, first + count);
+    result.first.push_back(size);
+    result.row_begin.assign(row_begin, row_begin + count + 1);
+    result.rows.assign(all_rows, all_rows + row_begin[count]);
+    order.resize(size);
+    for (const Index i : order) result.order.push_back(rows[i]);
+    return result;
+}
 
 /// Fills in the members that follow from the order and the first columns.
 void number(Supernodes& l)
@@ -193,6 +276,7 @@ private:
             FactorPart& part = parts_[p];
             const std::ptrdiff_t begin = static_cast<std::ptrdiff_t>(l_.rows.size());
             part.first_supernode = static_cast<Index>(l_.first.size());
+            // A piece has supernodes of its own, a separator is one supernode.
             if (p < pieces_.size()) {
                 const PieceSupernodes& piece = pieces_[p];
                 const Index size = part.end - part.begin;

@@ -15,6 +15,7 @@ std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vect
             inner.push_back(v);
         }
 
+    // The lower triangle of the block that has no row of `last`.
     SparseMatrix block(inner.size(), inner.size());
     block.reserve(matrix.nonZeros());
     for (std::size_t c = 0; c < inner.size(); ++c) {
@@ -24,6 +25,7 @@ std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vect
     }
     block.finalize();
 
+    // AMD: of its minimum degree order a postordering has the same fill, and supernodes side by side.
     std::vector<Index> order(inner.size());
     if (!inner.empty()) {
         cholmod_sparse lower = view(block, -1);

@@ -20,6 +20,7 @@ void eliminate(double* columns, Index height, Index width, double* rest)
     const auto at = [&](Index row, Index column) {
         return columns + row + static_cast<std::ptrdiff_t>(column) * height;
     };
+    // Right-looking, by blocks: L_pp L_pp' = A_pp, L_rp = A_rp L_pp^-T, and A_rr -= L_rp L_rp' among the columns.
     for (Index p = 0; p < width; p += front_block) {
         const int block = std::min(front_block, width - p);
         int info = 0;
@@ -37,6 +38,7 @@ void eliminate(double* columns, Index height, Index width, double* rest)
                           height);
         });
     }
+    // The other columns see all blocks at once.
     const Index others = height - width;
     in_pieces(others, front_block, [&](std::size_t from, std::size_t until) {
         const Index c = static_cast<Index>(from);

@@ -113,12 +113,14 @@ MultifrontalFactor::MultifrontalFactor(SupernodalFactor& l, const SparseMatrix& 
     for (const std::vector<Index>& set : changing)
         for (const Index v : set)
             for (Index s = l_.supernode[l_.rank[v]]; !changes_[s]; s = l_.parent(s)) changes_[s] = 1;
+    // An entry changes the supernode of its row and all on the way up to the root.
     changing_ = Subtrees(l_, changes_);
     all_ = Subtrees(l_, std::vector<char>(count, 1));
     double kept = 0.0;
     for (Index s = 0; s < count; ++s)
         if (changes_[s]) kept += l_.height(s) * l_.width(s) + std::pow(l_.height(s) - l_.width(s), 2);
     require_memory(8.0 * kept, "what is kept of the factorization");
+    // Extend-add: where the rows that a child leaves stand among the rows of its parent.
     children_.resize(count);
     place_.resize(count);
     left_.resize(count);

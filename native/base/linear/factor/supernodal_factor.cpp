@@ -47,11 +47,13 @@ void SupernodalFactor::factorize_separator(const SparseMatrix& matrix, const Fac
     for (Index r = 0; r < others; ++r) place[part.interface[r] - tops_] = columns + r;
     double* block = columns > 0 ? values(part.first_supernode) : nullptr;
     LowerMatrix rest = pool.take(others);
+    // The columns of the matrix.
     std::fill(block, block + static_cast<std::ptrdiff_t>(columns) * rows, 0.0);
     for (Index c = 0; c < columns; ++c)
         for (SparseMatrix::InnerIterator it(matrix, order[part.begin + c]); it; ++it)
             if (const Index r = rank[it.row()]; r >= part.begin + c)
                 block[place[r - tops_] + static_cast<std::ptrdiff_t>(c) * rows] = it.value();
+    // Extend-add: what each child leaves on its interface.
     for (const std::size_t child : part.children) {
         LowerMatrix from = std::exchange(rests[child], {});
         const std::vector<Index>& from_rows = parts_[child].interface;

@@ -12,7 +12,7 @@ namespace koebe {
 /// edge.
 /// @param core, outer the surface without flaps and its outer loop @param flaps, core_vertices as in FlapCut; the
 /// latter is empty if there are no flaps
-VectorXd rim_room(const Surface& core, const VertexLoop& outer, const std::vector<Flap>& flaps,
-                  const std::vector<Index>& core_vertices);
+VectorXd least_arcs(const Surface& core, const VertexLoop& outer, const std::vector<Flap>& flaps,
+                    const std::vector<Index>& core_vertices);
 
 }  // namespace koebe

@@ -1,4 +1,4 @@
-#include "flaps/rim_room.h"
+#include "flaps/least_arcs.h"
 
 #include "core/connectivity.h"
 
@@ -29,8 +29,8 @@ void mark_pockets(const Surface& core, const VertexLoop& outer, const std::vecto
 
 }  // namespace
 
-VectorXd rim_room(const Surface& core, const VertexLoop& outer, const std::vector<Flap>& flaps,
-                  const std::vector<Index>& core_vertices)
+VectorXd least_arcs(const Surface& core, const VertexLoop& outer, const std::vector<Flap>& flaps,
+                    const std::vector<Index>& core_vertices)
 {
     const Index n = static_cast<Index>(outer.size());
     std::vector<Index> place(core.vertex_count, -1);

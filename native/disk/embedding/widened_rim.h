@@ -12,7 +12,7 @@ namespace koebe {
 /// @param rim (n) points of the outer loop on the unit circle, in order; the first keeps its place
 /// @param share 0: the rim does not change; 1: only the needs count
 /// @param center an inner vertex for the middle of the disk, which is not behind any edge; -1: the largest part is not
-VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share,
-                    Index center = -1);
+VectorXcd widened_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share,
+                      Index center = -1);
 
 }  // namespace koebe

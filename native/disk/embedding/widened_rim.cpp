@@ -1,4 +1,4 @@
-#include "embedding/roomy_rim.h"
+#include "embedding/widened_rim.h"
 
 #include "core/connectivity.h"
 
@@ -79,7 +79,8 @@ std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer, Inde
 
 }  // namespace
 
-VectorXcd roomy_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share, Index center)
+VectorXcd widened_rim(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim, double share,
+                      Index center)
 {
     const auto n = static_cast<Index>(outer.size());
     VectorXd steps = VectorXd::Constant(n, 2.0 * std::numbers::pi / n);
