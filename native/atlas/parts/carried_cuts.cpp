@@ -134,7 +134,7 @@ private:
         const double whole = path_length(fine_, path);
         double before = 0.0, after = 0.0;  // lengths up to the ends of an edge
         for (const Index h : path) {
-            after = h == path.back() ? whole : before + edge_length(fine_, h);
+            after = h == path.back() ? whole : before + halfedge_length(fine_, h);
             put(h, coarse, before / whole, straight);
             put(next_halfedge(h), coarse, after / whole, straight);
             if (const Index twin = fine_.surface.twin[h]; twin != no_twin) {

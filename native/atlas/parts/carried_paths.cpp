@@ -199,7 +199,7 @@ private:
 
 }  // namespace
 
-double edge_length(const FlatPart& part, Index h)
+double halfedge_length(const FlatPart& part, Index h)
 {
     const Triangles& triangles = part.surface.triangles;
     return (part.vertices.row(origin(triangles, h)) - part.vertices.row(target(triangles, h))).norm();
@@ -208,7 +208,7 @@ double edge_length(const FlatPart& part, Index h)
 double path_length(const FlatPart& part, const Path& path)
 {
     double sum = 0.0;
-    for (const Index h : path) sum += edge_length(part, h);
+    for (const Index h : path) sum += halfedge_length(part, h);
     return sum;
 }
 

@@ -12,7 +12,7 @@ namespace koebe {
 /// Half-edges one after the other, in faces on their left.
 using Path = std::vector<Index>;
 
-double edge_length(const FlatPart& part, Index halfedge);
+double halfedge_length(const FlatPart& part, Index halfedge);
 double path_length(const FlatPart& part, const Path& path);
 
 /// A coarse part, and the pieces into which it was cut.
