@@ -27,7 +27,7 @@
 namespace koebe {
 namespace {
 
-constexpr double price_true_to_size = 0.0037;  // of a piece: patterns may stretch less than UVs
+constexpr double price_true_to_size = 0.0037;          // of a piece: patterns may stretch less than UVs
 constexpr double least_piece = 0.1, most_piece = 1e6;  // mm across
 constexpr double most_lost = 0.01;                     // of the area, in smaller pieces
 
