@@ -13,7 +13,7 @@
 struct TlsPlace {
     std::size_t module, offset;
 };
-extern "C" void* __tls_get_addr(TlsPlace* place);
+extern "C" void* __tls_get_addr(TlsPlace* place);  // NOLINT(clang-diagnostic-reserved-identifier)
 
 namespace koebe::detail {
 namespace {
