@@ -269,8 +269,8 @@ EvenParts decide_coarsely(std::vector<FlatPart>& flats, const EvenOptions& optio
     };
     const double most =
         options.even ? std::numeric_limits<double>::infinity() : angles();  // an E that is given is kept
-    const std::vector<FlatPart> uncut = flats;
-    CarriedParts cut = carried(flats, before, after, context);
+    std::vector<FlatPart> uncut = std::move(flats);
+    CarriedParts cut = carried(uncut, before, after, context);
     cut_anew(cut, even, options, context);
     flats = std::move(cut.parts);
     EvenParts result;
@@ -280,7 +280,7 @@ EvenParts decide_coarsely(std::vector<FlatPart>& flats, const EvenOptions& optio
         result.left = parts.left();
     }
     if (angles() <= most) return result;
-    flats = uncut;  // cuts lower the angles, so no E would do without them
+    flats = std::move(uncut);  // cuts lower the angles, so no E would do without them
     return {};
 }
 

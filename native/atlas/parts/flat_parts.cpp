@@ -192,16 +192,12 @@ PlanarPoints points_of(const PartMap& map)
     return points;
 }
 
-/// What flat parts cost: their overflow, their angle errors in the same unit, and their number.
-double cost_of(const std::vector<FlatPart>& parts, double part_price)
+/// What a flat part costs: its overflow, its angle error in the same unit, and the price of a part.
+double cost_of(const FlatPart& part, double part_price)
 {
-    double cost = part_price * static_cast<double>(parts.size());
-    for (const FlatPart& part : parts) {
-        const VectorXd areas = face_areas(part.vertices, part.surface.triangles);
-        const double error = sum_of_angle_errors(part) / static_cast<double>(part.faces.size());
-        cost += overflow_of(part, areas) + lost_cost * error / right_angle * areas.sum();
-    }
-    return cost;
+    const VectorXd areas = face_areas(part.vertices, part.surface.triangles);
+    const double error = sum_of_angle_errors(part) / static_cast<double>(part.faces.size());
+    return overflow_of(part, areas) + lost_cost * error / right_angle * areas.sum() + part_price;
 }
 
 /// Whether the map by which a piece was split shows that as one map it loses much, is very uneven, or bends more.
@@ -278,7 +274,9 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     const double own = error_of_one();
     if (parts.flaws.broken()) return one;
     if (own >= error * static_cast<double>(one.faces.size())) return {};
-    if (cost_of({one}, part_price) >= cost_of(parts.parts, part_price)) return {};
+    double cost = 0.0;
+    for (const FlatPart& part : parts.parts) cost += cost_of(part, part_price);
+    if (cost_of(one, part_price) >= cost) return {};
     for (FlatPart& part : parts.parts) polish(part, context);
     if (own >= clearly * angle_error(parts.parts) * static_cast<double>(one.faces.size())) return {};
     return one;
