@@ -34,6 +34,7 @@ constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // and if angles a
 constexpr Index faces_to_decide = 4000;                       // on which the cuts of all parts are decided,
 constexpr std::size_t many_faces = 6000;                      // if they have more faces,
 constexpr std::size_t fewest_in_part = 20;                    // and so many coarse ones in the mean
+constexpr double tolerant = 1.5;                              // of an E at which angles may be no worse
 constexpr EvenEffort carried_effort{12, 3, 24};               // for parts whose cuts were decided so, or
 constexpr EvenEffort own_effort{12, 6, 60};                   // for those of them that start from their own map
 constexpr double dearer_on_coarse = 2.0;                      // cuts: coarse parts bend less, and so overrate them
@@ -175,11 +176,14 @@ public:
     double finish(const std::vector<Carried>& how, double even, double most)
     {
         const auto effort = [&](std::size_t k) { return how[k] == Carried::placed ? carried_effort : own_effort; };
-        for (const double less : less_even_with_darts) {
+        for (auto next = less_even_with_darts.begin(); next != less_even_with_darts.end(); ++next) {
             relax_cut(even, look);
             if (angles() <= most_worse * most) relax_cut(even, effort);
-            if (angles() <= most) return even;
-            even = std::min(even, less);
+            const double worse = angles() / most;
+            if (worse <= 1.0) return even;
+            // Angles go about with the third root of E: leave out an E at which they will be worse, too.
+            while (std::next(next) != less_even_with_darts.end() && *next * std::pow(worse, 3) > tolerant * even) ++next;
+            even = std::min(even, *next);
         }
         relax_cut(even, effort);
         return even;
