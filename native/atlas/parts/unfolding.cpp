@@ -14,6 +14,11 @@ namespace koebe {
 namespace {
 
 constexpr double least_border = 0.12;  // of a chart's boundary: a shorter common border is not worth joining
+constexpr std::size_t most_tips = 64;    // of one chart,
+constexpr std::size_t most_charts = 300; // of a surface: else it is smooth, or rough
+constexpr std::size_t cone_tips = 2;     // of a chart of a hard surface
+constexpr double large_chart = 0.01;     // of the area: charts from there on
+constexpr double least_hard = 0.5;       // of the area: hold so much of a hard surface
 
 /// A plane motion that keeps orientation.
 struct Motion {
@@ -27,21 +32,34 @@ public:
         : surface_(surface), charts_(std::move(charts)), islands_(charts_.faces), island_(islands_.size())
     {
         std::iota(island_.begin(), island_.end(), 0);
-        chart_.resize(static_cast<std::size_t>(surface.areas.size()));
+        chart_.assign(static_cast<std::size_t>(surface.areas.size()), -1);
         for (std::size_t k = 0; k < islands_.size(); ++k)
             for (const Index f : islands_[k]) chart_[f] = static_cast<Index>(k);
     }
 
-    /// @return whether no chart overlaps itself
-    bool take_charts(ExecutionContext& context)
+    /// Charts that overlap themselves go to the rest, and single small faces.
+    void take_charts(ExecutionContext& context)
     {
-        for (const std::vector<Index>& faces : islands_) {
+        parts_.resize(islands_.size());
+        for (std::size_t k = 0; k < islands_.size(); ++k) {
             context.checkpoint();
-            auto part = part_of(faces);
-            if (!part) return false;
-            parts_.push_back(std::move(*part));
+            if (auto part = part_of(islands_[k])) {
+                parts_[k] = std::move(*part);
+                continue;
+            }
+            for (const Index f : islands_[k]) chart_[f] = -1;
+            charts_.rest.insert(charts_.rest.end(), islands_[k].begin(), islands_[k].end());
+            islands_[k].clear();
         }
-        return true;
+    }
+
+    /// The area of flat and rolled charts that are not small.
+    double large_area(double least) const
+    {
+        double sum = 0.0;
+        for (const std::vector<Index>& faces : islands_)
+            if (const double area = surface_.areas(faces).sum(); area >= least) sum += area;
+        return sum;
     }
 
     void join_charts(ExecutionContext& context)
@@ -62,12 +80,19 @@ public:
         return length;
     }
 
+    std::vector<Index> rest()
+    {
+        std::ranges::sort(charts_.rest);
+        return charts_.rest;
+    }
+
     std::vector<FlatPart> parts()
     {
+        const auto is_cut = [&](Index h) { return charts_.net.twin[h] == no_twin && chart_[face_of(h)] >= 0; };
         for (const Index h : charts_.slits)
-            if (charts_.net.twin[h] == no_twin) parts_[island_of(h)].slit += surface_.lengths[h];
+            if (is_cut(h)) parts_[island_of(h)].slit += surface_.lengths[h];
         for (const Index h : charts_.darts)
-            if (charts_.net.twin[h] == no_twin) parts_[island_of(h)].dart_length += surface_.lengths[h];
+            if (is_cut(h)) parts_[island_of(h)].dart_length += surface_.lengths[h];
         std::vector<FlatPart> found;
         for (std::size_t k = 0; k < parts_.size(); ++k)
             if (!islands_[k].empty()) found.push_back(std::move(parts_[k]));
@@ -107,6 +132,7 @@ private:
         for (Index h = 0; h < halfedges(); ++h) {
             if (charts_.net.twin[h] != no_twin) continue;
             const Index a = chart_[face_of(h)];
+            if (a < 0) continue;
             boundary[a] += surface_.lengths[h];
             if (twin(h) == no_twin) continue;
             if (const Index b = chart_[face_of(twin(h))]; a < b) common[{a, b}].push_back(h);
@@ -136,12 +162,15 @@ private:
     {
         const Index a = island_of(crease), b = island_of(twin(crease));
         const Motion motion = motion_to(crease);
-        const std::vector<Complex> before = charts_.at;
         std::vector<Index> joined;
+        std::vector<Complex> before;
         for (const Index f : islands_[b])
             for (Index t = 3 * f; t < 3 * f + 3; ++t) {
+                before.push_back(charts_.at[t]);
                 const Index h = twin(t);
-                if (h == no_twin || charts_.net.twin[h] != no_twin || island_of(h) != a || !meets(h, motion)) continue;
+                if (h == no_twin || charts_.net.twin[h] != no_twin || chart_[face_of(h)] < 0 || island_of(h) != a ||
+                    !meets(h, motion))
+                    continue;
                 joined.push_back(h);
             }
         for (const Index h : joined) {
@@ -155,7 +184,9 @@ private:
         std::ranges::sort(faces);
         auto part = part_of(faces);
         if (!part) {
-            charts_.at = before;
+            auto at = before.begin();
+            for (const Index f : islands_[b])
+                for (Index c = 3 * f; c < 3 * f + 3; ++c) charts_.at[c] = *at++;
             for (const Index h : joined) charts_.net.cut(h);
             return;
         }
@@ -182,9 +213,13 @@ private:
         part.faces = faces;
         part.original.resize(mesh.fan_count);
         part.points.resize(mesh.fan_count, 2);
+        // Up to tolerances corners of one vertex lie in one place. The largest plane stays exact.
+        std::vector<double> plane(static_cast<std::size_t>(mesh.fan_count), -1.0);
         for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-            const Index v = origin(mesh.fans, h);
-            const Complex z = charts_.at[3 * faces[face_of(h)] + h % 3];
+            const Index v = origin(mesh.fans, h), f = faces[face_of(h)];
+            if (!(charts_.plane[f] > plane[v])) continue;
+            const Complex z = charts_.at[3 * f + h % 3];
+            plane[v] = charts_.plane[f];
             part.original[v] = origin(mesh.corners, h);
             part.points.row(v) << z.real(), z.imag();
         }
@@ -221,12 +256,25 @@ private:
 
 std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context)
 {
-    std::optional<FlatCharts> charts = flat_charts(surface);
-    if (!charts) return {};
-    Unfolding unfolding(surface, std::move(*charts));
-    if (!unfolding.take_charts(context)) return {};
+    FlatCharts charts = flat_charts(surface, most_tips);
+    if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
+    Unfolding unfolding(surface, std::move(charts));
+    unfolding.take_charts(context);
+    std::vector<Index> rest = unfolding.rest();
+    if (!rest.empty()) return {};
     unfolding.join_charts(context);
-    return UnfoldedParts{unfolding.parts(), unfolding.cut_length()};
+    return UnfoldedParts{unfolding.parts(), std::move(rest), unfolding.cut_length()};
+}
+
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context)
+{
+    const double area = surface.areas.sum();
+    Unfolding unfolding(surface, flat_charts(surface, cone_tips));
+    if (!(unfolding.large_area(large_chart * area) >= least_hard * area)) return {};
+    unfolding.take_charts(context);
+    if (!(unfolding.large_area(large_chart * area) >= least_hard * area)) return {};
+    unfolding.join_charts(context);
+    return UnfoldedParts{unfolding.parts(), unfolding.rest(), unfolding.cut_length()};
 }
 
 }  // namespace koebe
