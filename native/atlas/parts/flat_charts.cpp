@@ -1,6 +1,8 @@
 #include "parts/flat_charts.h"
 
+#include "core/errors.h"
 #include "cut/disjoint_sets.h"
+#include "parts/dart_rounds.h"
 #include "parts/regions.h"
 #include "parts/tension.h"
 
@@ -47,12 +49,13 @@ public:
 
     FlatCharts run()
     {
+        for (Index h = 0; h < net_.halfedge_count(); ++h) charts_.crease.push_back(is_crease(h));
         for (Index h = 0; h < net_.halfedge_count(); ++h)
-            if (is_crease(h)) net_.cut(h);
+            if (charts_.crease[h]) net_.cut(h);
         number_fans(net_);
         for (const SeamedMesh& chart : connected_parts(net_))
             if (!settle(chart, most_tips_)) settle_mixed(chart);
-        std::ranges::sort(charts_.rest);
+        join_rest();
         return std::move(charts_);
     }
 
@@ -61,16 +64,14 @@ private:
 
     const RegionPlane& plane(Index f) const { return regions_.planes[regions_.of[f]]; }
     /// The place of a corner in the plane of its region.
-    Complex in_plane(Index h) const
-    {
-        return plane(face_of(h)).place(surface_.vertices.row(origin(net_.corners, h)));
-    }
+    Complex in_plane(Index h) const { return plane(face_of(h)).place(surface_.vertices.row(origin(net_.corners, h))); }
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
+    Index twin(Index h) const { return surface_.surface.twin[h]; }
     bool is_crease(Index h) const
     {
-        if (net_.twin[h] == no_twin || net_.whole[h]) return false;
-        const Eigen::RowVector3d &a = plane(face_of(h)).normal, &b = plane(face_of(net_.twin[h])).normal;
+        if (twin(h) == no_twin || net_.whole[h]) return false;
+        const Eigen::RowVector3d &a = plane(face_of(h)).normal, &b = plane(face_of(twin(h))).normal;
         return std::atan2(a.cross(b).norm(), a.dot(b)) > least_fold;
     }
 
@@ -156,8 +157,7 @@ private:
         for (Index h = 0; h < chart.halfedge_count(); ++h) {
             const Index v = origin(chart.fans, h), here = in_net(chart, h);
             const Complex corner = in_plane(here);
-            sum[v] += std::arg((in_plane(previous_halfedge(here)) - corner) /
-                               (in_plane(next_halfedge(here)) - corner));
+            sum[v] += std::arg((in_plane(previous_halfedge(here)) - corner) / (in_plane(next_halfedge(here)) - corner));
             leaving[v] = h;
             if (chart.twin[h] == no_twin) outside[v] = outside[target(chart.fans, h)] = 1;
         }
@@ -168,28 +168,40 @@ private:
     }
 
     /// Lays a chart flat, and cuts it where it does not close: by a dart if the cut ends in a tip, else by a slit.
-    /// @return false, and nothing is cut, if it has too many tips
+    /// @return false, and nothing is cut, if it has too many tips or overlaps itself
     bool settle(const SeamedMesh& chart, std::size_t most_tips)
     {
         lay(chart);
         const std::vector<Index> open = open_edges(chart);
+        std::vector<Index> tips;
         if (!open.empty()) {
             if (std::ranges::any_of(open, [&](Index h) { return chart.whole[h] != 0; })) return false;
-            const std::vector<Index> tips = tips_of(chart);
+            tips = tips_of(chart);
             if (tips.size() > most_tips) return false;
-            DisjointSets cuts(static_cast<std::size_t>(chart.fan_count));
-            for (const Index h : open) cuts.join(origin(chart.fans, h), target(chart.fans, h));
-            std::set<Index> with_tip;
-            for (const Index h : tips) {
-                with_tip.insert(cuts.find(origin(chart.fans, h)));
-                charts_.tips.insert(origin(chart.corners, h));
-            }
-            for (const Index h : open) {
-                const bool is_dart = with_tip.contains(cuts.find(origin(chart.fans, h)));
-                (is_dart ? charts_.darts : charts_.slits).push_back(in_net(chart, h));
-                net_.cut(in_net(chart, h));
-            }
         }
+        DisjointSets cuts(static_cast<std::size_t>(chart.fan_count));
+        for (const Index h : open) {
+            cuts.join(origin(chart.fans, h), target(chart.fans, h));
+            net_.cut(in_net(chart, h));
+        }
+        std::set<Index> with_tip, before = charts_.tips;
+        for (const Index h : tips) {
+            with_tip.insert(cuts.find(origin(chart.fans, h)));
+            charts_.tips.insert(origin(chart.corners, h));
+        }
+        std::optional<FlatPart> part = laid_part(surface_, charts_, chart.face);
+        if (!part) {
+            for (const Index h : open) {
+                net_.twin[in_net(chart, h)] = in_net(chart, chart.twin[h]);
+                net_.twin[in_net(chart, chart.twin[h])] = in_net(chart, h);
+            }
+            charts_.tips = std::move(before);
+            return false;
+        }
+        for (const Index h : open)
+            (with_tip.contains(cuts.find(origin(chart.fans, h))) ? charts_.darts : charts_.slits)
+                .push_back(in_net(chart, h));
+        charts_.parts.push_back(std::move(*part));
         charts_.faces.push_back(chart.face);
         return true;
     }
@@ -232,7 +244,8 @@ private:
         for (std::size_t p = 0; p < count; ++p) is_plate[p] = area[p] >= std::max(least, plate_to_strip * largest[p]);
         DisjointSets rolled(count);
         for (const auto& [pair, length] : borders)
-            if (const auto [p, q] = pair; !is_plate[p] && !is_plate[q] && length > ruled * std::max(outline[p], outline[q]))
+            if (const auto [p, q] = pair;
+                !is_plate[p] && !is_plate[q] && length > ruled * std::max(outline[p], outline[q]))
                 rolled.join(p, q);
         for (const Index f : chart.face) group_[f] = is_plate[planar_[f]] ? planar_[f] : -1;
         for (const SeamedMesh& piece : cut_between_groups(chart)) {
@@ -258,6 +271,17 @@ private:
         return loose / outline;
     }
 
+    /// Joins the rest again where it was cut without a crease.
+    void join_rest()
+    {
+        std::ranges::sort(charts_.rest);
+        std::vector<char> is_rest(charts_.plane.size(), 0);
+        for (const Index f : charts_.rest) is_rest[f] = 1;
+        for (const Index f : charts_.rest)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h)
+                if (twin(h) != no_twin && is_rest[face_of(twin(h))] && !charts_.crease[h]) net_.twin[h] = twin(h);
+    }
+
     const CutSurface& surface_;
     PlanarRegions regions_;
     std::size_t most_tips_;
@@ -267,6 +291,52 @@ private:
 };
 
 }  // namespace
+
+std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& charts, const std::vector<Index>& faces)
+{
+    const auto number = [&](Index f) { return static_cast<Index>(std::ranges::lower_bound(faces, f) - faces.begin()); };
+    SeamedMesh mesh;
+    mesh.corners = charts.net.corners(faces, Eigen::all);
+    for (const Index f : faces)
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            const Index t = charts.net.twin[h];
+            mesh.twin.push_back(t == no_twin ? no_twin : 3 * number(face_of(t)) + t % 3);
+        }
+    number_fans(mesh);
+    FlatPart part;
+    part.faces = faces;
+    part.original.resize(mesh.fan_count);
+    part.points.resize(mesh.fan_count, 2);
+    // Up to tolerances corners of one vertex lie in one place. The largest plane stays exact.
+    std::vector<double> plane(static_cast<std::size_t>(mesh.fan_count), -1.0);
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+        const Index v = origin(mesh.fans, h), f = faces[face_of(h)];
+        if (!(charts.plane[f] > plane[v])) continue;
+        const Complex z = charts.at[3 * f + h % 3];
+        plane[v] = charts.plane[f];
+        part.original[v] = origin(mesh.corners, h);
+        part.points.row(v) << z.real(), z.imag();
+    }
+    part.vertices = surface.vertices(part.original, Eigen::all);
+    try {
+        part.surface = require_bordered_genus_zero(mesh.fans, mesh.fan_count);
+    } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
+        return {};
+    }
+    if (!lies_one_to_one(part, part.points) || !survives_storing(part)) return {};
+    part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
+    part.held.assign(mesh.fan_count, 0);
+    for (const VertexLoop& loop : part.surface.loops) {
+        part.loops.emplace_back();
+        for (const Index v : loop) part.loops.back().push_back(part.original[v]);
+    }
+    for (Index v = 0; v < mesh.fan_count; ++v)
+        if (charts.tips.contains(part.original[v]) && std::ranges::count(part.original, part.original[v]) == 1)
+            part.tips.push_back(v);
+    if (!surface.polygon.empty())
+        for (const Index f : faces) part.polygon.push_back(surface.polygon[f]);
+    return part;
+}
 
 FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips)
 {

@@ -3,7 +3,9 @@
 
 #include "cut/seamed_mesh.h"
 #include "part_maps/part_mesh.h"
+#include "parts/flat_part.h"
 
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -12,7 +14,9 @@ namespace koebe {
 struct FlatCharts {
     SeamedMesh net;                         ///< the surface, cut into charts. Edges count as longer where it is shown
     std::vector<Complex> at;                ///< (3F) places of the corners, true to size
+    std::vector<char> crease;               ///< (3F) 1 where the surface is bent
     std::vector<std::vector<Index>> faces;  ///< of each chart, ascending
+    std::vector<FlatPart> parts;            ///< each chart by itself
     std::vector<Index> rest;                ///< faces in no chart, because they are curved in both directions
     std::vector<Index> slits, darts;        ///< half-edges of cuts inside charts, one each
     std::set<Index> tips;                   ///< vertices where darts end
@@ -24,7 +28,10 @@ struct FlatCharts {
 /// plane: planar regions are similar to their image up to rounding. A chart that closes round a hole, such as the side
 /// of a cylinder, is slit, and a chart with a tip, such as a cone, gets a dart. From other charts the plates and the
 /// rolled faces between plates are cut out: a fillet, but not a belt of a ball. Their other faces are the rest.
-/// @param most_tips of one chart @return charts that may overlap themselves
+/// A chart that overlaps itself counts as curved. @param most_tips of one chart
 FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips);
+
+/// Some faces of charts as they lie. @return no value if they are no disk with holes, or overlap
+std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& charts, const std::vector<Index>& faces);
 
 }  // namespace koebe

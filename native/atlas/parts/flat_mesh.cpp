@@ -369,7 +369,8 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     layout.triangles = triangles;
     std::vector<FlatPart> hard;
     if (hard_first)
-        opened = opened_without_hard_parts(vertices, triangles, layout.vertices, std::move(opened), options, hard, context);
+        opened =
+            opened_without_hard_parts(vertices, triangles, layout.vertices, std::move(opened), options, hard, context);
     layout.handles_cut = opened.handles;
     for (FlatPiece& piece : flat_pieces(opened, layout.vertices, options, context)) {
         layout.maps += piece.maps / static_cast<double>(triangles.rows());

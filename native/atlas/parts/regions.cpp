@@ -15,8 +15,9 @@ namespace {
 // In the diagonal of the surface's box: coordinates with five digits, a coarse scan, noise of 0.1 %.
 constexpr double stored_digits = 1e-5;
 constexpr double noise_levels[] = {3e-4, 4e-3};
-constexpr double large_region = 0.03;  // of the area: noise hides no smaller region
-constexpr double most_area = 0.6;      // of the area, in large regions: then the surface is flat up to noise
+constexpr double large_region = 0.03;   // of the area: noise hides no smaller region
+constexpr double most_area = 0.6;       // of the area, in large regions: then the surface is flat up to noise
+constexpr double most_one_sided = 0.5;  // of all bends in a region that is flat up to noise
 constexpr double coplanar = std::numbers::pi / 360.0;  // radians between normals in one plane
 constexpr double upright = 0.1;                        // least cosine between a face's normal and its plane's
 constexpr int most_fits = 8;
@@ -49,10 +50,7 @@ public:
 
 private:
     Index faces() const { return static_cast<Index>(surface_.areas.size()); }
-    Eigen::RowVector3d corner(Index f, int k) const
-    {
-        return surface_.vertices.row(surface_.surface.triangles(f, k));
-    }
+    Eigen::RowVector3d corner(Index f, int k) const { return surface_.vertices.row(surface_.surface.triangles(f, k)); }
 
     /// The plane of least squares for faces weighted by area, with their common vector area as its normal.
     RegionPlane plane_of(const std::vector<Index>& own) const
@@ -118,26 +116,52 @@ private:
     PlanarRegions regions_;
 };
 
-double share_of_large(const PlanarRegions& regions, double area)
+/// The share of the area in large regions whose edges bend to both sides: noise. On a curved surface they bend to one.
+double noisy_share(const CutSurface& surface, const PlanarRegions& regions)
 {
-    double large = 0.0;
-    for (const RegionPlane& plane : regions.planes)
-        if (plane.area >= large_region * area) large += plane.area;
-    return large / area;
+    std::vector<double> sum(regions.planes.size(), 0.0), all(sum);
+    const auto side = [&](Index h, int k) -> Eigen::RowVector3d {
+        const Index from = k == 1 ? h : previous_halfedge(h);
+        return surface.vertices.row(target(surface.surface.triangles, from)) -
+               surface.vertices.row(origin(surface.surface.triangles, from));
+    };
+    for (Index h = 0; h < static_cast<Index>(surface.surface.twin.size()); ++h) {
+        const Index t = surface.surface.twin[h];
+        if (t < h || regions.of[face_of(h)] != regions.of[face_of(t)]) continue;
+        // The signed volume between the faces: positive where the edge is concave.
+        const double bend = side(h, 1).cross(-side(h, 0)).dot(side(t, 0));
+        sum[regions.of[face_of(h)]] += bend;
+        all[regions.of[face_of(h)]] += std::abs(bend);
+    }
+    double share = 0.0;
+    for (std::size_t r = 0; r < sum.size(); ++r)
+        if (regions.planes[r].area >= large_region * surface.areas.sum() && std::abs(sum[r]) < most_one_sided * all[r])
+            share += regions.planes[r].area;
+    return share / surface.areas.sum();
+}
+
+/// The share of the area in regions of several faces, or large ones.
+double flat_share(const CutSurface& surface, const PlanarRegions& regions)
+{
+    std::vector<Index> faces(regions.planes.size(), 0);
+    for (const Index region : regions.of) ++faces[region];
+    double share = 0.0;
+    for (std::size_t r = 0; r < faces.size(); ++r)
+        if (faces[r] > 1 || regions.planes[r].area >= large_region * surface.areas.sum())
+            share += regions.planes[r].area;
+    return share / surface.areas.sum();
 }
 
 }  // namespace
 
 PlanarRegions planar_regions(const CutSurface& surface)
 {
-    const double diagonal =
-        (surface.vertices.colwise().maxCoeff() - surface.vertices.colwise().minCoeff()).norm();
+    const double diagonal = (surface.vertices.colwise().maxCoeff() - surface.vertices.colwise().minCoeff()).norm();
     PlanarRegions exact = RegionGrowth(surface, stored_digits * diagonal).run();
-    const double area = surface.areas.sum();
-    if (share_of_large(exact, area) >= most_area) return exact;
+    if (flat_share(surface, exact) >= most_area) return exact;
     for (const double level : noise_levels)
         if (PlanarRegions noisy = RegionGrowth(surface, level * diagonal).run();
-            share_of_large(noisy, area) >= most_area)
+            noisy_share(surface, noisy) >= most_area)
             return noisy;
     return exact;
 }

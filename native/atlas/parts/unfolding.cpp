@@ -1,24 +1,31 @@
 #include "parts/unfolding.h"
 
 #include "core/errors.h"
+#include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
+#include "surface/free_flattening.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr double least_border = 0.12;  // of a chart's boundary: a shorter common border is not worth joining
-constexpr std::size_t most_tips = 64;    // of one chart,
-constexpr std::size_t most_charts = 300; // of a surface: else it is smooth, or rough
-constexpr std::size_t cone_tips = 2;     // of a chart of a hard surface
-constexpr double large_chart = 0.01;     // of the area: charts from there on
-constexpr double least_hard = 0.5;       // of the area: hold so much of a hard surface
+constexpr double least_border = 0.12;     // of a chart's boundary: a shorter common border is not worth joining
+constexpr std::size_t most_tips = 64;     // of one chart,
+constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
+constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
+constexpr double large_chart = 0.01;      // of the area: charts from there on
+constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
+constexpr double alone = 1.0 + 1e-9;      // of a face's area: its plane has no other face
+
+constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
+constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
 
 /// A plane motion that keeps orientation.
 struct Motion {
@@ -31,34 +38,22 @@ public:
     explicit Unfolding(const CutSurface& surface, FlatCharts charts)
         : surface_(surface), charts_(std::move(charts)), islands_(charts_.faces), island_(islands_.size())
     {
+        parts_ = std::move(charts_.parts);
         std::iota(island_.begin(), island_.end(), 0);
         chart_.assign(static_cast<std::size_t>(surface.areas.size()), -1);
         for (std::size_t k = 0; k < islands_.size(); ++k)
             for (const Index f : islands_[k]) chart_[f] = static_cast<Index>(k);
     }
 
-    /// Charts that overlap themselves go to the rest, and single small faces.
-    void take_charts(ExecutionContext& context)
-    {
-        parts_.resize(islands_.size());
-        for (std::size_t k = 0; k < islands_.size(); ++k) {
-            context.checkpoint();
-            if (auto part = part_of(islands_[k])) {
-                parts_[k] = std::move(*part);
-                continue;
-            }
-            for (const Index f : islands_[k]) chart_[f] = -1;
-            charts_.rest.insert(charts_.rest.end(), islands_[k].begin(), islands_[k].end());
-            islands_[k].clear();
-        }
-    }
-
-    /// The area of flat and rolled charts that are not small.
-    double large_area(double least) const
+    /// The area of charts that are not small, without single faces in the planes of which no other face lies. An
+    /// animal of few faces has charts with such faces only.
+    double hard_area(double least) const
     {
         double sum = 0.0;
         for (const std::vector<Index>& faces : islands_)
-            if (const double area = surface_.areas(faces).sum(); area >= least) sum += area;
+            if (surface_.areas(faces).sum() >= least)
+                for (const Index f : faces)
+                    if (charts_.plane[f] > std::min(least, alone * surface_.areas[f])) sum += surface_.areas[f];
         return sum;
     }
 
@@ -70,6 +65,29 @@ public:
             if (a == b) continue;
             islands_[a].size() < islands_[b].size() ? join(twin(h)) : join(h);
         }
+    }
+
+    /// Small pieces of the rest, such as the corner between three fillets, go with the island with which they have the
+    /// longest border. Their map bends, the island does not move.
+    void attach_rest(ExecutionContext& context)
+    {
+        SeamedMesh rest = charts_.net;
+        for (Index h = 0; h < halfedges(); ++h)
+            if (chart_[face_of(h)] >= 0) rest.cut(h);
+        std::vector<SeamedMesh> pieces = connected_parts(rest);
+        std::erase_if(pieces, [&](const SeamedMesh& piece) {
+            return chart_[piece.face.front()] >= 0 ||
+                   surface_.areas(piece.face).sum() > small_rest * surface_.areas.sum();
+        });
+        // A piece between two others waits until one of them is attached.
+        for (std::size_t before = 0; before != pieces.size();) {
+            before = pieces.size();
+            std::erase_if(pieces, [&](const SeamedMesh& piece) {
+                context.checkpoint();
+                return attach(piece);
+            });
+        }
+        std::erase_if(charts_.rest, [&](Index f) { return chart_[f] >= 0; });
     }
 
     double cut_length() const
@@ -124,7 +142,7 @@ private:
     }
 
     /// For each pair of charts the crease at which they are best joined, if their straight common border is long
-    /// enough. The longest border first.
+    /// enough. Smooth borders first, then the longest.
     std::vector<Index> borders() const
     {
         std::map<std::pair<Index, Index>, std::vector<Index>> common;
@@ -137,7 +155,7 @@ private:
             if (twin(h) == no_twin) continue;
             if (const Index b = chart_[face_of(twin(h))]; a < b) common[{a, b}].push_back(h);
         }
-        std::vector<std::pair<double, Index>> found;
+        std::vector<std::tuple<char, double, Index>> found;
         for (const auto& [charts, halfedges] : common) {
             const Index longest =
                 *std::ranges::max_element(halfedges, {}, [&](Index h) { return surface_.lengths[h]; });
@@ -149,11 +167,11 @@ private:
                     price += charts_.net.length[h];
                 }
             if (length >= least_border * std::min(boundary[charts.first], boundary[charts.second]))
-                found.emplace_back(-price, longest);
+                found.emplace_back(charts_.crease[longest], -price, longest);
         }
         std::ranges::sort(found);
         std::vector<Index> order;
-        for (const auto& border : found) order.push_back(border.second);
+        for (const auto& border : found) order.push_back(std::get<2>(border));
         return order;
     }
 
@@ -196,52 +214,93 @@ private:
         std::ranges::replace(island_, b, a);
     }
 
-    /// These faces as they lie. @return no value if they are no disk with holes, or overlap
+    /// Half-edges of a piece of the rest: its longest border with an island that is in one run there, too.
+    std::vector<Index> longest_border(const SeamedMesh& piece) const
+    {
+        std::vector<Index> border;
+        std::map<Index, std::vector<std::pair<Complex, Index>>> ends;  // of vertices: places in islands, border edges
+        const auto across = [&](Index h) { return twin(3 * piece.face[face_of(h)] + h % 3); };
+        for (Index h = 0; h < piece.halfedge_count(); ++h) {
+            const Index t = across(h);
+            if (piece.twin[h] != no_twin || t == no_twin || chart_[face_of(t)] < 0) continue;
+            ends[origin(piece.fans, h)].emplace_back(charts_.at[next_halfedge(t)], static_cast<Index>(border.size()));
+            ends[target(piece.fans, h)].emplace_back(charts_.at[t], static_cast<Index>(border.size()));
+            border.push_back(h);
+        }
+        DisjointSets runs(border.size());
+        for (const auto& entry : ends)
+            for (const auto& [a, i] : entry.second)
+                for (const auto& [b, k] : entry.second)
+                    if (same(a, b) && island_of(across(border[i])) == island_of(across(border[k]))) runs.join(i, k);
+        std::vector<double> length(border.size(), 0.0);
+        for (std::size_t i = 0; i < border.size(); ++i)
+            length[runs.find(static_cast<Index>(i))] += surface_.lengths[across(border[i])];
+        const auto best = std::ranges::max_element(length) - length.begin();
+        std::vector<Index> run;
+        for (std::size_t i = 0; i < border.size(); ++i)
+            if (runs.find(static_cast<Index>(i)) == best) run.push_back(border[i]);
+        return run;
+    }
+
+    /// Maps a piece of the rest beside the island with which it has the longest border: conformal in the sense of least
+    /// squares, with the border pinned. @return false, and nothing changes, if there is no place for it
+    bool attach(const SeamedMesh& piece)
+    {
+        const auto in_net = [&](Index h) { return 3 * piece.face[face_of(h)] + h % 3; };
+        std::vector<Index> border = longest_border(piece);
+        if (border.empty()) return false;
+        const Index island = island_of(twin(in_net(border.front())));
+        std::map<Index, Complex> places;
+        for (Index& h : border) {
+            const Index t = twin(in_net(h));
+            places.emplace(origin(piece.fans, h), charts_.at[next_halfedge(t)]);
+            places.emplace(target(piece.fans, h), charts_.at[t]);
+            h = t;
+        }
+        std::vector<Index> pinned, original(piece.fan_count);
+        std::vector<Complex> images;
+        for (const auto& [v, place] : places) {
+            pinned.push_back(v);
+            images.push_back(place);
+        }
+        for (Index h = 0; h < piece.halfedge_count(); ++h) original[origin(piece.fans, h)] = origin(piece.corners, h);
+        VectorXcd image;
+        try {
+            image = flatten_freely(surface_.vertices(original, Eigen::all), piece.fans, pinned, images);
+        } catch (const SolverError&) {
+            return false;
+        }
+        for (Index h = 0; h < piece.halfedge_count(); ++h) {
+            charts_.at[in_net(h)] = image[origin(piece.fans, h)];
+            if (piece.twin[h] != no_twin) charts_.net.twin[in_net(h)] = in_net(piece.twin[h]);
+        }
+        for (Index f = 0; f < static_cast<Index>(piece.face.size()); ++f) {
+            const Complex a = charts_.at[3 * piece.face[f]], b = charts_.at[3 * piece.face[f] + 1] - a,
+                          c = charts_.at[3 * piece.face[f] + 2] - a;
+            const double scale = 0.5 * std::imag(std::conj(b) * c) / std::max(surface_.areas[piece.face[f]], 1e-300);
+            if (!(scale > 1.0 / most_scaled && scale < most_scaled)) return false;
+        }
+        for (const Index t : border) {
+            charts_.net.twin[t] = twin(t);
+            charts_.net.twin[twin(t)] = t;
+        }
+        std::vector<Index> faces = islands_[island];
+        faces.insert(faces.end(), piece.face.begin(), piece.face.end());
+        std::ranges::sort(faces);
+        auto part = part_of(faces);
+        if (!part) {
+            for (const Index t : border) charts_.net.cut(t);
+            return false;
+        }
+        parts_[island] = std::move(*part);
+        islands_[island] = std::move(faces);
+        for (const Index f : piece.face) chart_[f] = island;
+        return true;
+    }
+
     std::optional<FlatPart> part_of(const std::vector<Index>& faces) const
     {
-        std::vector<Index> number(charts_.net.face.size(), -1);
-        for (std::size_t i = 0; i < faces.size(); ++i) number[faces[i]] = static_cast<Index>(i);
-        SeamedMesh mesh;
-        mesh.corners = charts_.net.corners(faces, Eigen::all);
-        for (const Index f : faces)
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                const Index t = charts_.net.twin[h];
-                mesh.twin.push_back(t == no_twin ? no_twin : 3 * number[face_of(t)] + t % 3);
-            }
-        number_fans(mesh);
-        FlatPart part;
-        part.faces = faces;
-        part.original.resize(mesh.fan_count);
-        part.points.resize(mesh.fan_count, 2);
-        // Up to tolerances corners of one vertex lie in one place. The largest plane stays exact.
-        std::vector<double> plane(static_cast<std::size_t>(mesh.fan_count), -1.0);
-        for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-            const Index v = origin(mesh.fans, h), f = faces[face_of(h)];
-            if (!(charts_.plane[f] > plane[v])) continue;
-            const Complex z = charts_.at[3 * f + h % 3];
-            plane[v] = charts_.plane[f];
-            part.original[v] = origin(mesh.corners, h);
-            part.points.row(v) << z.real(), z.imag();
-        }
-        part.vertices = surface_.vertices(part.original, Eigen::all);
-        try {
-            part.surface = require_bordered_genus_zero(mesh.fans, mesh.fan_count);
-        } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
-            return {};
-        }
-        if (!lies_one_to_one(part, part.points) || !survives_storing(part)) return {};
-        part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
-        part.held.assign(mesh.fan_count, 0);
-        for (const VertexLoop& loop : part.surface.loops) {
-            part.loops.emplace_back();
-            for (const Index v : loop) part.loops.back().push_back(part.original[v]);
-        }
-        for (Index v = 0; v < mesh.fan_count; ++v)
-            if (charts_.tips.contains(part.original[v]) && std::ranges::count(part.original, part.original[v]) == 1)
-                part.tips.push_back(v);
-        if (!surface_.polygon.empty())
-            for (const Index f : faces) part.polygon.push_back(surface_.polygon[f]);
-        return part;
+        return laid_part(surface_, charts_, faces);
     }
 
     const CutSurface& surface_;
@@ -259,21 +318,17 @@ std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContex
     FlatCharts charts = flat_charts(surface, most_tips);
     if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
     Unfolding unfolding(surface, std::move(charts));
-    unfolding.take_charts(context);
-    std::vector<Index> rest = unfolding.rest();
-    if (!rest.empty()) return {};
     unfolding.join_charts(context);
-    return UnfoldedParts{unfolding.parts(), std::move(rest), unfolding.cut_length()};
+    return UnfoldedParts{unfolding.parts(), {}, unfolding.cut_length()};
 }
 
 std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context)
 {
     const double area = surface.areas.sum();
     Unfolding unfolding(surface, flat_charts(surface, cone_tips));
-    if (!(unfolding.large_area(large_chart * area) >= least_hard * area)) return {};
-    unfolding.take_charts(context);
-    if (!(unfolding.large_area(large_chart * area) >= least_hard * area)) return {};
+    if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
     unfolding.join_charts(context);
+    unfolding.attach_rest(context);
     return UnfoldedParts{unfolding.parts(), unfolding.rest(), unfolding.cut_length()};
 }
 
