@@ -29,12 +29,6 @@ constexpr double plate_to_strip = 2.0;  // and so many times larger than its nei
 constexpr double ruled = 0.3;           // of a planar face's outline: so much of it is one ruling of a rolled face
 constexpr double most_loose = 0.6;      // of a rolled face's outline: so much may be smooth towards other rest
 
-/// A plane motion that keeps orientation.
-struct Motion {
-    Complex turn = 1.0, shift = 0.0;
-    Complex operator()(Complex z) const { return turn * z + shift; }
-};
-
 class ChartLayer {
 public:
     ChartLayer(const CutSurface& surface, std::size_t most_tips)
@@ -108,7 +102,7 @@ private:
         using Step = std::tuple<double, Index, Index>;  // length, minus its turn, half-edge to the next piece
         std::priority_queue<Step> steps;
         Index turn = 0;
-        const auto put = [&](Index number, const Motion& motion) {
+        const auto put = [&](Index number, const PlaneMotion& motion) {
             laid[number] = 1;
             for (const Index f : faces[number])
                 for (Index h = 3 * f; h < 3 * f + 3; ++h) {

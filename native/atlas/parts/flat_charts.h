@@ -11,6 +11,12 @@
 
 namespace koebe {
 
+/// A plane motion that keeps orientation.
+struct PlaneMotion {
+    Complex turn = 1.0, shift = 0.0;
+    Complex operator()(Complex z) const { return turn * z + shift; }
+};
+
 struct FlatCharts {
     SeamedMesh net;                         ///< the surface, cut into charts. Edges count as longer where it is shown
     std::vector<Complex> at;                ///< (3F) places of the corners, true to size

@@ -27,12 +27,6 @@ constexpr double alone = 1.0 + 1e-9;      // of a face's area: its plane has no 
 constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
 constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
 
-/// A plane motion that keeps orientation.
-struct Motion {
-    Complex turn, shift;
-    Complex operator()(Complex z) const { return turn * z + shift; }
-};
-
 class Unfolding {
 public:
     explicit Unfolding(const CutSurface& surface, FlatCharts charts)
@@ -125,7 +119,7 @@ private:
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
     /// The motion that brings the face across a crease to the crease's place.
-    Motion motion_to(Index h) const
+    PlaneMotion motion_to(Index h) const
     {
         const Index t = twin(h);
         const Complex from = charts_.at[next_halfedge(t)] - charts_.at[t],
@@ -134,7 +128,7 @@ private:
         return {turn, charts_.at[next_halfedge(h)] - turn * charts_.at[t]};
     }
 
-    bool meets(Index h, const Motion& motion) const
+    bool meets(Index h, const PlaneMotion& motion) const
     {
         const Index t = twin(h);
         return same(motion(charts_.at[t]), charts_.at[next_halfedge(h)]) &&
@@ -159,7 +153,7 @@ private:
         for (const auto& [charts, halfedges] : common) {
             const Index longest =
                 *std::ranges::max_element(halfedges, {}, [&](Index h) { return surface_.lengths[h]; });
-            const Motion motion = motion_to(longest);
+            const PlaneMotion motion = motion_to(longest);
             double length = 0.0, price = 0.0;
             for (const Index h : halfedges)
                 if (meets(h, motion)) {
@@ -179,7 +173,7 @@ private:
     void join(Index crease)
     {
         const Index a = island_of(crease), b = island_of(twin(crease));
-        const Motion motion = motion_to(crease);
+        const PlaneMotion motion = motion_to(crease);
         std::vector<Index> joined;
         std::vector<Complex> before;
         for (const Index f : islands_[b])
