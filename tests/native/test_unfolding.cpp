@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -121,6 +122,120 @@ double cuts_of(const CutSurface& surface, const UnfoldedParts& unfolded)
     EXPECT_EQ(seen, std::vector<int>(seen.size(), 1));
     EXPECT_NEAR(0.5 * boundary, unfolded.cut_length, 1e-12);
     return unfolded.cut_length;
+}
+
+/// A square frame of nine cells a side, without the cell in the middle: a surface with a handle.
+Solid frame(double height)
+{
+    Solid solid;
+    for (const double z : {0.0, height})
+        for (int i = 0; i < 16; ++i) solid.points.emplace_back(i / 4, i % 4, z);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const Index v = 4 * i + j;
+            if (i == 1 && j == 1) continue;
+            solid.polygons.push_back({v, v + 1, v + 5, v + 4});
+            solid.polygons.push_back({v + 16, v + 20, v + 21, v + 17});
+        }
+    const std::vector<Index> outer{0, 4, 8, 12, 13, 14, 15, 11, 7, 3, 2, 1}, inner{5, 6, 10, 9};
+    for (const auto& ring : {outer, inner})
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            const Index a = ring[k], b = ring[(k + 1) % ring.size()];
+            solid.polygons.push_back({a, b, b + 16, a + 16});
+        }
+    return solid;
+}
+
+/// The largest change of a distance between corners of the faces with this normal and height over the origin, which
+/// must lie in one part.
+double most_bent(const CutSurface& surface, const UnfoldedParts& unfolded, const Eigen::RowVector3d& normal,
+                 double height, double tolerance = 1e-12)
+{
+    double most = 0.0;
+    int parts = 0;
+    for (const FlatPart& part : unfolded.parts) {
+        std::vector<Index> own;
+        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f) {
+            bool is_in = true;
+            for (int k = 0; k < 3; ++k)
+                is_in &= std::abs(part.vertices.row(part.surface.triangles(f, k)).dot(normal) - height) < tolerance;
+            if (!is_in) continue;
+            for (int k = 0; k < 3; ++k) own.push_back(part.surface.triangles(f, k));
+        }
+        if (own.empty()) continue;
+        ++parts;
+        for (const Index a : own)
+            for (const Index b : own)
+                most = std::max(most, std::abs((part.points.row(a) - part.points.row(b)).norm() -
+                                               (part.vertices.row(a) - part.vertices.row(b)).norm()));
+    }
+    EXPECT_EQ(parts, 1);
+    EXPECT_GT(surface.areas.sum(), 0.0);
+    return most;
+}
+
+std::optional<UnfoldedParts> unfold_hard(const CutSurface& surface)
+{
+    ExecutionContext context;
+    return hard_parts(surface, context);
+}
+
+TEST(Unfolding, APlateWithAHoleStaysWholeAlthoughItsSurfaceHasAHandle)
+{
+    const CutSurface surface = surface_of(frame(0.5));
+    ASSERT_EQ(surface.surface.genus, 1);
+    const auto parts = unfold_hard(surface);
+    ASSERT_TRUE(parts);
+    EXPECT_TRUE(parts->rest.empty());
+    cuts_of(surface, *parts);
+    const double top = surface.vertices.col(2).maxCoeff();
+    EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), 0.0), 1e-12);
+    EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), top), 1e-12);
+}
+
+TEST(Unfolding, APlateStaysFlatRoundADent)
+{
+    Solid dented = box(1.0, 1.0, 1.0, 6);
+    for (auto& point : dented.points)
+        if ((point - Eigen::RowVector3d(0.5, 0.5, 1.0)).norm() < 1e-9) point[2] -= 0.02;
+    const CutSurface surface = surface_of(dented);
+    const auto parts = unfold_hard(surface);
+    ASSERT_TRUE(parts);
+    std::size_t faces = parts->rest.size();
+    for (const FlatPart& part : parts->parts) {
+        EXPECT_TRUE(lies_one_to_one(part, part.points));
+        faces += part.faces.size();
+    }
+    EXPECT_EQ(faces, static_cast<std::size_t>(surface.areas.size()));
+    EXPECT_LE(parts->rest.size(), 8u);  // the faces round the dent at most
+    const double side = surface.vertices.col(2).maxCoeff();
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double height : {0.0, side})
+            EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::Unit(axis), height), 1e-12);
+}
+
+TEST(Unfolding, NoiseDoesNotHideTheSidesOfABox)
+{
+    Solid rough = box(1.0, 1.5, 2.0, 8);
+    for (std::size_t v = 0; v < rough.points.size(); ++v)
+        for (int axis = 0; axis < 3; ++axis)
+            rough.points[v][axis] += 2e-3 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
+    const CutSurface surface = surface_of(rough);
+    const auto parts = unfold_hard(surface);
+    ASSERT_TRUE(parts);
+    EXPECT_TRUE(parts->rest.empty());
+    for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
+    const double noise = 2e-3 * surface.vertices.col(2).maxCoeff() / 2.0;
+    EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), 0.0, 1.5 * noise), 8.0 * noise);
+}
+
+TEST(Unfolding, ABallIsNotHard)
+{
+    for (const int n : {3, 8}) {
+        Solid ball = box(1.0, 1.0, 1.0, n);
+        for (auto& point : ball.points) point = (point.array() - 0.5).matrix().normalized();
+        EXPECT_FALSE(unfold_hard(surface_of(ball)));
+    }
 }
 
 TEST(Unfolding, ACubeBecomesACrossCutAlongSevenEdges)

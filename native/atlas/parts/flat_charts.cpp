@@ -1,6 +1,9 @@
 #include "parts/flat_charts.h"
 
-#include "cut/edge_graph.h"
+#include "core/errors.h"
+#include "cut/disjoint_sets.h"
+#include "parts/dart_rounds.h"
+#include "parts/regions.h"
 #include "parts/tension.h"
 
 #include <Eigen/Geometry>
@@ -8,201 +11,346 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
+#include <queue>
+#include <tuple>
 #include <utility>
 
 namespace koebe {
 namespace {
 
 constexpr double least_fold = std::numbers::pi / 6;  // angle between the faces of a crease
-constexpr double flat_angle = 1e-3;    // radians by which the angles round a flat vertex may miss a full turn
-constexpr double same_place = 1e-5;    // in roots of the surface's area
-constexpr std::size_t most_tips = 64;  // inner vertices of charts that are not flat
-constexpr std::size_t most_charts = 300;
-
-using FacePlaces = std::array<Complex, 3>;
+constexpr double flat_angle = 1e-3;       // radians by which the angles round a flat vertex may miss a full turn
+constexpr double same_place = 1e-5;       // in roots of the surface's area
+constexpr double least_plate = 0.002;     // of the surface's area: a plate is no smaller,
+constexpr double plate_to_strip = 2.0;    // and so many times larger than its neighbours without a crease
+constexpr double ruled = 0.3;             // of a planar face's outline: so much of it is one ruling of a rolled face
+constexpr double most_loose = 0.55;       // of a rolled face's outline: so much may be smooth towards other rest,
+constexpr double most_loose_alone = 0.3;  // and of a single plane's outline
 
 class ChartLayer {
 public:
-    explicit ChartLayer(const CutSurface& surface) : surface_(surface)
+    ChartLayer(const CutSurface& surface, std::size_t most_tips)
+        : surface_(surface), regions_(planar_regions(surface)), most_tips_(most_tips)
     {
         net_ = seamed(surface.vertices, surface.surface, surface.polygon, surface.shown);
         charts_.at.resize(net_.twin.size());
-        charts_.near = same_place * std::sqrt(surface.areas.sum());
+        charts_.near = std::max(same_place * std::sqrt(surface.areas.sum()), 2.0 * regions_.tolerance);
+        for (const Index region : regions_.of) charts_.plane.push_back(regions_.planes[region].area);
+        planar_ = group_ = regions_.of;
     }
 
-    /// @return whether all charts lie flat
-    bool lay_charts()
+    FlatCharts run()
     {
+        for (Index h = 0; h < net_.halfedge_count(); ++h) charts_.crease.push_back(is_crease(h));
         for (Index h = 0; h < net_.halfedge_count(); ++h)
-            if (is_crease(h)) net_.cut(h);
+            if (charts_.crease[h]) net_.cut(h);
         number_fans(net_);
-        if (tips_of(net_).size() > most_tips) return false;
-        std::vector<SeamedMesh> charts = connected_parts(net_);
-        if (charts.size() > most_charts) return false;
-        for (const SeamedMesh& chart : charts)
-            if (!lay(chart)) open(chart);
-        charts = connected_parts(net_);
-        for (SeamedMesh& chart : charts) {
-            if (!lay(chart)) return false;
-            charts_.faces.push_back(std::move(chart.face));
-        }
-        return true;
+        for (const SeamedMesh& chart : connected_parts(net_))
+            if (!settle(chart, most_tips_)) settle_mixed(chart);
+        join_rest();
+        return std::move(charts_);
     }
-
-    FlatCharts take() { return std::move(charts_); }
 
 private:
     static Index in_net(const SeamedMesh& chart, Index h) { return 3 * chart.face[face_of(h)] + h % 3; }
 
-    Eigen::RowVector3d place(Index h) const { return surface_.vertices.row(origin(net_.corners, h)); }
-    Eigen::RowVector3d normal(Index f) const
-    {
-        return (place(3 * f + 1) - place(3 * f)).cross(place(3 * f + 2) - place(3 * f));
-    }
+    const RegionPlane& plane(Index f) const { return regions_.planes[regions_.of[f]]; }
+    /// The place of a corner in the plane of its region.
+    Complex in_plane(Index h) const { return plane(face_of(h)).place(surface_.vertices.row(origin(net_.corners, h))); }
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
+    Index twin(Index h) const { return surface_.surface.twin[h]; }
     bool is_crease(Index h) const
     {
-        if (net_.twin[h] == no_twin || net_.whole[h]) return false;
-        const Eigen::RowVector3d a = normal(face_of(h)), b = normal(face_of(net_.twin[h]));
+        if (twin(h) == no_twin || net_.whole[h]) return false;
+        const Eigen::RowVector3d &a = plane(face_of(h)).normal, &b = plane(face_of(twin(h))).normal;
         return std::atan2(a.cross(b).norm(), a.dot(b)) > least_fold;
     }
 
-    /// Half-edges, one each, from the inner vertices whose angles do not sum to a full turn.
-    std::vector<Index> tips_of(const SeamedMesh& mesh) const
+    /// (F) the connected pieces of regions in a chart, numbered from 0 on.
+    std::vector<Index> planar_pieces(const SeamedMesh& chart) const
     {
-        std::vector<double> sum(static_cast<std::size_t>(mesh.fan_count), 0.0);
+        std::vector<Index> piece(chart.face.size(), -1), queue;
+        Index count = 0;
+        for (Index seed = 0; seed < static_cast<Index>(piece.size()); ++seed) {
+            if (piece[seed] >= 0) continue;
+            piece[seed] = count;
+            queue.assign(1, seed);
+            for (std::size_t head = 0; head < queue.size(); ++head)
+                for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h) {
+                    const Index t = chart.twin[h];
+                    if (t == no_twin || piece[face_of(t)] >= 0 ||
+                        regions_.of[chart.face[face_of(t)]] != regions_.of[chart.face[queue[head]]])
+                        continue;
+                    piece[face_of(t)] = count;
+                    queue.push_back(face_of(t));
+                }
+            ++count;
+        }
+        return piece;
+    }
+
+    /// Lays the planar pieces of a chart side by side, over a spanning tree of the longest edges between them.
+    void lay(const SeamedMesh& chart)
+    {
+        const std::vector<Index> piece = planar_pieces(chart);
+        std::vector<std::vector<Index>> faces(static_cast<std::size_t>(std::ranges::max(piece)) + 1);
+        for (std::size_t f = 0; f < piece.size(); ++f) faces[piece[f]].push_back(static_cast<Index>(f));
+        std::vector<char> laid(faces.size(), 0);
+        using Step = std::tuple<double, Index, Index>;  // length, minus its turn, half-edge to the next piece
+        std::priority_queue<Step> steps;
+        Index turn = 0;
+        const auto put = [&](Index number, const PlaneMotion& motion) {
+            laid[number] = 1;
+            for (const Index f : faces[number])
+                for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                    charts_.at[in_net(chart, h)] = motion(in_plane(in_net(chart, h)));
+                    if (chart.twin[h] == no_twin || laid[piece[face_of(chart.twin[h])]]) continue;
+                    const double length =
+                        chart.whole[h] ? std::numeric_limits<double>::max() : net_.length[in_net(chart, h)];
+                    steps.emplace(length, --turn, h);
+                }
+        };
+        put(0, {});
+        while (!steps.empty()) {
+            const Index h = std::get<2>(steps.top()), t = chart.twin[h];
+            steps.pop();
+            if (laid[piece[face_of(t)]]) continue;
+            // The motion of the next plane: its edge runs back along the edge that is laid.
+            const Complex a = charts_.at[in_net(chart, h)], b = charts_.at[in_net(chart, next_halfedge(h))];
+            const Complex from = in_plane(in_net(chart, next_halfedge(t))), to = in_plane(in_net(chart, t));
+            Complex turned = (b - a) / (to - from);
+            turned = std::isfinite(std::abs(turned)) && std::abs(turned) > 0.0 ? turned / std::abs(turned) : 1.0;
+            put(piece[face_of(t)], {turned, 0.5 * (a + b) - turned * 0.5 * (from + to)});
+        }
+    }
+
+    /// Half-edges, one each, at which the laid chart does not close.
+    std::vector<Index> open_edges(const SeamedMesh& chart) const
+    {
+        std::vector<Index> open;
+        for (Index h = 0; h < chart.halfedge_count(); ++h) {
+            const Index t = chart.twin[h];
+            if (t < h) continue;
+            if (!same(charts_.at[in_net(chart, t)], charts_.at[in_net(chart, next_halfedge(h))]) ||
+                !same(charts_.at[in_net(chart, next_halfedge(t))], charts_.at[in_net(chart, h)]))
+                open.push_back(h);
+        }
+        return open;
+    }
+
+    /// Half-edges, one each, from the inner vertices whose angles do not sum to a full turn, up to one more than
+    /// allowed.
+    std::vector<Index> tips_of(const SeamedMesh& chart) const
+    {
+        std::vector<double> sum(static_cast<std::size_t>(chart.fan_count), 0.0);
         std::vector<Index> leaving(sum.size(), no_twin);
         std::vector<char> outside(sum.size(), 0);
-        for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-            const Index v = origin(mesh.fans, h), here = in_net(mesh, h);
-            const Eigen::RowVector3d to = place(next_halfedge(here)) - place(here);
-            const Eigen::RowVector3d from = place(previous_halfedge(here)) - place(here);
-            sum[v] += std::atan2(to.cross(from).norm(), to.dot(from));
+        for (Index h = 0; h < chart.halfedge_count(); ++h) {
+            const Index v = origin(chart.fans, h), here = in_net(chart, h);
+            const Complex corner = in_plane(here);
+            sum[v] += std::arg((in_plane(previous_halfedge(here)) - corner) / (in_plane(next_halfedge(here)) - corner));
             leaving[v] = h;
-            if (mesh.twin[h] == no_twin) outside[v] = outside[target(mesh.fans, h)] = 1;
+            if (chart.twin[h] == no_twin) outside[v] = outside[target(chart.fans, h)] = 1;
         }
         std::vector<Index> tips;
         for (std::size_t v = 0; v < sum.size(); ++v)
-            if (!outside[v] && std::abs(sum[v] - 2.0 * std::numbers::pi) > flat_angle) tips.push_back(leaving[v]);
+            if (!outside[v] && !(std::abs(sum[v] - 2.0 * std::numbers::pi) < flat_angle)) tips.push_back(leaving[v]);
         return tips;
     }
 
-    /// The places of a face's corners, from a half-edge on. @param a, b places of the half-edge's ends
-    FacePlaces beside(Index h, Complex a, Complex b) const
+    /// Lays a chart flat, and cuts it where it does not close: by a dart if the cut ends in a tip, else by a slit.
+    /// @return false, and nothing is cut, if it has too many tips or overlaps itself
+    bool settle(const SeamedMesh& chart, std::size_t most_tips)
     {
-        const Eigen::RowVector3d along = place(next_halfedge(h)) - place(h);
-        const Eigen::RowVector3d third = place(previous_halfedge(h)) - place(h);
-        const double squared = along.squaredNorm();
-        FacePlaces places;
-        places[h % 3] = a;
-        places[next_halfedge(h) % 3] = b;
-        places[previous_halfedge(h) % 3] =
-            a + (b - a) * Complex(along.dot(third), along.cross(third).norm()) / (squared > 0.0 ? squared : 1.0);
-        return places;
-    }
-
-    FacePlaces first_face(Index f) const { return beside(3 * f, 0.0, (place(3 * f + 1) - place(3 * f)).norm()); }
-
-    /// Lays a chart flat, face by face. @return whether it closes round all its holes
-    bool lay(const SeamedMesh& chart)
-    {
-        std::vector<char> laid(chart.face.size(), 0);
-        const auto put = [&](Index f, const FacePlaces& places) {
-            laid[f] = 1;
-            std::ranges::copy(places, charts_.at.begin() + 3 * static_cast<std::ptrdiff_t>(chart.face[f]));
-        };
-        put(0, first_face(chart.face[0]));
-        bool closes = true;
-        std::vector<Index> queue{0};
-        for (std::size_t head = 0; head < queue.size(); ++head)
-            for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h) {
-                const Index t = chart.twin[h];
-                if (t == no_twin) continue;
-                const Complex a = charts_.at[in_net(chart, next_halfedge(h))], b = charts_.at[in_net(chart, h)];
-                if (!laid[face_of(t)]) {
-                    put(face_of(t), beside(in_net(chart, t), a, b));
-                    queue.push_back(face_of(t));
-                } else if (!same(charts_.at[in_net(chart, t)], a) ||
-                           !same(charts_.at[in_net(chart, next_halfedge(t))], b)) {
-                    closes = false;
-                }
+        lay(chart);
+        const std::vector<Index> open = open_edges(chart);
+        std::vector<Index> tips;
+        if (!open.empty()) {
+            if (std::ranges::any_of(open, [&](Index h) { return chart.whole[h] != 0; })) return false;
+            tips = tips_of(chart);
+            if (tips.size() > most_tips) return false;
+        }
+        DisjointSets cuts(static_cast<std::size_t>(chart.fan_count));
+        for (const Index h : open) {
+            cuts.join(origin(chart.fans, h), target(chart.fans, h));
+            net_.cut(in_net(chart, h));
+        }
+        std::set<Index> with_tip, before = charts_.tips;
+        for (const Index h : tips) {
+            with_tip.insert(cuts.find(origin(chart.fans, h)));
+            charts_.tips.insert(origin(chart.corners, h));
+        }
+        std::optional<FlatPart> part = laid_part(surface_, charts_, chart.face);
+        if (!part) {
+            for (const Index h : open) {
+                net_.twin[in_net(chart, h)] = in_net(chart, chart.twin[h]);
+                net_.twin[in_net(chart, chart.twin[h])] = in_net(chart, h);
             }
-        return closes;
-    }
-
-    /// Whether the faces along a loop, laid flat one after the other, come back to their place.
-    bool closes_round(const SeamedMesh& chart, Index start) const
-    {
-        const FacePlaces first = first_face(chart.face[face_of(start)]);
-        FacePlaces places = first;
-        Index h = start;
-        do {
-            h = next_halfedge(h);
-            for (Index t = chart.twin[h]; t != no_twin; t = chart.twin[h]) {
-                places = beside(in_net(chart, t), places[next_halfedge(h) % 3], places[h % 3]);
-                h = next_halfedge(t);
-            }
-        } while (h != start);
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!same(places[k], first[k])) return false;
+            charts_.tips = std::move(before);
+            return false;
+        }
+        for (const Index h : open)
+            (with_tip.contains(cuts.find(origin(chart.fans, h))) ? charts_.darts : charts_.slits)
+                .push_back(in_net(chart, h));
+        charts_.parts.push_back(std::move(*part));
+        charts_.faces.push_back(chart.face);
         return true;
     }
 
-    /// Cuts short paths that connect the chart's tips, by darts, and the loops round which it does not close, by slits.
-    void open(const SeamedMesh& chart)
+    /// Cuts a chart between faces of different groups. @return its pieces
+    std::vector<SeamedMesh> cut_between_groups(SeamedMesh chart)
     {
-        std::vector<std::vector<Index>> ends;  // fans
-        for (const std::vector<Index>& loop : boundary_halfedges(chart)) {
-            if (closes_round(chart, loop.front())) continue;
-            ends.emplace_back();
-            for (const Index h : loop) ends.back().push_back(origin(chart.fans, h));
+        for (Index h = 0; h < chart.halfedge_count(); ++h) {
+            const Index t = chart.twin[h];
+            if (t == no_twin || chart.whole[h] || group_[chart.face[face_of(h)]] == group_[chart.face[face_of(t)]])
+                continue;
+            net_.cut(in_net(chart, h));
+            chart.cut(h);
         }
-        const std::size_t loops = ends.size();
-        for (const Index h : tips_of(chart)) {
-            ends.push_back({origin(chart.fans, h)});
-            charts_.tips.insert(origin(chart.corners, h));
+        return connected_parts(chart);
+    }
+
+    /// The plates of a chart that is not flat as a whole, then the rolled faces. The other faces are the rest.
+    void settle_mixed(const SeamedMesh& chart)
+    {
+        const std::vector<Index> planar = planar_pieces(chart);
+        const std::size_t count = static_cast<std::size_t>(std::ranges::max(planar)) + 1;
+        std::vector<double> area(count), outline(count, 0.0), largest(count, 0.0);
+        std::map<std::pair<Index, Index>, double> borders;
+        for (std::size_t f = 0; f < planar.size(); ++f) {
+            area[planar[f]] = plane(chart.face[f]).area;
+            planar_[chart.face[f]] = planar[f];
         }
-        if (ends.size() < 2) return;
-        const EdgeGraph graph(chart, 1.0);
-        std::vector<char> is_reached(ends.size(), 0);
-        is_reached[0] = 1;
-        std::vector<Index> reached = ends[0];
-        for (std::size_t count = 1; count < ends.size(); ++count) {
-            const PathTree tree = shortest_paths(graph, reached);
-            std::size_t next = 0;
-            Index nearest = -1;
-            for (std::size_t k = 0; k < ends.size(); ++k)
-                for (const Index v : ends[k])
-                    if (!is_reached[k] && (nearest < 0 || tree.distance[v] < tree.distance[nearest])) {
-                        nearest = v;
-                        next = k;
-                    }
-            is_reached[next] = 1;
-            reached.insert(reached.end(), ends[next].begin(), ends[next].end());
-            for (Index v = nearest; tree.parent[v] != v; v = tree.parent[v]) {
-                if (tree.halfedge[v] == no_twin) return;  // no path
-                reached.push_back(v);
-                std::vector<Index>& kind = next < loops ? charts_.slits : charts_.darts;
-                kind.push_back(in_net(chart, tree.halfedge[v]));
-                net_.cut(kind.back());
+        for (Index h = 0; h < chart.halfedge_count(); ++h) {
+            const Index t = chart.twin[h], own = planar[face_of(h)], other = t == no_twin ? -1 : planar[face_of(t)];
+            if (own == other) continue;
+            outline[own] += surface_.lengths[in_net(chart, h)];
+            if (other < 0) continue;
+            borders[{own, other}] += surface_.lengths[in_net(chart, h)];
+            largest[own] = std::max(largest[own], area[other]);
+        }
+        // A plate is much larger than the planar pieces round it. Long thin pieces side by side are rolled.
+        const double least = least_plate * surface_.areas.sum();
+        std::vector<char> is_plate(count);
+        for (std::size_t p = 0; p < count; ++p) is_plate[p] = area[p] >= std::max(least, plate_to_strip * largest[p]);
+        DisjointSets rolled(count);
+        for (const auto& [pair, length] : borders)
+            if (const auto [p, q] = pair;
+                !is_plate[p] && !is_plate[q] && length > ruled * std::max(outline[p], outline[q]))
+                rolled.join(p, q);
+        std::vector<Index> members(count, 0);
+        for (std::size_t p = 0; p < count; ++p) ++members[rolled.find(static_cast<Index>(p))];
+        for (const Index f : chart.face) group_[f] = is_plate[planar_[f]] ? planar_[f] : -1;
+        // A polygon that leaves the plane of a plate is no part of the plate.
+        for (bool changes = true; changes;) {
+            changes = false;
+            for (Index h = 0; h < chart.halfedge_count(); ++h) {
+                if (!chart.whole[h] || chart.twin[h] == no_twin) continue;
+                Index &own = group_[chart.face[face_of(h)]], other = group_[chart.face[face_of(chart.twin[h])]];
+                if (own < 0 || own == other) continue;
+                own = -1;
+                changes = true;
             }
+        }
+        for (const SeamedMesh& piece : cut_between_groups(chart)) {
+            if (settle(piece, 0)) continue;
+            for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
+            for (const SeamedMesh& strip : cut_between_groups(piece))
+                if (looseness(strip, piece) >
+                        (members[group_[strip.face.front()]] > 1 ? most_loose : most_loose_alone) ||
+                    !settle(strip, 0))
+                    charts_.rest.insert(charts_.rest.end(), strip.face.begin(), strip.face.end());
         }
     }
 
+    /// The share of a strip's outline along which its piece goes on.
+    double looseness(const SeamedMesh& strip, const SeamedMesh& piece) const
+    {
+        double outline = 0.0, loose = 0.0;
+        for (Index h = 0; h < strip.halfedge_count(); ++h) {
+            if (strip.twin[h] != no_twin) continue;
+            const double length = surface_.lengths[in_net(strip, h)];
+            const auto at = std::ranges::lower_bound(piece.face, strip.face[face_of(h)]) - piece.face.begin();
+            outline += length;
+            if (piece.twin[3 * at + h % 3] != no_twin) loose += length;
+        }
+        return loose / outline;
+    }
+
+    /// Joins the rest again where it was cut without a crease.
+    void join_rest()
+    {
+        std::ranges::sort(charts_.rest);
+        std::vector<char> is_rest(charts_.plane.size(), 0);
+        for (const Index f : charts_.rest) is_rest[f] = 1;
+        for (const Index f : charts_.rest)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h)
+                if (twin(h) != no_twin && is_rest[face_of(twin(h))] && !charts_.crease[h]) net_.twin[h] = twin(h);
+    }
+
     const CutSurface& surface_;
+    PlanarRegions regions_;
+    std::size_t most_tips_;
+    std::vector<Index> planar_, group_;  // (F) of the chart at work: planar piece, and what is not cut apart
     FlatCharts charts_;
     SeamedMesh& net_ = charts_.net;
 };
 
 }  // namespace
 
-std::optional<FlatCharts> flat_charts(const CutSurface& surface)
+std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& charts, const std::vector<Index>& faces)
 {
-    ChartLayer layer(surface);
-    if (!layer.lay_charts()) return {};
-    return layer.take();
+    const auto number = [&](Index f) { return static_cast<Index>(std::ranges::lower_bound(faces, f) - faces.begin()); };
+    SeamedMesh mesh;
+    mesh.corners = charts.net.corners(faces, Eigen::all);
+    for (const Index f : faces)
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            const Index t = charts.net.twin[h];
+            mesh.twin.push_back(t == no_twin ? no_twin : 3 * number(face_of(t)) + t % 3);
+        }
+    number_fans(mesh);
+    FlatPart part;
+    part.faces = faces;
+    part.original.resize(mesh.fan_count);
+    part.points.resize(mesh.fan_count, 2);
+    // Up to tolerances corners of one vertex lie in one place. The largest plane stays exact.
+    std::vector<double> plane(static_cast<std::size_t>(mesh.fan_count), -1.0);
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+        const Index v = origin(mesh.fans, h), f = faces[face_of(h)];
+        if (!(charts.plane[f] > plane[v])) continue;
+        const Complex z = charts.at[3 * f + h % 3];
+        plane[v] = charts.plane[f];
+        part.original[v] = origin(mesh.corners, h);
+        part.points.row(v) << z.real(), z.imag();
+    }
+    part.vertices = surface.vertices(part.original, Eigen::all);
+    try {
+        part.surface = require_bordered_genus_zero(mesh.fans, mesh.fan_count);
+    } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
+        return {};
+    }
+    if (!lies_one_to_one(part, part.points) || !survives_storing(part)) return {};
+    part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
+    part.held.assign(mesh.fan_count, 0);
+    for (const VertexLoop& loop : part.surface.loops) {
+        part.loops.emplace_back();
+        for (const Index v : loop) part.loops.back().push_back(part.original[v]);
+    }
+    for (Index v = 0; v < mesh.fan_count; ++v)
+        if (charts.tips.contains(part.original[v]) && std::ranges::count(part.original, part.original[v]) == 1)
+            part.tips.push_back(v);
+    if (!surface.polygon.empty())
+        for (const Index f : faces) part.polygon.push_back(surface.polygon[f]);
+    return part;
+}
+
+FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips)
+{
+    return ChartLayer(surface, most_tips).run();
 }
 
 }  // namespace koebe

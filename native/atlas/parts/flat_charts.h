@@ -3,6 +3,7 @@
 
 #include "cut/seamed_mesh.h"
 #include "part_maps/part_mesh.h"
+#include "parts/flat_part.h"
 
 #include <optional>
 #include <set>
@@ -10,19 +11,33 @@
 
 namespace koebe {
 
+/// A plane motion that keeps orientation.
+struct PlaneMotion {
+    Complex turn = 1.0, shift = 0.0;
+    Complex operator()(Complex z) const { return turn * z + shift; }
+};
+
 struct FlatCharts {
     SeamedMesh net;                         ///< the surface, cut into charts. Edges count as longer where it is shown
     std::vector<Complex> at;                ///< (3F) places of the corners, true to size
+    std::vector<char> crease;               ///< (3F) 1 where the surface is bent
     std::vector<std::vector<Index>> faces;  ///< of each chart, ascending
+    std::vector<FlatPart> parts;            ///< each chart by itself
+    std::vector<Index> rest;                ///< faces in no chart, because they are curved in both directions
     std::vector<Index> slits, darts;        ///< half-edges of cuts inside charts, one each
     std::set<Index> tips;                   ///< vertices where darts end
+    std::vector<double> plane;              ///< (F) area of the planar region (regions.h) that a face belongs to
     double near = 0.0;                      ///< places are the same up to this distance
 };
 
-/// Cuts the surface along its creases, which are bent by more than 30 degrees. A chart that closes round a hole, such
-/// as the side of a cylinder, is slit, and a chart with a tip, such as a cone, gets a dart.
-/// @return charts that may overlap themselves. No value if a chart is curved in both directions, or if there are too
-/// many charts and tips: then the surface is smooth, or rough
-std::optional<FlatCharts> flat_charts(const CutSurface& surface);
+/// Cuts the surface along its creases, which are bent by more than 30 degrees, and lays the charts flat, plane by
+/// plane: planar regions are similar to their image up to rounding. A chart that closes round a hole, such as the side
+/// of a cylinder, is slit, and a chart with a tip, such as a cone, gets a dart. From other charts the plates and the
+/// rolled faces between plates are cut out: a fillet, but not a belt of a ball. Their other faces are the rest.
+/// A chart that overlaps itself counts as curved. @param most_tips of one chart
+FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips);
+
+/// Some faces of charts as they lie. @return no value if they are no disk with holes, or overlap
+std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& charts, const std::vector<Index>& faces);
 
 }  // namespace koebe

@@ -8,6 +8,7 @@
 #include "execution/side_by_side.h"
 #include "parts/even_parts.h"
 #include "parts/flat_parts.h"
+#include "parts/hard_surface.h"
 #include "parts/unfolding.h"
 #include "splitting/closed_surface.h"
 #include "splitting/coarse_surface.h"
@@ -214,22 +215,6 @@ bool may_unfold(const PartsOptions& options)
            options.slits.empty();
 }
 
-/// Names faces and vertices by the input. @param parts by numbers of the piece
-void name_by_input(const SurfacePiece& piece, const Mirror& mirror, const std::vector<double>& show,
-                   std::vector<FlatPart>& parts)
-{
-    for (FlatPart& part : parts) {
-        for (Index& f : part.faces) f = piece.source_face[f];
-        if (!mirror.vertex.empty())
-            for (const Index v : part.original) part.image.push_back(piece.source_vertex[mirror.vertex[v]]);
-        for (Index& v : part.original) v = piece.source_vertex[v];
-        if (!show.empty())
-            for (const Index v : part.original) part.shown.push_back(show[v]);
-        for (VertexLoop& loop : part.loops)
-            for (Index& v : loop) v = piece.source_vertex[v];
-    }
-}
-
 /// The parts of a piece, flat.
 FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const SeamPlaces& seams,
                      const PartsOptions& options, int threads, ExecutionContext& context)
@@ -255,7 +240,7 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     std::optional<UnfoldedParts> true_to_size;
     if (may_unfold(options) && !is_large) true_to_size = unfolded(whole, context);
     const auto take_unfolded = [&] {
-        name_by_input(piece, {}, options.show, true_to_size->parts);
+        name_by_input(piece, options.show, true_to_size->parts);
         return FlatPiece{std::move(true_to_size->parts), 0.0};
     };
     if (true_to_size && true_to_size->cut_length <= few_cuts * std::sqrt(whole.areas.sum())) return take_unfolded();
@@ -298,7 +283,10 @@ FlatPiece flat_piece(const SurfacePiece& piece, const Vertices& vertices, const 
     }
     FlatPiece flat{std::move(flats.parts), 0.0};
     flat.maps = effort.maps * static_cast<double>(piece.triangles.rows());
-    name_by_input(piece, mirror, options.show, flat.parts);
+    if (!mirror.vertex.empty())
+        for (FlatPart& part : flat.parts)
+            for (const Index v : part.original) part.image.push_back(piece.source_vertex[mirror.vertex[v]]);
+    name_by_input(piece, options.show, flat.parts);
     return flat;
 }
 
@@ -307,6 +295,7 @@ std::vector<FlatPiece> flat_pieces(const OpenedSurface& opened, const Vertices& 
                                    ExecutionContext& context)
 {
     Eigen::Index total = 0;
+    if (opened.pieces.empty()) return {};
     for (const SurfacePiece& piece : opened.pieces) total += piece.triangles.rows();
     std::vector<std::size_t> small, big;
     for (std::size_t i = 0; i < opened.pieces.size(); ++i)
@@ -370,18 +359,24 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
                    ExecutionContext& context)
 {
     context.begin_stage("topology", 0.0, 0.05);
-    const OpenOptions opening{.polygon = options.polygon, .slit_beside_handles = false};
+    const bool hard_first = options.cut && may_unfold(options);
+    const OpenOptions opening{.polygon = options.polygon, .slit_beside_handles = false, .open = !hard_first};
     OpenedSurface opened =
         options.cut ? open_surface(vertices, triangles, opening, context) : strict_surface(vertices, triangles);
     FlatMesh mesh;
     PartsLayout& layout = mesh.layout;
     layout.vertices = of_area_one(vertices, triangles).vertices;
     layout.triangles = triangles;
+    std::vector<FlatPart> hard;
+    if (hard_first)
+        opened =
+            opened_without_hard_parts(vertices, triangles, layout.vertices, std::move(opened), options, hard, context);
     layout.handles_cut = opened.handles;
     for (FlatPiece& piece : flat_pieces(opened, layout.vertices, options, context)) {
         layout.maps += piece.maps / static_cast<double>(triangles.rows());
         std::ranges::move(piece.parts, std::back_inserter(mesh.parts));
     }
+    if (!options.importance.empty()) std::ranges::move(std::exchange(hard, {}), std::back_inserter(mesh.parts));
     ask_for_sizes(layout, options.importance, mesh.parts);
     context.begin_stage("even", 0.8, 0.9);
     const EvenParts even = make_parts_even(mesh.parts, evening_of(options, roomy, options.threads), context);
@@ -389,6 +384,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     for (const std::size_t k : even.left)
         layout.not_even.insert(layout.not_even.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());
     std::ranges::sort(layout.not_even);
+    std::ranges::move(hard, std::back_inserter(mesh.parts));  // they are exact: nothing relaxes or cuts them
     for (const FlatPart& flat : mesh.parts) {
         layout.darts += static_cast<Index>(flat.tips.size());
         layout.dart_length += flat.dart_length;

@@ -1,47 +1,54 @@
 #include "parts/unfolding.h"
 
 #include "core/errors.h"
+#include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
+#include "surface/free_flattening.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr double least_border = 0.12;  // of a chart's boundary: a shorter common border is not worth joining
+constexpr double least_border = 0.12;     // of a chart's boundary: a shorter common border is not worth joining
+constexpr std::size_t most_tips = 64;     // of one chart,
+constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
+constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
+constexpr double large_chart = 0.01;      // of the area: charts from there on
+constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
+constexpr double alone = 1.0 + 1e-9;      // of a face's area: its plane has no other face
 
-/// A plane motion that keeps orientation.
-struct Motion {
-    Complex turn, shift;
-    Complex operator()(Complex z) const { return turn * z + shift; }
-};
+constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
+constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
 
 class Unfolding {
 public:
     explicit Unfolding(const CutSurface& surface, FlatCharts charts)
         : surface_(surface), charts_(std::move(charts)), islands_(charts_.faces), island_(islands_.size())
     {
+        parts_ = std::move(charts_.parts);
         std::iota(island_.begin(), island_.end(), 0);
-        chart_.resize(static_cast<std::size_t>(surface.areas.size()));
+        chart_.assign(static_cast<std::size_t>(surface.areas.size()), -1);
         for (std::size_t k = 0; k < islands_.size(); ++k)
             for (const Index f : islands_[k]) chart_[f] = static_cast<Index>(k);
     }
 
-    /// @return whether no chart overlaps itself
-    bool take_charts(ExecutionContext& context)
+    /// The area of charts that are not small, without single faces in the planes of which no other face lies. An
+    /// animal of few faces has charts with such faces only.
+    double hard_area(double least) const
     {
-        for (const std::vector<Index>& faces : islands_) {
-            context.checkpoint();
-            auto part = part_of(faces);
-            if (!part) return false;
-            parts_.push_back(std::move(*part));
-        }
-        return true;
+        double sum = 0.0;
+        for (const std::vector<Index>& faces : islands_)
+            if (surface_.areas(faces).sum() >= least)
+                for (const Index f : faces)
+                    if (charts_.plane[f] > std::min(least, alone * surface_.areas[f])) sum += surface_.areas[f];
+        return sum;
     }
 
     void join_charts(ExecutionContext& context)
@@ -54,6 +61,29 @@ public:
         }
     }
 
+    /// Small pieces of the rest, such as the corner between three fillets, go with the island with which they have the
+    /// longest border. Their map bends, the island does not move.
+    void attach_rest(ExecutionContext& context)
+    {
+        SeamedMesh rest = charts_.net;
+        for (Index h = 0; h < halfedges(); ++h)
+            if (chart_[face_of(h)] >= 0) rest.cut(h);
+        std::vector<SeamedMesh> pieces = connected_parts(rest);
+        std::erase_if(pieces, [&](const SeamedMesh& piece) {
+            return chart_[piece.face.front()] >= 0 ||
+                   surface_.areas(piece.face).sum() > small_rest * surface_.areas.sum();
+        });
+        // A piece between two others waits until one of them is attached.
+        for (std::size_t before = 0; before != pieces.size();) {
+            before = pieces.size();
+            std::erase_if(pieces, [&](const SeamedMesh& piece) {
+                context.checkpoint();
+                return attach(piece);
+            });
+        }
+        std::erase_if(charts_.rest, [&](Index f) { return chart_[f] >= 0; });
+    }
+
     double cut_length() const
     {
         double length = 0.0;
@@ -62,12 +92,19 @@ public:
         return length;
     }
 
+    std::vector<Index> rest()
+    {
+        std::ranges::sort(charts_.rest);
+        return charts_.rest;
+    }
+
     std::vector<FlatPart> parts()
     {
+        const auto is_cut = [&](Index h) { return charts_.net.twin[h] == no_twin && chart_[face_of(h)] >= 0; };
         for (const Index h : charts_.slits)
-            if (charts_.net.twin[h] == no_twin) parts_[island_of(h)].slit += surface_.lengths[h];
+            if (is_cut(h)) parts_[island_of(h)].slit += surface_.lengths[h];
         for (const Index h : charts_.darts)
-            if (charts_.net.twin[h] == no_twin) parts_[island_of(h)].dart_length += surface_.lengths[h];
+            if (is_cut(h)) parts_[island_of(h)].dart_length += surface_.lengths[h];
         std::vector<FlatPart> found;
         for (std::size_t k = 0; k < parts_.size(); ++k)
             if (!islands_[k].empty()) found.push_back(std::move(parts_[k]));
@@ -82,7 +119,7 @@ private:
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
     /// The motion that brings the face across a crease to the crease's place.
-    Motion motion_to(Index h) const
+    PlaneMotion motion_to(Index h) const
     {
         const Index t = twin(h);
         const Complex from = charts_.at[next_halfedge(t)] - charts_.at[t],
@@ -91,7 +128,7 @@ private:
         return {turn, charts_.at[next_halfedge(h)] - turn * charts_.at[t]};
     }
 
-    bool meets(Index h, const Motion& motion) const
+    bool meets(Index h, const PlaneMotion& motion) const
     {
         const Index t = twin(h);
         return same(motion(charts_.at[t]), charts_.at[next_halfedge(h)]) &&
@@ -99,7 +136,7 @@ private:
     }
 
     /// For each pair of charts the crease at which they are best joined, if their straight common border is long
-    /// enough. The longest border first.
+    /// enough. Smooth borders first, then the longest.
     std::vector<Index> borders() const
     {
         std::map<std::pair<Index, Index>, std::vector<Index>> common;
@@ -107,15 +144,16 @@ private:
         for (Index h = 0; h < halfedges(); ++h) {
             if (charts_.net.twin[h] != no_twin) continue;
             const Index a = chart_[face_of(h)];
+            if (a < 0) continue;
             boundary[a] += surface_.lengths[h];
             if (twin(h) == no_twin) continue;
             if (const Index b = chart_[face_of(twin(h))]; a < b) common[{a, b}].push_back(h);
         }
-        std::vector<std::pair<double, Index>> found;
+        std::vector<std::tuple<char, double, Index>> found;
         for (const auto& [charts, halfedges] : common) {
             const Index longest =
                 *std::ranges::max_element(halfedges, {}, [&](Index h) { return surface_.lengths[h]; });
-            const Motion motion = motion_to(longest);
+            const PlaneMotion motion = motion_to(longest);
             double length = 0.0, price = 0.0;
             for (const Index h : halfedges)
                 if (meets(h, motion)) {
@@ -123,11 +161,11 @@ private:
                     price += charts_.net.length[h];
                 }
             if (length >= least_border * std::min(boundary[charts.first], boundary[charts.second]))
-                found.emplace_back(-price, longest);
+                found.emplace_back(charts_.crease[longest], -price, longest);
         }
         std::ranges::sort(found);
         std::vector<Index> order;
-        for (const auto& border : found) order.push_back(border.second);
+        for (const auto& border : found) order.push_back(std::get<2>(border));
         return order;
     }
 
@@ -135,13 +173,16 @@ private:
     void join(Index crease)
     {
         const Index a = island_of(crease), b = island_of(twin(crease));
-        const Motion motion = motion_to(crease);
-        const std::vector<Complex> before = charts_.at;
+        const PlaneMotion motion = motion_to(crease);
         std::vector<Index> joined;
+        std::vector<Complex> before;
         for (const Index f : islands_[b])
             for (Index t = 3 * f; t < 3 * f + 3; ++t) {
+                before.push_back(charts_.at[t]);
                 const Index h = twin(t);
-                if (h == no_twin || charts_.net.twin[h] != no_twin || island_of(h) != a || !meets(h, motion)) continue;
+                if (h == no_twin || charts_.net.twin[h] != no_twin || chart_[face_of(h)] < 0 || island_of(h) != a ||
+                    !meets(h, motion))
+                    continue;
                 joined.push_back(h);
             }
         for (const Index h : joined) {
@@ -155,7 +196,9 @@ private:
         std::ranges::sort(faces);
         auto part = part_of(faces);
         if (!part) {
-            charts_.at = before;
+            auto at = before.begin();
+            for (const Index f : islands_[b])
+                for (Index c = 3 * f; c < 3 * f + 3; ++c) charts_.at[c] = *at++;
             for (const Index h : joined) charts_.net.cut(h);
             return;
         }
@@ -165,48 +208,93 @@ private:
         std::ranges::replace(island_, b, a);
     }
 
-    /// These faces as they lie. @return no value if they are no disk with holes, or overlap
+    /// Half-edges of a piece of the rest: its longest border with an island that is in one run there, too.
+    std::vector<Index> longest_border(const SeamedMesh& piece) const
+    {
+        std::vector<Index> border;
+        std::map<Index, std::vector<std::pair<Complex, Index>>> ends;  // of vertices: places in islands, border edges
+        const auto across = [&](Index h) { return twin(3 * piece.face[face_of(h)] + h % 3); };
+        for (Index h = 0; h < piece.halfedge_count(); ++h) {
+            const Index t = across(h);
+            if (piece.twin[h] != no_twin || t == no_twin || chart_[face_of(t)] < 0) continue;
+            ends[origin(piece.fans, h)].emplace_back(charts_.at[next_halfedge(t)], static_cast<Index>(border.size()));
+            ends[target(piece.fans, h)].emplace_back(charts_.at[t], static_cast<Index>(border.size()));
+            border.push_back(h);
+        }
+        DisjointSets runs(border.size());
+        for (const auto& entry : ends)
+            for (const auto& [a, i] : entry.second)
+                for (const auto& [b, k] : entry.second)
+                    if (same(a, b) && island_of(across(border[i])) == island_of(across(border[k]))) runs.join(i, k);
+        std::vector<double> length(border.size(), 0.0);
+        for (std::size_t i = 0; i < border.size(); ++i)
+            length[runs.find(static_cast<Index>(i))] += surface_.lengths[across(border[i])];
+        const auto best = std::ranges::max_element(length) - length.begin();
+        std::vector<Index> run;
+        for (std::size_t i = 0; i < border.size(); ++i)
+            if (runs.find(static_cast<Index>(i)) == best) run.push_back(border[i]);
+        return run;
+    }
+
+    /// Maps a piece of the rest beside the island with which it has the longest border: conformal in the sense of least
+    /// squares, with the border pinned. @return false, and nothing changes, if there is no place for it
+    bool attach(const SeamedMesh& piece)
+    {
+        const auto in_net = [&](Index h) { return 3 * piece.face[face_of(h)] + h % 3; };
+        std::vector<Index> border = longest_border(piece);
+        if (border.empty()) return false;
+        const Index island = island_of(twin(in_net(border.front())));
+        std::map<Index, Complex> places;
+        for (Index& h : border) {
+            const Index t = twin(in_net(h));
+            places.emplace(origin(piece.fans, h), charts_.at[next_halfedge(t)]);
+            places.emplace(target(piece.fans, h), charts_.at[t]);
+            h = t;
+        }
+        std::vector<Index> pinned, original(piece.fan_count);
+        std::vector<Complex> images;
+        for (const auto& [v, place] : places) {
+            pinned.push_back(v);
+            images.push_back(place);
+        }
+        for (Index h = 0; h < piece.halfedge_count(); ++h) original[origin(piece.fans, h)] = origin(piece.corners, h);
+        VectorXcd image;
+        try {
+            image = flatten_freely(surface_.vertices(original, Eigen::all), piece.fans, pinned, images);
+        } catch (const SolverError&) {
+            return false;
+        }
+        for (Index h = 0; h < piece.halfedge_count(); ++h) {
+            charts_.at[in_net(h)] = image[origin(piece.fans, h)];
+            if (piece.twin[h] != no_twin) charts_.net.twin[in_net(h)] = in_net(piece.twin[h]);
+        }
+        for (Index f = 0; f < static_cast<Index>(piece.face.size()); ++f) {
+            const Complex a = charts_.at[3 * piece.face[f]], b = charts_.at[3 * piece.face[f] + 1] - a,
+                          c = charts_.at[3 * piece.face[f] + 2] - a;
+            const double scale = 0.5 * std::imag(std::conj(b) * c) / std::max(surface_.areas[piece.face[f]], 1e-300);
+            if (!(scale > 1.0 / most_scaled && scale < most_scaled)) return false;
+        }
+        for (const Index t : border) {
+            charts_.net.twin[t] = twin(t);
+            charts_.net.twin[twin(t)] = t;
+        }
+        std::vector<Index> faces = islands_[island];
+        faces.insert(faces.end(), piece.face.begin(), piece.face.end());
+        std::ranges::sort(faces);
+        auto part = part_of(faces);
+        if (!part) {
+            for (const Index t : border) charts_.net.cut(t);
+            return false;
+        }
+        parts_[island] = std::move(*part);
+        islands_[island] = std::move(faces);
+        for (const Index f : piece.face) chart_[f] = island;
+        return true;
+    }
+
     std::optional<FlatPart> part_of(const std::vector<Index>& faces) const
     {
-        std::vector<Index> number(charts_.net.face.size(), -1);
-        for (std::size_t i = 0; i < faces.size(); ++i) number[faces[i]] = static_cast<Index>(i);
-        SeamedMesh mesh;
-        mesh.corners = charts_.net.corners(faces, Eigen::all);
-        for (const Index f : faces)
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                const Index t = charts_.net.twin[h];
-                mesh.twin.push_back(t == no_twin ? no_twin : 3 * number[face_of(t)] + t % 3);
-            }
-        number_fans(mesh);
-        FlatPart part;
-        part.faces = faces;
-        part.original.resize(mesh.fan_count);
-        part.points.resize(mesh.fan_count, 2);
-        for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-            const Index v = origin(mesh.fans, h);
-            const Complex z = charts_.at[3 * faces[face_of(h)] + h % 3];
-            part.original[v] = origin(mesh.corners, h);
-            part.points.row(v) << z.real(), z.imag();
-        }
-        part.vertices = surface_.vertices(part.original, Eigen::all);
-        try {
-            part.surface = require_bordered_genus_zero(mesh.fans, mesh.fan_count);
-        } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
-            return {};
-        }
-        if (!lies_one_to_one(part, part.points) || !survives_storing(part)) return {};
-        part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
-        part.held.assign(mesh.fan_count, 0);
-        for (const VertexLoop& loop : part.surface.loops) {
-            part.loops.emplace_back();
-            for (const Index v : loop) part.loops.back().push_back(part.original[v]);
-        }
-        for (Index v = 0; v < mesh.fan_count; ++v)
-            if (charts_.tips.contains(part.original[v]) && std::ranges::count(part.original, part.original[v]) == 1)
-                part.tips.push_back(v);
-        if (!surface_.polygon.empty())
-            for (const Index f : faces) part.polygon.push_back(surface_.polygon[f]);
-        return part;
+        return laid_part(surface_, charts_, faces);
     }
 
     const CutSurface& surface_;
@@ -221,12 +309,21 @@ private:
 
 std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context)
 {
-    std::optional<FlatCharts> charts = flat_charts(surface);
-    if (!charts) return {};
-    Unfolding unfolding(surface, std::move(*charts));
-    if (!unfolding.take_charts(context)) return {};
+    FlatCharts charts = flat_charts(surface, most_tips);
+    if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
+    Unfolding unfolding(surface, std::move(charts));
     unfolding.join_charts(context);
-    return UnfoldedParts{unfolding.parts(), unfolding.cut_length()};
+    return UnfoldedParts{unfolding.parts(), {}, unfolding.cut_length()};
+}
+
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context)
+{
+    const double area = surface.areas.sum();
+    Unfolding unfolding(surface, flat_charts(surface, cone_tips));
+    if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
+    unfolding.join_charts(context);
+    unfolding.attach_rest(context);
+    return UnfoldedParts{unfolding.parts(), unfolding.rest(), unfolding.cut_length()};
 }
 
 }  // namespace koebe

@@ -11,6 +11,7 @@ namespace koebe {
 
 struct UnfoldedParts {
     std::vector<FlatPart> parts;
+    std::vector<Index> rest;  ///< faces in no part, ascending
     double cut_length = 0.0;  ///< in the unit of the vertices
 };
 
@@ -20,5 +21,11 @@ struct UnfoldedParts {
 /// @return parts that keep all lengths, up to rounding. No value if a chart is curved in both directions, or overlaps
 /// itself
 std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context);
+
+/// The flat and rolled regions of a hard surface, as parts that keep all lengths, and the rest: faces that are curved
+/// in both directions. Regions are cut apart and joined as above. A planar region stays whole, with its holes.
+/// @param surface of any genus, with or without boundary
+/// @return no value if the surface is not hard: large flat and rolled regions hold less than half of the area
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context);
 
 }  // namespace koebe

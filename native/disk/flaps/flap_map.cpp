@@ -158,7 +158,7 @@ void settle(std::vector<PlacedFlap*>& flaps, const VectorXcd& hole, const Execut
 {
     const Complex middle = hole.mean();
     for (PlacedFlap* flap : flaps) {
-        flap->natural = flatten_freely(flap->vertices, flap->triangles, 0, flap->image[0], 1, flap->image[1]);
+        flap->natural = flatten_freely(flap->vertices, flap->triangles, {0, 1}, {flap->image[0], flap->image[1]});
         draw(*flap, middle);
     }
     const auto flatten = [&](PlacedFlap& flap) {

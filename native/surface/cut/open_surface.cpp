@@ -316,6 +316,7 @@ private:
     /// The next cuts, already added to the report; empty if the part is a piece.
     std::vector<std::vector<Index>> next_cuts(Work& work)
     {
+        if (!options_.open) return {};
         const std::size_t loops = boundary_halfedges(work.mesh).size();
         if (genus_of(work.mesh, loops) > 0) return next_handles(work);
         const bool enough = !work.was_closed || work.slit || !options_.long_slit || !options_.slit_beside_handles;

@@ -57,6 +57,8 @@ struct OpenOptions {
     bool long_slit = true;
     /// false: the cuts of handles count as boundary, so that a former torus stays a tube.
     bool slit_beside_handles = true;
+    /// false: connected surfaces stay as they are, closed and with handles.
+    bool open = true;
 };
 
 /// Opens, cuts and splits a mesh until every piece can be mapped. The mesh itself does not change.

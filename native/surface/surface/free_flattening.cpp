@@ -27,16 +27,17 @@ std::array<Complex, 3> lay_flat(double l01, double l12, double l20)
 
 }  // namespace
 
-VectorXcd flatten_freely(const Vertices& vertices, const Triangles& triangles, Index first, Complex first_image,
-                         Index second, Complex second_image)
+VectorXcd flatten_freely(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& pinned,
+                         const std::vector<Complex>& images)
 {
     const EdgeLengths lengths = edge_lengths(vertices, triangles);
     const Index vertex_count = static_cast<Index>(vertices.rows());
     VectorXcd image = VectorXcd::Zero(vertex_count);
-    image[first] = first_image;
-    image[second] = second_image;
     std::vector<Index> unknown(vertex_count, 0);
-    unknown[first] = unknown[second] = -1;
+    for (std::size_t i = 0; i < pinned.size(); ++i) {
+        image[pinned[i]] = images[i];
+        unknown[pinned[i]] = -1;
+    }
     Index count = 0;
     for (Index& u : unknown)
         if (u == 0) u = count++;
@@ -55,6 +56,7 @@ VectorXcd flatten_freely(const Vertices& vertices, const Triangles& triangles, I
                 right[f] -= weight * image[v];
         }
     }
+    if (count == 0) return image;
     // Least squares, by the normal equations.
     using ComplexMatrix = Eigen::SparseMatrix<Complex, Eigen::ColMajor, Index>;
     ComplexMatrix system(static_cast<Index>(triangles.rows()), count);

@@ -1,0 +1,34 @@
+// Planar regions of a surface: neighbouring faces in one plane, however they are triangulated.
+#pragma once
+
+#include "core/types.h"
+#include "part_maps/part_mesh.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// A plane with a frame, in which a region is true to shape.
+struct RegionPlane {
+    Eigen::RowVector3d origin, right, up, normal;  ///< right, up and normal: an orthonormal frame
+    double area = 0.0;                             ///< of the region's faces
+
+    Complex place(const Eigen::RowVector3d& point) const
+    {
+        return {(point - origin).dot(right), (point - origin).dot(up)};
+    }
+};
+
+struct PlanarRegions {
+    std::vector<Index> of;            ///< (F) region of each face
+    std::vector<RegionPlane> planes;  ///< (regions)
+    double tolerance = 0.0;           ///< the largest distance of a vertex from its plane
+};
+
+/// Each region grows from its largest face over all neighbours whose vertices lie near its plane. The plane is fitted
+/// again until the region stops to grow. So thin faces, whose own normals are only rounding, belong to the plane around
+/// them. The tolerance is that of stored coordinates; a larger one is taken for noise, if large regions then hold most
+/// of the area.
+PlanarRegions planar_regions(const CutSurface& surface);
+
+}  // namespace koebe
