@@ -76,10 +76,15 @@ def test_parts_of_other_shape_or_wanted_size_are_not_stacked():
     count = len(vertices) // 3
     bent = vertices.copy()
     bent[count:] *= [1.0, 1.0, 1.2]
-    assert len(koebe.parts(bent, triangles, polygon=polygon, darts=0, price=1.0, stack=True, stack_mirrored=True).stacked) == 0
+    assert (
+        len(koebe.parts(bent, triangles, polygon=polygon, darts=0, price=1.0, stack=True, stack_mirrored=True).stacked)
+        == 0
+    )
     weights = np.zeros(len(vertices))
     weights[:count] = np.linspace(0.0, 1.0, count)
-    result = koebe.parts(vertices, triangles, polygon=polygon, darts=0, price=1.0, stack=True, stack_mirrored=True, importance=weights)
+    result = koebe.parts(
+        vertices, triangles, polygon=polygon, darts=0, price=1.0, stack=True, stack_mirrored=True, importance=weights
+    )
     assert len(result.stacked) == 1 and result.part[0] not in [one["part"] for one in result.stacked]
 
 

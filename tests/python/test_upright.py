@@ -1,4 +1,4 @@
-"""Straight edges along the axes, up in the world upwards, grids as rectangles, the margin in pixels, equal pieces alike."""
+"""Straight edges along the axes, up in the world upwards, grids as rectangles, margins in pixels, equal pieces."""
 
 import koebe
 import numpy as np

@@ -28,7 +28,7 @@ struct Piece {
     double outlines = 0.0;  ///< length of the parts' outlines
 };
 
-std::vector<Piece> pieces_of(const FlatMesh& mesh)
+std::vector<Piece> pieces_in(const FlatMesh& mesh)
 {
     // Parts are joined by their vertices.
     std::vector<std::size_t> root(mesh.parts.size());
@@ -145,7 +145,7 @@ FlatPart copied(const FlatPart& part, const std::map<Index, Index>& vertex, cons
 
 void cut_alike(FlatMesh& mesh)
 {
-    const std::vector<Piece> pieces = pieces_of(mesh);
+    const std::vector<Piece> pieces = pieces_in(mesh);
     if (pieces.size() < 2) return;
     std::vector<const FlatPart*> wholes;
     std::vector<Index> polygon;

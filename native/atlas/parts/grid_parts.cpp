@@ -18,9 +18,9 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t fewest_cells = 4;
-constexpr double flat = 1e-5;       // height over extent of a part in a plane
-constexpr double most_bent = 3.0;   // degrees of angle error of a rectangle that is made by itself,
-constexpr double most_ratio = 1.6;  // and densest over least dense texels of its columns and rows
+constexpr double flat = 1e-5;         // height over extent of a part in a plane
+constexpr double most_bending = 3.0;  // degrees of angle error of a rectangle that is made by itself,
+constexpr double most_ratio = 1.6;    // and densest over least dense texels of its columns and rows
 
 using Cell = std::array<Index, 4>;  ///< half-edges round a quadrilateral
 using GridPlace = std::array<Index, 2>;
@@ -154,7 +154,7 @@ void rectify_grids(std::vector<FlatPart>& parts, bool any)
         const double ratio = scaled_to_size(part, points);
         if (!lies_one_to_one(part, points)) continue;
         const double bent = error(points), before = error(part.points);
-        const bool is_near = !is_flat(part.vertices) && bent <= most_bent && ratio <= most_ratio;
+        const bool is_near = !is_flat(part.vertices) && bent <= most_bending && ratio <= most_ratio;
         if (!any && bent > before && !is_near) continue;
         part.points = std::move(points);
         part.one_to_one = true;
