@@ -71,7 +71,7 @@ def weigh(obj, place):
 def unwrapped(obj, options):
     """Map the object; returns the result and each face's part."""
     module = guide_picture.addon_module
-    chosen = {"evenness": options.evenness, "darts": options.darts, "stack": options.stack}
+    chosen = {"evenness": options.evenness, "darts": options.darts, "stack_mirrored": options.stack}
     if options.important:
         chosen["importance"] = weigh(obj, options.important)
     if options.density:

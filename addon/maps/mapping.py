@@ -361,7 +361,7 @@ def _lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Opt
         ]
     for group in groups:
         with failing_alone(koebe, [one for _, one in group]):
-            _pack(koebe, group, options.margin)
+            _pack(koebe, group, options.margin / options.pixels)
 
 
 def _pack(koebe: ModuleType, group: list[tuple[Task, IslandOutcome]], margin: float) -> None:

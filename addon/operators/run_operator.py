@@ -30,10 +30,9 @@ def keeps_angles(options: Any) -> bool:
 
 
 NEEDS = {  # options that matter only with certain values of others
-    "margin": lambda options: options.placement != "keep",
+    "margin": lambda options: takes_parts(options) or options.placement != "keep",
     "importance": lambda options: options.balance == "area" or options.even > 0.0 or takes_parts(options),
     "density": lambda options: options.texels == "number",
-    "pixels": lambda options: options.texels == "number",
     "like": lambda options: options.texels == "layer",
     "evenness": lambda options: options.seams == "add",
     "even": lambda options: not keeps_angles(options),

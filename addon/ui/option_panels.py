@@ -117,12 +117,12 @@ class LayerPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("layer", "placement", "margin", "checker", "checker_size"):
+        for name in ("layer", "placement", "margin", "pixels", "checker", "checker_size"):
             draw_option(column, settings, name, context)
         column.prop(settings, "texels")
-        for name in {"number": ("density", "pixels"), "layer": ("like",)}.get(settings.texels, ()):
+        for name in {"number": ("density",), "layer": ("like",)}.get(settings.texels, ()):
             draw_option(column, settings, name, context)
-        for name in ("tiles", "stack", "atlas"):
+        for name in ("tiles", "rectify", "stack", "stack_mirrored", "atlas"):
             draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)

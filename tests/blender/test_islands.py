@@ -36,7 +36,7 @@ def enclosing(points):
 @pytest.mark.alike
 def test_islands_do_not_overlap_and_keep_their_margin():
     obj = add_seamed_panel()
-    bpy.ops.uv.koebe_uniformize(margin=0.05)
+    bpy.ops.uv.koebe_uniformize(margin=51.2, pixels=1024)
     uv = scenes.corner_uv(obj.data, "Koebe")
     assert uv.min() >= 0.024 and uv.max() <= 0.976
     (one, one_radius), (two, two_radius) = disks(obj)

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.alike
     [
         {"method": "rf"}, {"engine": "gpu"}, {"balance": "x"}, {"placement": "x"},
         {"outer": "x"}, {"outer": -1}, {"center": "x"}, {"center": -1}, {"point": "longest"}, {"tolerance": 0.0},
-        {"tolerance": float("nan")}, {"max_sweeps": 0}, {"threads": -1}, {"margin": 0.5}, {"margin": -0.1},
+        {"tolerance": float("nan")}, {"max_sweeps": 0}, {"threads": -1}, {"margin": 65537}, {"margin": -0.1},
         {"checker_size": 0.0}, {"layer": ""}, {"layer": "  "}, {"layer": ".hidden"}, {"layer": "ä" * 32},
     ],
     ids=str,

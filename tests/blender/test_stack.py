@@ -31,7 +31,7 @@ def test_mirrored_twins_lie_on_each_other_and_their_fold_stays_a_cut(stack):
     obj = mirrored_sheet()
     seams = seams_of(obj)
     run = {"checker": False, "seams": "only", "darts": 0.0, "write_seams": True}
-    assert bpy.ops.uv.koebe_parts(stack=stack, **run) == {"FINISHED"}
+    assert bpy.ops.uv.koebe_parts(stack=True, stack_mirrored=stack, **run) == {"FINISHED"}
     assert last_run().parts == 2 and last_run().flipped == 0
     areas = scenes.signed_areas(obj.data, "Koebe")
     assert (np.sign(areas) > 0).mean() == (0.5 if stack else 1.0)

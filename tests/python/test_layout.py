@@ -32,7 +32,7 @@ def test_cut_maps_lie_as_their_disks_are_packed():
     faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
     result = koebe.uniformize(np.concatenate([tetrahedron, 5 + 2 * tetrahedron]), np.concatenate([faces, faces + 4]),
                               cut=True)  # fmt: skip
-    centers, radii = koebe.pack_disks([1.0, 2.0])
+    centers, radii = koebe.pack_disks([1.0, 2.0], 8 / 2048)
     found = sorted((piece["place"]["radius"], *piece["place"]["center"]) for piece in result.pieces)
     assert np.allclose(found, np.column_stack([radii, centers]), atol=1e-9)
 

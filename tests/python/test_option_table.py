@@ -159,14 +159,14 @@ def test_docstrings_say_what_the_table_says(of):
 
 def test_defaults_may_be_left_to_the_table():
     given = {"cut": True, "loops": "free", "darts": 0.5, "round_cuts": False, "most_lost": 0.5, "pixels": 64,
-             "tiles": 3, "stack": True}  # fmt: skip
+             "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False}  # fmt: skip
     _, said = _options.filled(
         "parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | given
     )
     assert said == {
         "even": None, "loops": "free", "darts": 0.5, "price": 0.01, "cut": True, "round_cuts": False,
         "most_lost": 0.5, "density": None, "pixels": 64,
-        "tiles": 3, "stack": True, "weld": None,
+        "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False, "weld": None,
     }  # fmt: skip
     with pytest.raises(TypeError, match="most_lost"):
         koebe.parts([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], most_lost=None)

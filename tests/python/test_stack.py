@@ -52,7 +52,7 @@ def of_vertices(uv, triangles, count):
 def test_twins_share_their_texels(same_diagonals):
     vertices, triangles, polygon = family(same_diagonals)
     apart = koebe.parts(vertices, triangles, polygon=polygon, darts=0, price=1.0)
-    result = koebe.parts(vertices, triangles, polygon=polygon, darts=0, price=1.0, stack=True)
+    result = koebe.parts(vertices, triangles, polygon=polygon, darts=0, price=1.0, stack=True, stack_mirrored=True)
     assert apart.stacked == [] and len(result.parts) == 3 and len(result.stacked) == 2
     assert {one["onto"] for one in result.stacked}.isdisjoint(one["part"] for one in result.stacked)
     at = of_vertices(result.uv, triangles, len(vertices)).reshape(3, -1, 2)
@@ -76,10 +76,15 @@ def test_parts_of_other_shape_or_wanted_size_are_not_stacked():
     count = len(vertices) // 3
     bent = vertices.copy()
     bent[count:] *= [1.0, 1.0, 1.2]
-    assert len(koebe.parts(bent, triangles, polygon=polygon, darts=0, price=1.0, stack=True).stacked) == 0
+    assert (
+        len(koebe.parts(bent, triangles, polygon=polygon, darts=0, price=1.0, stack=True, stack_mirrored=True).stacked)
+        == 0
+    )
     weights = np.zeros(len(vertices))
     weights[:count] = np.linspace(0.0, 1.0, count)
-    result = koebe.parts(vertices, triangles, polygon=polygon, darts=0, price=1.0, stack=True, importance=weights)
+    result = koebe.parts(
+        vertices, triangles, polygon=polygon, darts=0, price=1.0, stack=True, stack_mirrored=True, importance=weights
+    )
     assert len(result.stacked) == 1 and result.part[0] not in [one["part"] for one in result.stacked]
 
 
@@ -92,7 +97,7 @@ def test_a_bump_is_no_dent():
     quads = np.stack([corner, corner + 13, corner + 14, corner + 1], axis=-1)
     dent = points * [1, 1, -1] + [4, 0, 0]
     vertices, triangles = np.concatenate([points, dent]), triangles_of(np.concatenate([quads, quads + len(points)]))
-    result = koebe.parts(vertices, triangles, darts=0, price=1.0, stack=True)
+    result = koebe.parts(vertices, triangles, darts=0, price=1.0, stack=True, stack_mirrored=True)
     upright = signed_areas(result.uv) > 0
     assert all(one["mirrored"] for one in result.stacked) and result.flipped == 0
     assert not result.stacked or upright[: len(triangles) // 2].all() != upright[len(triangles) // 2 :].all()
@@ -101,7 +106,7 @@ def test_a_bump_is_no_dent():
 def test_the_command_has_it(tmp_path):
     vertices, triangles, _ = family(same_diagonals=True)
     (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
-    words = "--stack --darts 0 --price 1 --json r.json".split()
+    words = "--stack --stack-mirrored --darts 0 --price 1 --json r.json".split()
     done = command("parts", "in.obj", "out.obj", *words, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     report = json.loads((tmp_path / "r.json").read_text())

@@ -25,7 +25,8 @@ NOT_FROM_BLENDER = (
     "their modules cannot be compared", "out of the unit disk: faces round them", "positions that are not finite",
     "landmark", "the field of", "the bent map", "a point of the sphere", "the price must be positive",
     "the map must have a finite point", "the map has vertices that",
-    "the density must be positive", "the texture needs at least", "tiles must be from 0", "as many tiles as needed",
+    "the density must be positive", "the texture needs at least", "the margin must not be", "tiles must be from 0",
+    "as many tiles as needed",
     "an importance", "importance needs", "there must be ", "vertices have ",
     "disks to pack need",
 )  # fmt: skip

@@ -29,6 +29,7 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                                        {"density_ratio_5_95", result.density_ratio_5_95},
                                        {"density", result.density},
                                        {"even_area", result.even_area},
+                                       {"margin", result.margin},
                                        {"coverage", result.coverage},
                                        {"maps", result.maps}});
     report["seconds"] = result.seconds.total;

@@ -28,6 +28,9 @@ struct FlatPart {
     double slit = 0.0;                     ///< length of the slit
     std::vector<Index> tips;               ///< tips of the darts (darts.h)
     double dart_length = 0.0;              ///< length of all darts
+    bool along_axes = false;               ///< it lies along the axes already: packing turns it by quarter turns only
+    Complex up = 0.0;                      ///< where up in the world is in the plane, of length 1; 0: not clear
+    bool has_copy = false;                 ///< another part has the same map, not mirrored (twins.h)
     bool one_to_one = true;                ///< false: its boundary crosses itself
 };
 

@@ -31,6 +31,18 @@ void place_left_out(const std::vector<LeftOutFace>& left_out, PartsLayout& layou
 
 }  // namespace
 
+void sum_cuts(FlatMesh& mesh)
+{
+    PartsLayout& layout = mesh.layout;
+    layout.slit_length = layout.dart_length = 0.0;
+    layout.darts = 0;
+    for (const FlatPart& flat : mesh.parts) {
+        layout.darts += static_cast<Index>(flat.tips.size());
+        layout.dart_length += flat.dart_length;
+        layout.slit_length += flat.slit;
+    }
+}
+
 PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places, const std::vector<char>& mirrored)
 {
     PartsLayout layout = std::move(mesh.layout);

@@ -36,6 +36,9 @@ struct FlatMesh {
     std::vector<LeftOutFace> left_out;
 };
 
+/// Sums the parts' slits and darts for the layout.
+void sum_cuts(FlatMesh& mesh);
+
 /// @param places (V, 2) of each part's vertices, the UVs of the layout
 /// @param mirrored of each part 1 if it lies there with its back to the front; empty: no part does
 PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places, const std::vector<char>& mirrored = {});

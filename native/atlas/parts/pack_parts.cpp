@@ -15,15 +15,15 @@
 namespace koebe {
 namespace {
 
-constexpr double margin = 8.0 / 2048;  // between parts, in the unit square
-constexpr double rim_slack = 5e-5;     // a repair may move a rim there by this,
-constexpr int packing_rounds = 4;      // before the part is packed again
+constexpr double rim_slack = 5e-5;  // UV units: a repair may move a rim by this,
+constexpr int packing_rounds = 4;   // before the part is packed again
 
 /// The part's loops, and its faces that are turned over: a fold may lie outside the loops. A tube's straight ends stay
 /// along the axes.
-Outline outline_of(const FlatPart& flat)
+/// @param is_stacked copies lie on each other
+Outline outline_of(const FlatPart& flat, bool is_stacked)
 {
-    Outline outline{flat.points, flat.surface.loops, flat.kind == PartKind::tube};
+    Outline outline{flat.points, flat.surface.loops, flat.along_axes, flat.has_copy && !is_stacked, flat.up};
     for (const auto& face : flat.surface.triangles.rowwise()) {
         const Eigen::RowVector2d a = flat.points.row(face[1]) - flat.points.row(face[0]);
         const Eigen::RowVector2d b = flat.points.row(face[2]) - flat.points.row(face[0]);
@@ -65,7 +65,7 @@ std::string in_digits(double number)
 /// At the wanted scale the margin between parts stays, if they leave room for it.
 TilePacking pack_outlines(const std::vector<Outline>& outlines, const PackOptions& options)
 {
-    const double room = margin + 2.0 * rim_slack;
+    const double room = options.margin + 2.0 * rim_slack;
     if (!options.wanted) return pack_on_tiles(outlines, room, options.tiles);
     const WantedScale& wanted = *options.wanted;
     int tiles = options.tiles > 0 ? options.tiles : tiles_for(outlines, room, wanted.scale);
@@ -88,12 +88,14 @@ void pack_apart(std::vector<FlatPart>& flats, const PackOptions& options, Packed
         if (!packed.twins[k]) alone.push_back(k);
     std::vector<PlanarPoints>& places = packed.places;
     std::vector<int> tile;
+    double margin = 0.0;
     bool again = true;
     for (int round = 1; again; ++round) {
         std::vector<Outline> outlines;
-        for (const std::size_t k : alone) outlines.push_back(outline_of(flats[k]));
+        for (const std::size_t k : alone) outlines.push_back(outline_of(flats[k], !options.twins.empty()));
         const TilePacking packing = pack_outlines(outlines, options);
         tile = packing.tile;
+        margin = packing.margin;
         std::vector<char> outgrown(flats.size(), 0);
         side_by_side(alone.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
             const std::size_t k = alone[i];
@@ -125,6 +127,7 @@ void pack_apart(std::vector<FlatPart>& flats, const PackOptions& options, Packed
         places[k] = (places[k].rowwise() - corner).cwiseMax(0.0).cwiseMin(1.0).rowwise() + corner;
         if (!loops_apart(flats[k], places[k])) flats[k].one_to_one = false;
     });
+    packed.margin = std::min(options.margin, std::max(0.0, margin - 2.0 * rim_slack));
     packed.tiles = tile.empty() ? 1 : 1 + *std::ranges::max_element(tile);
 }
 

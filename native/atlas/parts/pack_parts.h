@@ -20,6 +20,7 @@ struct PackOptions {
     std::optional<WantedScale> wanted = {};       ///< with it the parts lie together at the corner of the square
     int tiles = 1;                                ///< tiles (tile_packing.h); 0: as many as the wanted scale needs
     std::vector<std::optional<Twin>> twins = {};  ///< of parts, if they shall lie on each other; empty: no part shall
+    double margin = 0.0;                          ///< between parts, in sides of the square
     int threads = 0;
 };
 
@@ -28,6 +29,7 @@ struct PackedParts {
     std::vector<char> anew;                  ///< 1: the part overlapped itself there, and was drawn anew, less even
     std::vector<std::optional<Twin>> twins;  ///< of each part, if it lies on another part
     int tiles = 1;                           ///< tiles with parts: the first ones
+    double margin = 0.0;                     ///< that was kept
 };
 
 /// Packs parts into the unit square or onto tiles, then turns flipped faces back there. If a repair changes an outline,

@@ -13,10 +13,11 @@
 namespace koebe {
 namespace {
 
-constexpr int least_side = 1024;          // cells along the square,
-constexpr double cells_an_island = 32.0;  // and at least this times the root of the number of islands
-constexpr double worth_a_turn = 0.999;    // of the area of the box: a turn must make it smaller than this
-constexpr std::size_t most_sides = 1000;  // sides of the hull along which boxes are tried
+constexpr int least_side = 1024;           // cells along the square,
+constexpr double cells_an_island = 32.0;   // and at least this times the root of the number of islands
+constexpr double worth_a_turn = 0.999;     // of the area of the box: a turn must make it smaller than this
+constexpr double share_of_margins = 0.25;  // most margin, over an island's side if all were equal squares
+constexpr std::size_t most_sides = 1000;   // sides of the hull along which boxes are tried
 
 constexpr std::array<Complex, 4> quarters = {Complex(1, 0), Complex(0, 1), Complex(-1, 0), Complex(0, -1)};
 
@@ -47,7 +48,7 @@ Complex upright_turn(const Outline& outline)
         best = turn;
         size = own;
     }
-    return size[0] > size[1] ? Complex(-best.imag(), best.real()) : best;
+    return size[0] > size[1] ? best * quarters[1] : best;
 }
 
 /// The same runs, the first ones from all over the shape.
@@ -64,6 +65,7 @@ std::vector<CellRun> spread(const std::vector<CellRun>& runs)
 UprightIsland upright_island(const Outline& outline)
 {
     UprightIsland island{{}, &outline.loops, upright_turn(outline), {}};
+    island.up = island.turn * outline.up;
     island.points = turned_by(outline.points, island.turn);
     island.corner = island.points.colwise().minCoeff();
     island.points.rowwise() -= island.corner;
@@ -82,9 +84,23 @@ UprightIsland turned_island(const UprightIsland& island, const Complex& turn)
     turned.points.rowwise() -= corner;
     turned.extent = turned.points.maxCoeff();
     turned.turn = turn * island.turn;
+    turned.up = turn * island.up;
     const Complex moved = turn * Complex(island.corner[0], island.corner[1]) + Complex(corner[0], corner[1]);
     turned.corner = {moved.real(), moved.imag()};
     return turned;
+}
+
+std::array<double, 4> upright_by_turn(const UprightIsland& island)
+{
+    std::array<double, 4> upright = {1.0, 0.0, 0.0, 0.0};
+    for (std::size_t t = 0; t < 4 && island.up != 0.0; ++t) upright[t] = (quarters[t] * island.up).imag();
+    return upright;
+}
+
+UprightIsland most_upright(const UprightIsland& island)
+{
+    const std::array<double, 4> upright = upright_by_turn(island);
+    return turned_island(island, quarters[std::ranges::max_element(upright) - upright.begin()]);
 }
 
 DrawnTurns draw_island(const UprightIsland& island, double scale, std::int64_t reach)
@@ -146,6 +162,11 @@ int board_side(std::size_t count)
 {
     const double words = std::ceil(cells_an_island * std::sqrt(static_cast<double>(count)) / word_bits);
     return std::max(least_side, word_bits * static_cast<int>(words));
+}
+
+double most_margin(std::size_t count)
+{
+    return share_of_margins / std::sqrt(static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
 void require_finite_outlines(const std::vector<Outline>& outlines)

@@ -13,7 +13,7 @@ namespace koebe {
 struct UprightIsland {
     PlanarPoints points;  ///< turned upright, with the lower left corner of their box at 0
     const std::vector<VertexLoop>* loops;
-    Complex turn;
+    Complex turn, up = 0.0;     ///< as in Outline, turned
     Eigen::RowVector2d corner;  ///< of the box, before it was moved to 0
     double area = 0.0, extent = 0.0;
 };
@@ -22,6 +22,12 @@ UprightIsland upright_island(const Outline& outline);
 
 /// The island turned further. @param turn of absolute value 1
 UprightIsland turned_island(const UprightIsland& island, const Complex& turn);
+
+/// How much each quarter turn is to be preferred: by up in the world, or the turn in which the island is upright.
+std::array<double, 4> upright_by_turn(const UprightIsland& island);
+
+/// The island in the quarter turn that is preferred.
+UprightIsland most_upright(const UprightIsland& island);
 
 /// An island in one of its turns.
 struct DrawnTurn {
@@ -53,6 +59,9 @@ IslandPlace place_of_spot(const UprightIsland& island, const DrawnTurns& turns, 
 
 /// Number of cells along a side of the board, for so many islands.
 int board_side(std::size_t count);
+
+/// The largest margin that so many islands keep, in sides of the square.
+double most_margin(std::size_t count);
 
 /// @throws SolverError a point is NaN or infinite
 void require_finite_outlines(const std::vector<Outline>& outlines);

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "parts/packed_island.h"
+#include "parts/separation.h"
 #include "parts/shelf_packing.h"
 #include "parts/tight_packing.h"
 
@@ -18,8 +19,7 @@
 namespace koebe {
 namespace {
 
-constexpr double share_of_margins = 0.25;  // most margin, over an island's side if all were equal squares
-constexpr double next_scale = 0.95;        // times the last while nothing fits, by the share of what does,
+constexpr double next_scale = 0.95;  // times the last while nothing fits, by the share of what does,
 constexpr double least_factor = 0.8;
 constexpr int most_scales = 600;
 constexpr double first_step = 0.04, last_step = 0.0005;  // larger by that share, halved where that has no room,
@@ -38,6 +38,7 @@ constexpr std::int64_t fewest_words = 20'000'000, most_words = 200'000'000;
 constexpr std::size_t few_islands = 3;   // other turns are tried for so few islands,
 constexpr double held = 0.8;             // or if one is that long, in sides of the square, in the first packing
 constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that
+constexpr double worth_one_turn = 0.95;  // times the scale: less is given up so that equal islands lie alike
 constexpr double similar = 0.8;          // area over that of the island before which all places were looked at
 
 enum class Rule { lowest_top, lowest, smallest_square };
@@ -55,6 +56,7 @@ public:
         std::int64_t points = 0;
         for (const Outline& outline : outlines) {
             islands_.push_back(upright_island(outline));
+            alike_.push_back(outline.alike);
             points += outline.points.rows();
         }
         allowed_ = std::clamp(tests_a_point * points, fewest_tests, most_tests);
@@ -81,6 +83,7 @@ public:
                             order.begin() + static_cast<std::ptrdiff_t>(failed_) + 1);
             work = board_.tests() + k * tests_an_attempt;
         }
+        if (islands_.size() > most_tight && std::ranges::count(alike_, 1) > 0) lay_alike();
         return result();
     }
 
@@ -103,6 +106,20 @@ private:
         std::iota(order.begin(), order.end(), 0);
         std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return size[k]; });
         return order;
+    }
+
+    /// Lays islands that are alike in one turn, if that costs little.
+    void lay_alike()
+    {
+        const std::vector<UprightIsland> before = islands_;
+        is_held_ = true;
+        for (std::size_t k = 0; k < islands_.size(); ++k)
+            if (alike_[k]) islands_[k] = most_upright(islands_[k]);
+        drawn_scale_ = 0.0;
+        const double least = worth_one_turn * best_scale_;
+        for (const Rule rule : rules)
+            if (fits(by_size(0), rule, least)) return grow(by_size(0), rule, 0.25 * first_step);
+        islands_ = before;
     }
 
     void grow(const std::vector<std::size_t>& order, Rule rule, double step)
@@ -136,7 +153,7 @@ private:
                 area = islands_[k].area;
                 from = 0;
             }
-            if (!place(drawn_[k], rule, from, spots[k])) {
+            if (!place(k, rule, from, spots[k])) {
                 room_ = static_cast<double>(taken) / static_cast<double>(cells);
                 return false;
             }
@@ -144,18 +161,17 @@ private:
             // Lower rows are full for the next island.
             from = is_many_ ? spots[k].y : std::max(0, spots[k].y - drawn_[k][0].shape.height / 2);
         }
-        places_.clear();
-        for (std::size_t k = 0; k < islands_.size(); ++k)
-            places_.push_back(place_of_spot(islands_[k], drawn_[k], spots[k], unit_, scale));
         best_scale_ = scale;
+        spots_ = std::move(spots);
         return true;
     }
 
     /// @param from row below which no room is looked for
-    bool place(const DrawnTurns& turns, Rule rule, int from, CellSpot& spot)
+    bool place(std::size_t k, Rule rule, int from, CellSpot& spot)
     {
+        const DrawnTurns& turns = drawn_[k];
         std::array<int, 3> best = {INT_MAX, 0, 0};
-        const int tried = islands_.size() == 1 ? 1 : 4;  // one alone stands upright
+        const int tried = islands_.size() == 1 || (is_held_ && alike_[k]) ? 1 : 4;  // one alone stands upright
         for (int t = 0; t < tried; ++t) {
             const CellShape& shape = turns[t].shape;
             for (int y = from; y + shape.height <= side_; ++y) {
@@ -179,20 +195,41 @@ private:
         return true;
     }
 
-    IslandPacking result() { return {std::move(places_), best_scale_, margin_}; }
+    IslandPacking result()
+    {
+        const std::vector<DrawnTurns> drawn = draw_islands(islands_, best_scale_, unit_, margin_);
+        if (!is_many_) {
+            std::vector<std::vector<CellMask>> masks(islands_.size());
+            std::vector<IslandSpot> spots;
+            std::vector<std::array<double, 4>> preference;
+            for (std::size_t k = 0; k < islands_.size(); ++k) {
+                for (const DrawnTurn& turn : drawn[k]) masks[k].emplace_back(turn.shape);
+                spots.push_back({spots_[k].turn, spots_[k].x, spots_[k].y});
+                preference.push_back(upright_by_turn(islands_[k]));
+            }
+            turn_to_preferred_poses(masks, preference, side_, spots);
+            for (std::size_t k = 0; k < spots.size(); ++k) spots_[k] = {spots[k].pose, spots[k].x, spots[k].y};
+        }
+        IslandPacking packing{{}, best_scale_, margin_};
+        for (std::size_t k = 0; k < islands_.size(); ++k)
+            packing.places.push_back(place_of_spot(islands_[k], drawn[k], spots_[k], unit_, best_scale_));
+        return packing;
+    }
 
     const int side_;     // cells
     const double unit_;  // grid units
     const double margin_;
     const bool is_many_;
     std::vector<UprightIsland> islands_;
+    std::vector<char> alike_;
+    bool is_held_ = false;  // islands that are alike keep their turn
     CellBoard board_;
     std::int64_t allowed_ = 0;  // work
     std::vector<DrawnTurns> drawn_;
     double drawn_scale_ = 0.0, best_scale_ = 0.0;
-    std::vector<IslandPlace> places_;
-    std::size_t failed_ = 0;  // place in the order of the island that found no room
-    double room_ = 0.0;       // share of the islands' cells that found room, or at most would
+    std::vector<CellSpot> spots_;  // at the best scale
+    std::size_t failed_ = 0;       // place in the order of the island that found no room
+    double room_ = 0.0;            // share of the islands' cells that found room, or at most would
     std::uint64_t random_ = 1;
 };
 
@@ -216,6 +253,7 @@ void tighten(const std::vector<Outline>& outlines, IslandPacking& best)
     };
     const bool is_held = outlines.size() <= few_islands || longest_side(outlines, best.scale) > held;
     attempt(IslandTurns::quarter, 1.0, is_held ? words / 2 : words);
+    if (std::ranges::any_of(outlines, &Outline::alike)) attempt(IslandTurns::alike, worth_one_turn, words);
     if (is_held) attempt(IslandTurns::free, worth_leaning, words / 2);
 }
 
@@ -225,7 +263,7 @@ IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin)
 {
     if (outlines.empty()) return {{}, 1.0, margin};
     require_finite_outlines(outlines);
-    margin = std::min(margin, share_of_margins / std::sqrt(static_cast<double>(outlines.size())));
+    margin = std::min(margin, most_margin(outlines.size()));
     if (outlines.size() >= islands_on_shelves) return pack_on_shelves(outlines, margin);
     IslandPacking best = Packer(outlines, margin).pack();
     if (outlines.size() <= most_tight) tighten(outlines, best);

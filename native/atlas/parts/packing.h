@@ -13,6 +13,8 @@ struct Outline {
     PlanarPoints points;
     std::vector<VertexLoop> loops;  ///< a loop that runs against the outer loop is a hole
     bool along_axes = false;        ///< the island already lies along the axes
+    bool alike = false;             ///< another island is like it, and should lie in the same turn
+    Complex up = 0.0;               ///< direction that is better up than another, at equal use of the square; 0: any
 };
 
 /// The place of an island: a point z goes to offset + scale·turn·z.
@@ -28,12 +30,14 @@ struct IslandPacking {
 };
 
 /// Puts islands into the unit square, as large as it can. No island is mirrored. Each island is turned so that its
-/// smallest enclosing rectangle lies along the axes, unless the island already lies along them. Other turns are used
-/// only where they make all islands larger by 2.5 %. Islands that lie along the axes already keep to quarter turns.
-/// Outlines are drawn on a grid of cells, with half the margin round them. Large islands are placed first, each in the
-/// lowest free place; small islands go into hollows and holes. Several orders and rules are tried. Up to 100 islands
-/// are then moved closer together (tight_packing.h). From 1,000 islands on, their boxes are put on shelves where that
-/// is about as good (shelf_packing.h). All decisions are on integers, so the result is the same on every system.
+/// smallest enclosing rectangle lies along the axes, unless the island already lies along them. Of the quarter turns
+/// the one with `up` nearest to up is taken where it costs no room. Islands
+/// that are alike lie in one turn where that makes all islands smaller by at most 5 %. Other turns are used only
+/// where they make all islands larger by 2.5 %. Islands that lie along the axes already keep to quarter turns. Outlines
+/// are drawn on a grid of cells, with half the margin round them. Large islands are placed first, each in the lowest
+/// free place; small islands go into hollows and holes. Several orders and rules are tried. Up to 100 islands are then
+/// moved closer together (tight_packing.h). From 1,000 islands on, their boxes are put on shelves where that is about
+/// as good (shelf_packing.h). All decisions are on integers, so the result is the same on every system.
 /// @param margin distance of two islands, and twice the distance from the border, in sides of the square. It is made
 /// smaller for many islands, so that they have room
 /// @throws SolverError points that are NaN or infinite

@@ -10,10 +10,14 @@
 #include "execution/stopwatch.h"
 #include "foldover/convex_polygons.h"
 #include "linear/dense_spd.h"
+#include "opened/disk_packing.h"
 #include "part_maps/part_mesh.h"
+#include "parts/alike_pieces.h"
 #include "parts/flat_mesh.h"
+#include "parts/grid_parts.h"
 #include "parts/pack_parts.h"
 #include "parts/tile_packing.h"
+#include "parts/upright_parts.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
@@ -172,7 +176,8 @@ void mend_rims(const std::vector<Index>& polygon, std::vector<FlatPart>& parts, 
 }
 
 PartsResult compute(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
-                    const std::function<double()>& length_of_unit, ExecutionContext& context)
+                    const std::function<double()>& length_of_unit, const Eigen::RowVector3d& up,
+                    ExecutionContext& context)
 {
     const Stopwatch run;
     if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
@@ -180,17 +185,24 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
     if (options.density && (!(*options.density > 0.0) || !std::isfinite(*options.density)))
         throw InputError("the density must be positive");
-    if (options.pixels < 1) throw InputError("the texture needs at least one pixel");
+    const double margin = margin_in_square(options.margin, options.pixels);
     if (options.tiles < 0 || options.tiles > most_tiles) throw InputError("tiles must be from 0 to 100");
     if (options.tiles == 0 && !options.density) throw InputError("as many tiles as needed (0) needs a density");
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
     FlatMesh mesh = flat_mesh(vertices, triangles, options, true, context);
+    if (options.show.empty() && options.importance.empty() && options.slits.empty()) cut_alike(mesh);
     mend_rims(options.polygon, mesh.parts, options.threads, context);
     const double unit = length_of_unit();
     context.begin_stage("pack", 0.9, 1.0);
-    PackOptions packing{.tiles = options.tiles, .threads = options.threads};
-    if (options.stack) packing.twins = find_twins(mesh.parts);
+    const bool is_free = !options.even && options.loops != LoopForm::round && !options.round_cuts;
+    if ((is_free && options.importance.empty()) || options.rectify) rectify_grids(mesh.parts, options.rectify);
+    stand_upright(mesh.parts, up);
+    PackOptions packing{.tiles = options.tiles, .margin = margin, .threads = options.threads};
+    std::vector<std::optional<Twin>> copies = find_twins(mesh.parts, false);
+    if (options.stack) packing.twins = std::move(copies);
+    std::vector<std::optional<Twin>> all = find_twins(mesh.parts, true);
+    if (options.stack_mirrored) packing.twins = std::move(all);
     packing.wanted = wanted_scale(mesh, options, unit);
     const PackedParts packed = pack_parts(mesh.parts, packing, context);
     std::vector<Index> anew;  // faces
@@ -227,6 +239,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
         if (!packed.twins[static_cast<std::size_t>(layout.part[f])]) result.coverage += uv_area(uv, f);
     result.tiles = packed.tiles;
     result.coverage /= packed.tiles;
+    result.margin = packed.margin * options.pixels;
     result.cut_length = seam_length(layout, mapped);
     result.slit_length = layout.slit_length;
     result.dart_length = layout.dart_length;
@@ -274,7 +287,7 @@ PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const
         here.show = mesh.of_vertices(here.show);
         here.importance = mesh.of_vertices(here.importance);
         for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
-        return compute(mesh.vertices, mesh.triangles, here, length_of_unit, own);
+        return compute(mesh.vertices, mesh.triangles, here, length_of_unit, mesh.turn.row(2), own);
     };
     return corner_map<PartsResult>(vertices, triangles, options, context, compute_here, name_parts);
 }

@@ -42,13 +42,15 @@ struct PartsOptions : MapOptions {
     /// Texel density that the parts get, in pixels per unit of the mesh, as the median over the area. Without a value
     /// the parts fill the square.
     std::optional<double> density = {};
-    int pixels = 2048;  ///< side of the texture; `density` counts them
+    int pixels = 2048;    ///< side of the texture, for `density` and `margin`
+    double margin = 8.0;  ///< between two parts, and twice the distance from the border, in pixels
     /// UDIM tiles: parts lie on the squares at u = k mod 10, v = k / 10 for k from 0 to tiles - 1, with one texel
     /// density. 0: as many tiles as `density` needs, at most 100.
     int tiles = 1;
-    /// true: parts that are copies or mirror images of another part lie on it (twins.h).
-    bool stack = false;
-    int threads = 0;  ///< most threads; 0: one for each core. The result is the same for any number
+    bool rectify = false;         ///< parts that are grids of quadrilaterals become rectangles, whatever their stretch
+    bool stack = false;           ///< parts that are copies of another part lie on it (twins.h)
+    bool stack_mirrored = false;  ///< parts that are mirror images of another part lie on it
+    int threads = 0;              ///< most threads; 0: one for each core. The result is the same for any number
 };
 
 struct PartReport {
@@ -83,6 +85,7 @@ struct PartsResult : CornerMapReport {
     double density_ratio_5_95 = 1.0;  ///< texel density at 95 % of the area, over that at 5 %
     double density = 0.0;             ///< texel density that was reached, as in PartsOptions::density
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
+    double margin = 0.0;              ///< least distance of two parts, in pixels; many parts get less than the option
     double coverage = 0.0;            ///< share of the unit square, or of the tiles, that the faces cover, as stored
     double maps = 0.0;                ///< number of faces mapped, over the faces of the surface
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -14,6 +15,7 @@ constexpr std::int64_t heaviest = unit_weight << 20;
 constexpr int samples_anywhere = 24, samples_near = 8;  // of an island's places,
 constexpr int patience = 60;                            // and rounds without less overlap before it gives up
 constexpr int local_step = 8;                           // cells
+constexpr double clearly_preferred = 1e-6;              // beyond rounding
 
 }  // namespace
 
@@ -163,6 +165,40 @@ bool Separation::separate(int side, std::vector<IslandSpot>& spots, bool is_loca
     if (total() > 0) return false;
     spots = spots_;
     return true;
+}
+
+void turn_to_preferred_poses(const std::vector<std::vector<CellMask>>& poses,
+                             const std::vector<std::array<double, 4>>& preference, int side,
+                             std::vector<IslandSpot>& spots)
+{
+    std::int64_t work = 0;
+    const auto mask = [&](std::size_t i, int pose) -> const CellMask& {
+        return poses[i][static_cast<std::size_t>(pose)];
+    };
+    const auto has_room = [&](std::size_t i, const IslandSpot& at) {
+        const CellMask& own = mask(i, at.pose);
+        if (at.x < 0 || at.y < 0 || at.x + own.width() > side || at.y + own.height() > side) return false;
+        for (std::size_t j = 0; j < spots.size(); ++j)
+            if (j != i && own.shared(mask(j, spots[j].pose), spots[j].x - at.x, spots[j].y - at.y, work) > 0)
+                return false;
+        return true;
+    };
+    for (std::size_t i = 0; i < spots.size(); ++i) {
+        const auto like = [&](int pose) { return preference[i][static_cast<std::size_t>(pose)]; };
+        std::array<int, 4> order = {0, 1, 2, 3};
+        std::ranges::stable_sort(order, std::greater<>(), like);
+        const IslandSpot now = spots[i];
+        for (const int pose : order) {
+            if (poses[i].size() == 1 || !(like(pose) > like(now.pose) + clearly_preferred)) break;
+            // The pose may lie at any side or corner of the box of the island as it lies, or in its middle.
+            const int wide = mask(i, now.pose).width() - mask(i, pose).width();
+            const int high = mask(i, now.pose).height() - mask(i, pose).height();
+            for (int k = 0; k < 9 && spots[i].pose == now.pose; ++k)
+                if (const IslandSpot at = {pose, now.x + k % 3 * wide / 2, now.y + k / 3 * high / 2}; has_room(i, at))
+                    spots[i] = at;
+            if (spots[i].pose != now.pose) break;
+        }
+    }
 }
 
 }  // namespace koebe

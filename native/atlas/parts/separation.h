@@ -3,6 +3,7 @@
 
 #include "parts/cell_mask.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -58,5 +59,12 @@ private:
     std::int64_t work_ = 0;
     std::uint64_t random_ = 1;
 };
+
+/// Turns islands to poses that are preferred, where such a pose has room in the place of the island as it lies.
+/// @param poses as for Separation, four of each island, or one @param preference of its poses
+/// @param spots without overlap, changed in place
+void turn_to_preferred_poses(const std::vector<std::vector<CellMask>>& poses,
+                             const std::vector<std::array<double, 4>>& preference, int side,
+                             std::vector<IslandSpot>& spots);
 
 }  // namespace koebe

@@ -88,8 +88,12 @@ private:
             const auto place = [&](int c) {
                 return (static_cast<double>(corners[k][c]) / units_of_shelves) + 0.5 * margin_;
             };
-            const Complex corner(islands_[k].corner[0], islands_[k].corner[1]);
-            places_.push_back({islands_[k].turn, Complex(place(0), place(1)) - scale_ * corner});
+            Complex turn = islands_[k].turn, corner(islands_[k].corner[0], islands_[k].corner[1]);
+            if (const auto upright = upright_by_turn(islands_[k]); upright[2] > upright[0]) {  // in the same box
+                turn *= -1.0;
+                corner = -corner - Complex(boxes[k][0], boxes[k][1]);
+            }
+            places_.push_back({turn, Complex(place(0), place(1)) - scale_ * corner});
         }
         return true;
     }

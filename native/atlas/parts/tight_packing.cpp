@@ -3,6 +3,7 @@
 #include "parts/separation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -29,7 +30,8 @@ Complex turn_of(int k)
 std::vector<UprightIsland> angles_of(const Outline& outline, IslandTurns turns)
 {
     std::vector<UprightIsland> found{upright_island(outline)};
-    if (turns == IslandTurns::quarter || outline.along_axes) return found;
+    if (turns == IslandTurns::alike && outline.alike) found[0] = most_upright(found[0]);
+    if (turns != IslandTurns::free || outline.along_axes) return found;
     int smallest = 0;
     double least = found[0].extent;
     for (int k = 1; k < angles; ++k)
@@ -53,6 +55,7 @@ public:
     TightPacker(const std::vector<Outline>& outlines, double margin, IslandTurns turns) : margin_(margin)
     {
         for (const Outline& outline : outlines) {
+            held_.push_back(turns == IslandTurns::alike && outline.alike);
             islands_.push_back(angles_of(outline, turns));
             area_ += islands_.back().front().area;
         }
@@ -82,13 +85,14 @@ private:
     {
         const auto reach = static_cast<std::int64_t>(std::ceil(0.5 * margin_ * largest * grid_cell)) + 1;
         Drawn drawn;
-        for (const auto& angles : islands_) {
+        for (std::size_t i = 0; i < islands_.size(); ++i) {
             drawn.masks.emplace_back();
             drawn.origins.emplace_back();
-            for (const UprightIsland& island : angles)
+            for (const UprightIsland& island : islands_[i])
                 for (const DrawnTurn& turn : draw_island(island, scale_, reach)) {
                     drawn.masks.back().emplace_back(turn.shape);
                     drawn.origins.back().push_back(turn.shape.origin);
+                    if (held_[i]) break;
                 }
         }
         return drawn;
@@ -192,8 +196,11 @@ private:
         return true;
     }
 
-    IslandPacking result() const
+    IslandPacking result()
     {
+        std::vector<std::array<double, 4>> preference;
+        for (const auto& angles : islands_) preference.push_back(upright_by_turn(angles.front()));
+        turn_to_preferred_poses(drawn_.masks, preference, side_, spots_);
         const double unit = static_cast<double>(side_) * grid_cell;
         IslandPacking packing{{}, scale_ / unit, margin_};
         for (std::size_t i = 0; i < islands_.size(); ++i) {
@@ -208,6 +215,7 @@ private:
 
     const double margin_;
     std::vector<std::vector<UprightIsland>> islands_;  // in all their angles
+    std::vector<char> held_;                           // 1: the island keeps its turn
     double area_ = 0.0, scale_ = 0.0;                  // grid units of a unit of the points
     int side_ = 0;                                     // of the square, in cells
     Drawn drawn_;

@@ -11,6 +11,7 @@ namespace koebe {
 
 /// Turns that islands get.
 enum class IslandTurns {
+    alike,    ///< as quarter, but islands that are alike lie in one turn
     quarter,  ///< by 90 degrees: islands stay upright
     free      ///< by more angles, except islands that lie along the axes already
 };

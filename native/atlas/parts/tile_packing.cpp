@@ -53,7 +53,12 @@ public:
         result.places.resize(outlines_.size());
         result.tile.assign(outlines_.size(), 0);
         for (std::size_t t = 0; t < tiles_.size(); ++t) {
-            const OneTile& tile = tiles_[t];
+            OneTile& tile = tiles_[t];
+            // A tile with more room is made smaller, and its margin with it: then islands lie further apart at first.
+            if (const double smaller = result.scale / tile.packing.scale; smaller < 1.0 && !tile.islands.empty())
+                if (IslandPacking wider = pack_islands(outlines_of(tile), margin_ / smaller);
+                    wider.scale >= result.scale)
+                    tile.packing = std::move(wider);
             const double factor = result.scale / tile.packing.scale;
             if (!tile.islands.empty()) result.margin = std::min(result.margin, factor * tile.packing.margin);
             for (std::size_t i = 0; i < tile.islands.size(); ++i) {
@@ -104,14 +109,19 @@ private:
         }
     }
 
+    std::vector<Outline> outlines_of(const OneTile& tile) const
+    {
+        std::vector<Outline> own;
+        for (const std::size_t i : tile.islands) own.push_back(outlines_[i]);
+        return own;
+    }
+
     /// Packs the islands of a tile by themselves, unless they lie better already.
     void fill(OneTile& tile) const
     {
         if (tile.islands.empty()) return;
-        std::vector<Outline> own;
-        for (const std::size_t i : tile.islands) own.push_back(outlines_[i]);
-        IslandPacking packing = pack_islands(own, margin_);
-        const bool is_new = tile.packing.places.size() != own.size();
+        IslandPacking packing = pack_islands(outlines_of(tile), margin_);
+        const bool is_new = tile.packing.places.size() != tile.islands.size();
         if (is_new || packing.scale > tile.packing.scale) tile.packing = std::move(packing);
     }
 
@@ -159,6 +169,7 @@ private:
 TilePacking pack_on_tiles(const std::vector<Outline>& outlines, double margin, int tiles)
 {
     require_finite_outlines(outlines);
+    margin = std::min(margin, most_margin(outlines.size() / static_cast<std::size_t>(tiles)));
     const auto has_area = [](const Outline& outline) { return upright_island(outline).area > 0.0; };
     if (tiles > 1 && std::ranges::any_of(outlines, has_area)) return TilePacker(outlines, margin, tiles).pack();
     return {pack_islands(outlines, margin), std::vector<int>(outlines.size(), 0)};

@@ -1,148 +1,18 @@
 #include "parts/twins.h"
 
 #include "core/connectivity.h"
-#include "part_maps/part_mesh.h"
 #include "planar/planar_predicates.h"
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
-#include <tuple>
-#include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr double most_off = 2e-4;            // in roots of the whole's area,
-constexpr double most_off_of_extent = 1e-3;  // and in the part's own extent
-constexpr double same_area = 1e-3;           // of the area: areas of polygons depend on their diagonals
-constexpr double size_tolerance = 0.05;      // of the wanted sizes at a vertex
-constexpr double worse_angles = 0.1;         // degrees,
-constexpr double worse_share = 1.05;         // and times the error
-constexpr std::size_t most_others = 24;      // parts to which a part is compared
-constexpr std::size_t most_starts = 64;      // edges from which a match is tried
-
-/// The half-edges between polygons. Those inside a polygon are left out.
-class PolygonEdges {
-public:
-    explicit PolygonEdges(const FlatPart& part)
-        : part_(part), next_(part.surface.twin.size(), no_twin), previous_(next_), length_(next_.size(), 0.0)
-    {
-        for (Index h = 0; h < static_cast<Index>(next_.size()); ++h) {
-            if (is_inner(h)) continue;
-            Index after = next_halfedge(h);
-            for (std::size_t k = 0; is_inner(after); ++k) {
-                if (k == next_.size()) return;  // a vertex inside a polygon: its count stays too small
-                after = next_halfedge(twin(after));
-            }
-            next_[h] = after;
-            previous_[after] = h;
-            ++count_;
-            border_ += twin(h) == no_twin;
-            length_[h] = (part.vertices.row(to(h)) - part.vertices.row(from(h))).norm();
-            if (twin(h) == no_twin && (first_ == no_twin || length_[h] > length_[first_])) first_ = h;
-        }
-    }
-
-    Index from(Index h) const { return origin(part_.surface.triangles, h); }
-    Index to(Index h) const { return target(part_.surface.triangles, h); }
-    Index twin(Index h) const { return part_.surface.twin[h]; }
-    Index next(Index h) const { return next_[h]; }
-    Index previous(Index h) const { return previous_[h]; }
-    double length(Index h) const { return length_[h]; }
-    std::size_t halfedges() const { return next_.size(); }
-    Index count() const { return count_; }
-    Index border() const { return border_; }
-    Index longest_on_border() const { return first_; }
-
-    /// Edges of the border of that length, the most similar first.
-    std::vector<Index> like(double length, double slack) const
-    {
-        std::vector<Index> found;
-        for (Index h = 0; h < static_cast<Index>(next_.size()); ++h)
-            if (next_[h] != no_twin && twin(h) == no_twin && std::abs(length_[h] - length) <= slack) found.push_back(h);
-        std::ranges::stable_sort(found, {}, [&](Index h) { return std::abs(length_[h] - length); });
-        if (found.size() > most_starts) found.resize(most_starts);
-        return found;
-    }
-
-private:
-    bool is_inner(Index h) const
-    {
-        return !part_.polygon.empty() && twin(h) != no_twin &&
-               part_.polygon[face_of(h)] == part_.polygon[face_of(twin(h))];
-    }
-
-    const FlatPart& part_;
-    std::vector<Index> next_, previous_;  // round the polygons
-    std::vector<double> length_;
-    Index count_ = 0, border_ = 0, first_ = no_twin;
-};
-
-/// What is compared first.
-struct PartSigns {
-    std::array<Index, 4> counts = {};
-    double area = 0.0, extent = 0.0;
-};
-
-PartSigns signs_of(const FlatPart& part, const PolygonEdges& edges)
-{
-    const auto& at = part.vertices;
-    return {{edges.count(), edges.border(), static_cast<Index>(at.rows()),
-             static_cast<Index>(part.surface.triangles.rows())},
-            face_areas(at, part.surface.triangles).sum(),
-            (at.colwise().maxCoeff() - at.colwise().minCoeff()).maxCoeff()};
-}
-
-/// The vertices of `other` that correspond to those of `part` if edge `start` of the one is edge `begin` of the other;
-/// empty if the two differ.
-std::vector<Index> matched(const PolygonEdges& part, const PolygonEdges& other, std::pair<Index, Index> start,
-                           bool mirrored, std::size_t vertex_count, double slack)
-{
-    std::vector<Index> vertex(vertex_count, -1), back(vertex_count, -1), image(part.halfedges(), no_twin);
-    std::vector<std::pair<Index, Index>> open{start};
-    const auto pair = [&](Index v, Index w) {
-        if (vertex[v] < 0 && back[w] < 0) {
-            vertex[v] = w;
-            back[w] = v;
-        }
-        return vertex[v] == w && back[w] == v;
-    };
-    Index count = 0;
-    while (!open.empty()) {
-        const auto [h, g] = open.back();
-        open.pop_back();
-        if (image[h] == g) continue;
-        if (image[h] != no_twin || std::abs(part.length(h) - other.length(g)) > slack) return {};
-        image[h] = g;
-        ++count;
-        if (!pair(part.from(h), mirrored ? other.to(g) : other.from(g))) return {};
-        open.emplace_back(part.next(h), mirrored ? other.previous(g) : other.next(g));
-        const Index across = part.twin(h), there = other.twin(g);
-        if ((across == no_twin) != (there == no_twin)) return {};
-        if (across != no_twin) open.emplace_back(across, there);
-    }
-    if (count != part.count() || std::ranges::count(vertex, -1) > 0) return {};
-    return vertex;
-}
-
-/// Whether a rotation, or a reflection if `mirrored`, takes the points to the others (Kabsch 1976).
-bool is_congruent(const Vertices& points, const Vertices& others, bool mirrored, double slack)
-{
-    const Vertices a = points.rowwise() - points.colwise().mean(), b = others.rowwise() - others.colwise().mean();
-    const Eigen::Matrix3d product = a.transpose() * b;
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(product, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double is = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-    const Eigen::Vector3d sign(1.0, 1.0, (is > 0.0) == mirrored ? -1.0 : 1.0);
-    const Eigen::Matrix3d turn = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-    return (a * turn - b).rowwise().norm().maxCoeff() <= slack;
-}
+constexpr double size_tolerance = 0.05;  // of the wanted sizes at a vertex
+constexpr double worse_angles = 0.1;     // degrees,
+constexpr double worse_share = 1.05;     // and times the error
 
 /// (V) the mean wanted size of the faces at each vertex; empty: 1.
 VectorXd sizes_at_vertices(const FlatPart& part)
@@ -180,57 +50,27 @@ bool keeps_angles(const FlatPart& part, const PlanarPoints& points)
     return error(points) <= worse_share * error(part.points) + worse_angles;
 }
 
-/// The first match that keeps shape, sizes and angles.
-std::optional<Twin> twin_of(const FlatPart& part, const PolygonEdges& edges, const FlatPart& other,
-                            const PolygonEdges& others, double extent)
-{
-    const double slack = std::min(most_off, most_off_of_extent * extent);
-    const Index start = edges.longest_on_border();
-    if (start == no_twin) return {};
-    for (const bool mirrored : {false, true})
-        for (const Index begin : others.like(edges.length(start), 2.0 * slack)) {
-            std::vector<Index> vertex = matched(edges, others, {start, begin}, mirrored,
-                                                static_cast<std::size_t>(part.vertices.rows()), 2.0 * slack);
-            if (vertex.empty() || !have_same_sizes(part, other, vertex)) continue;
-            const Vertices there = other.vertices(vertex, Eigen::all);
-            if (!is_congruent(part.vertices, there, mirrored, slack)) continue;
-            if (!keeps_angles(part, seen_from_front(other.points(vertex, Eigen::all), mirrored))) continue;
-            return Twin{0, mirrored, std::move(vertex)};
-        }
-    return {};
-}
-
 }  // namespace
 
-std::vector<std::optional<Twin>> find_twins(std::vector<FlatPart>& parts)
+std::vector<std::optional<Twin>> find_twins(std::vector<FlatPart>& parts, bool mirrored)
 {
-    std::vector<std::optional<Twin>> twins(parts.size());
-    std::vector<PolygonEdges> edges;
-    std::vector<PartSigns> signs;
-    edges.reserve(parts.size());
-    for (const FlatPart& part : parts) {
-        edges.emplace_back(part);
-        signs.push_back(signs_of(part, edges.back()));
+    std::vector<const FlatPart*> all;
+    for (const FlatPart& part : parts) all.push_back(&part);
+    const auto accepts = [&](std::size_t k, std::size_t other, const Twin& twin) {
+        const PlanarPoints there = parts[other].points(twin.vertex, Eigen::all);
+        return have_same_sizes(parts[k], parts[other], twin.vertex) &&
+               keeps_angles(parts[k], seen_from_front(there, twin.mirrored));
+    };
+    std::vector<std::optional<Twin>> twins = congruent_parts(
+        all, mirrored, [&](std::size_t k) { return parts[k].one_to_one; }, accepts);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (!twins[k]) continue;
+        FlatPart& other = parts[twins[k]->of];
+        if (!twins[k]->mirrored) parts[k].has_copy = other.has_copy = true;
+        parts[k].points = seen_from_front(other.points(twins[k]->vertex, Eigen::all), twins[k]->mirrored);
+        parts[k].along_axes = other.along_axes;
+        parts[k].up = twins[k]->mirrored ? -std::conj(other.up) : other.up;
     }
-    std::vector<std::size_t> order(parts.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {}, [&](std::size_t k) { return std::tuple(signs[k].counts, signs[k].area, k); });
-    std::vector<std::size_t> firsts;  // parts without a twin, of this size and smaller ones
-    for (const std::size_t k : order) {
-        if (!parts[k].one_to_one) continue;
-        std::size_t tried = 0;
-        for (auto other = firsts.rbegin(); other != firsts.rend() && tried < most_others && !twins[k];
-             ++other, ++tried) {
-            if (signs[*other].counts != signs[k].counts) break;
-            if (signs[k].area - signs[*other].area > same_area * signs[k].area) break;
-            twins[k] = twin_of(parts[k], edges[k], parts[*other], edges[*other], signs[k].extent);
-            if (twins[k]) twins[k]->of = *other;
-        }
-        if (!twins[k]) firsts.push_back(k);
-    }
-    for (std::size_t k = 0; k < parts.size(); ++k)
-        if (const auto& twin = twins[k])
-            parts[k].points = seen_from_front(parts[twin->of].points(twin->vertex, Eigen::all), twin->mirrored);
     return twins;
 }
 

@@ -1,7 +1,7 @@
-// Parts that are copies or mirror images of other parts, so that they can share one place in the UVs.
+// Parts that are copies or mirror images of other parts: laid alike, or on one place in the UVs.
 #pragma once
 
-#include "parts/flat_part.h"
+#include "parts/congruence.h"
 
 #include <cstddef>
 #include <optional>
@@ -9,19 +9,14 @@
 
 namespace koebe {
 
-struct Twin {
-    std::size_t of = 0;         ///< the part on which it lies
-    bool mirrored = false;      ///< it is a mirror image, and lies there with its back to the front
-    std::vector<Index> vertex;  ///< (V) of each vertex of the twin the vertex of the other part on which it lies
-};
-
 /// Of each part the part that it is a twin of, if there is one. That part is no twin itself. A twin gets the other
 /// part's map. Polygons, cuts, darts and wanted sizes correspond. A rotation, or a reflection for mirror images, takes
 /// the vertices to each other, to a thousandth of the part and 2e-4 of the root of the whole's area. All faces of the
 /// twin are upright on the other part's map, and its angles there are no worse than on its own map, but for a tenth of
 /// a degree. Diagonals of polygons need not correspond.
 /// @param parts with maps that are one to one; others have no twins
-std::vector<std::optional<Twin>> find_twins(std::vector<FlatPart>& parts);
+/// @param mirrored false: a mirror image is no twin
+std::vector<std::optional<Twin>> find_twins(std::vector<FlatPart>& parts, bool mirrored);
 
 /// Whether all faces of a twin lie there as 32-bit floats as they should: turned over if it is mirrored, else upright.
 /// @param uv (V, 2) of the twin

@@ -186,10 +186,10 @@ std::vector<double> radii_by_area(const std::vector<SurfacePiece>& pieces, const
     return radii;
 }
 
-/// Packs disks into the square [-1, 1]^2.
-std::vector<Circle> packed(const std::vector<double>& radii)
+/// Packs disks into the square [-1, 1]^2. @param margin in sides of the square
+std::vector<Circle> packed(const std::vector<double>& radii, double margin)
 {
-    std::vector<Circle> disks = pack_disks(radii);
+    std::vector<Circle> disks = pack_disks(radii, margin);
     for (Circle& disk : disks) disk = {2.0 * disk.center - Complex(1.0, 1.0), 2.0 * disk.radius};
     return disks;
 }
@@ -279,7 +279,7 @@ CutUniformizeResult cut_map_and_pack(const CanonicalMesh& mesh, const std::vecto
     std::vector<double> radii = radii_by_area(opened.pieces, options.importance);
     std::vector<Circle> places;
     for (int round = 0; round < most_packings; ++round) {
-        places = packed(radii);
+        places = packed(radii, margin_in_square(options.margin, options.pixels));
         sheet.place(result.pieces, places);
         if (places.size() == 1) break;
         for (const std::size_t i : sheet.flipped_pieces())

@@ -126,4 +126,11 @@ std::vector<Circle> pack_disks(const std::vector<double>& radii, double margin)
     return disks;
 }
 
+double margin_in_square(double margin, int pixels)
+{
+    if (pixels < 1) throw InputError("the texture needs at least one pixel");
+    if (!(margin >= 0.0) || !std::isfinite(margin)) throw InputError("the margin must not be negative");
+    return margin / pixels;
+}
+
 }  // namespace koebe

@@ -16,4 +16,8 @@ namespace koebe {
 /// smaller, so that they have room
 KOEBE_API std::vector<Circle> pack_disks(const std::vector<double>& radii, double margin = 0.02);
 
+/// A margin in sides of the square. @param margin in pixels @param pixels along the square
+/// @throws InputError it is negative or not finite, or there are no pixels
+double margin_in_square(double margin, int pixels);
+
 }  // namespace koebe

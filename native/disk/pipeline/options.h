@@ -26,6 +26,8 @@ struct UniformizeOptions : IterationOptions, EvennessOptions {
     std::vector<double> importance = {};
     bool polish = false;  ///< at the end, least angle error with the circles kept (angle_polish.h)
     bool repair = true;   ///< false: leave flipped faces as they are; for maps that are only judged
+    double margin = 8.0;  ///< between the disks of a mesh that is cut, in pixels
+    int pixels = 2048;    ///< side of the texture, for `margin`
     /// Names of vertices and faces in warnings, where the surface is a piece of another; empty: their own numbers.
     std::vector<Index> vertex_names = {}, face_names = {};
     int threads = 0;  ///< at most; 0: all cores. A large surface is mapped on all of them, small pieces of a cut mesh

@@ -34,6 +34,7 @@ class PartsResult(MapReport):
     density_ratio_5_95    texel density (a length over a length) at 95 % of the area over the density at 5 %
     density          texel density: pixels per unit of the mesh (median over the area) on a texture of `pixels`
     even_area        share of the area whose texel density lies within the best factor 3
+    margin           least distance of two parts, in pixels: many parts get less than the option says
     coverage         share of the unit square, or of the tiles, that the faces cover, as stored
     seconds          in all
     maps             faces mapped in all maps, in faces of the mesh
@@ -53,6 +54,7 @@ class PartsResult(MapReport):
     density_ratio_5_95: float
     density: float
     even_area: float
+    margin: float
     coverage: float
     seconds: float
     maps: float

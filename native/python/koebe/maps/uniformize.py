@@ -58,7 +58,7 @@ def uniformize(
 @takes("uniformize", polygon=None, progress=None, cancel=None)
 def uniformize(
     vertices: Any, triangles: Any = None, *, cut: bool = False, **given: "Unpack[UniformizeOptions]"
-) -> UniformizeResult | CutResult:
+) -> "UniformizeResult | CutResult":
     """Map a surface of genus 0 with boundary loops conformally to the unit disk, every loop on a round circle.
 
     vertices     (V, 3) float32, float64 or whole numbers, any unit, any order, read-only accepted, never modified

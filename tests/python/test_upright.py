@@ -1,0 +1,146 @@
+"""Straight edges along the axes, up in the world upwards, grids as rectangles, margins in pixels, equal pieces."""
+
+import koebe
+import numpy as np
+import pytest
+from cli_support import triangles_of
+
+
+def turned(points, seed):
+    """The points after some rotation."""
+    turn, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    return points @ (turn * np.sign(np.linalg.det(turn)))
+
+
+def grid(n, m, width=1.5, height=1.0):
+    """The parameters of a grid's vertices, and its quadrilaterals."""
+    u, v = np.meshgrid(np.linspace(0.0, width, n + 1), np.linspace(0.0, height, m + 1), indexing="ij")
+    corner = (np.arange(n)[:, None] * (m + 1) + np.arange(m)).ravel()
+    return u.ravel(), v.ravel(), np.stack([corner, corner + m + 1, corner + m + 2, corner + 1], axis=-1)
+
+
+def plus(size=3):
+    """A flat plus of squares. The smallest rectangle round it stands on its corner."""
+    u, v, quads = grid(3 * size, 3 * size, 3.0, 3.0)
+    middle = np.stack([u, v], axis=-1)[quads].mean(axis=1)
+    quads = quads[(np.abs(middle - 1.5) < 0.5).any(axis=1)]
+    used, faces = np.unique(quads, return_inverse=True)
+    return np.stack([u, v, 0 * u], axis=-1)[used], triangles_of(faces.reshape(quads.shape))
+
+
+def cubes(count, seed=4, edge=1.0):
+    """Separate cubes, turned at random, each numbered anew, and not all with the same diagonals first."""
+    random = np.random.default_rng(seed)
+    at = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float) * edge
+    quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    vertices, triangles = [], []
+    for k in range(count):
+        number = random.permutation(8)
+        vertices.append(np.empty((8, 3)))
+        vertices[-1][number] = turned(at - 0.5 * edge, seed + k) + [2.0 * k, 0.0, 0.0]
+        triangles.append(random.permutation(number[triangles_of(quads)]) + 8 * k)
+    return np.concatenate(vertices), np.concatenate(triangles)
+
+
+def outline(triangles, uv):
+    """(E, 2, 2) the ends of the edges in the UVs that two triangles do not share there."""
+    ends = np.concatenate([uv[:, [k, (k + 1) % 3]] for k in range(3)])
+    names = np.sort(np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)[1].reshape(-1, 2), axis=1)
+    _, first, count = np.unique(names, axis=0, return_index=True, return_counts=True)
+    return ends[first[count == 1]]
+
+
+def off_axes(edges):
+    """The largest angle of an edge to the nearest axis, in radians."""
+    along = np.abs(edges[:, 1] - edges[:, 0])
+    return (along.min(axis=1) / along.max(axis=1)).max()
+
+
+def least_gap(one, other):
+    """The least distance of two outlines that do not cross."""
+    found = np.inf
+    for a, b in ((one, other), (other, one)):
+        points, start, way = a[:, None, 0], b[None, :, 0], (b[:, 1] - b[:, 0])[None]
+        along = np.clip(((points - start) * way).sum(-1) / (way * way).sum(-1), 0.0, 1.0)
+        found = min(found, np.linalg.norm(start + along[..., None] * way - points, axis=-1).min())
+    return found
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_straight_edges_lie_along_the_axes(seed):
+    vertices, triangles = plus()
+    result = koebe.parts(turned(vertices, seed), triangles)
+    assert len(result.parts) == 1 and off_axes(outline(triangles, result.uv)) < 1e-6
+
+
+@pytest.mark.parametrize("about", [0.0, 0.7, 2.0])
+def test_up_in_the_world_is_up_in_the_texture(about):
+    """A wall that is longer than it is high."""
+    u, v, quads = grid(6, 4, 1.5, 1.0)
+    vertices, triangles = np.stack([np.cos(about) * u, np.sin(about) * u, v], axis=-1), triangles_of(quads)
+    uv = koebe.parts(vertices, triangles, polygon=np.repeat(np.arange(len(quads)), 2)).uv.reshape(-1, 2)
+    up = np.linalg.lstsq(np.column_stack([vertices[triangles.ravel()], np.ones(len(uv))]), uv, rcond=None)[0][2]
+    assert up[1] > 0.3 and abs(up[0]) < 1e-6
+
+
+def test_a_waved_grid_is_a_rectangle_with_straight_rows():
+    u, v, quads = grid(24, 16)
+    vertices = np.stack([u, v, 0.06 * np.sin(5.0 * u) * np.cos(2.5 * v)], axis=-1)
+    triangles, polygon = triangles_of(quads), np.repeat(np.arange(len(quads)), 2)
+    result = koebe.parts(turned(vertices, 1), triangles, polygon=polygon)
+    assert len(result.parts) == 1 and result.angle_error_deg["mean"] < 3.0 and result.flipped == 0
+    edges = outline(triangles, result.uv)
+    assert off_axes(edges) < 1e-9 and len(edges) == 2 * (24 + 16)
+    assert len(np.unique(edges[..., 0].round(9))) in (25, 17)
+    # A dome is no rectangle, unless that is wanted.
+    dome = np.stack([u, v, 2.0 * u * (1.5 - u) * v * (1.0 - v) * 4.0], axis=-1)
+    for rectify in (False, True):
+        result = koebe.parts(dome, triangles, polygon=polygon, darts=0, price=1.0, rectify=rectify)
+        assert (off_axes(outline(triangles, result.uv)) < 1e-9) == rectify and result.flipped == 0
+
+
+@pytest.mark.parametrize(("margin", "pixels"), [(8, 2048), (0, 512), (4, 128), (40.5, 1024)])
+def test_islands_keep_the_margin_in_pixels(margin, pixels):
+    pieces = [plus(2), plus(1), *([turned(p, k) * (0.5 + 0.2 * k), t] for k, (p, t) in enumerate([plus(1)] * 3))]
+    starts = np.cumsum([0] + [len(points) for points, _ in pieces])
+    vertices = np.concatenate([points + [4.0 * k, 0, 0] for k, (points, _) in enumerate(pieces)])
+    triangles = np.concatenate([faces + start for (_, faces), start in zip(pieces, starts, strict=False)])
+    result = koebe.parts(vertices, triangles, margin=margin, pixels=pixels)
+    assert len(result.parts) == len(pieces) and result.margin == pytest.approx(margin)
+    outlines = [outline(triangles[part["faces"]], result.uv[part["faces"]]) for part in result.parts]
+    gaps = [least_gap(one, other) for k, one in enumerate(outlines) for other in outlines[:k]]
+    assert min(gaps) >= margin / pixels
+    assert result.uv.min() >= 0.5 * margin / pixels and result.uv.max() <= 1.0 - 0.5 * margin / pixels
+
+
+def test_many_islands_keep_the_margin_that_the_report_has():
+    vertices, triangles = cubes(20)
+    result = koebe.parts(vertices, triangles, margin=300, pixels=1024)
+    assert 0.0 < result.margin < 300.0
+    outlines = [outline(triangles[part["faces"]], result.uv[part["faces"]]) for part in result.parts]
+    gaps = [least_gap(one, other) for k, one in enumerate(outlines) for other in outlines[:k]]
+    assert min(gaps) >= result.margin / 1024.0
+
+
+def test_disks_of_a_cut_mesh_keep_the_margin_in_pixels():
+    vertices, triangles = cubes(3)
+    uv = koebe.uniformize(vertices, triangles, cut=True, margin=64, pixels=1024).uv.reshape(3, -1, 2)
+    outlines = [outline(triangles[:12], one.reshape(-1, 3, 2)) for one in uv]
+    assert min(least_gap(outlines[i], outlines[j]) for i in range(3) for j in range(i)) >= 64.0 / 1024.0 - 1e-9
+
+
+def test_equal_cubes_are_cut_alike_and_stacked_without_turning_one_over():
+    vertices, triangles = cubes(12)
+    apart, stacked = koebe.parts(vertices, triangles), koebe.parts(vertices, triangles, stack=True)
+    per_cube = len(apart.parts) // 12
+    assert len(stacked.parts) == 12 * per_cube and len(stacked.stacked) == 11 * per_cube
+    assert not any(one["mirrored"] for one in stacked.stacked)
+    for result in (apart, stacked):
+        a, b = result.uv[:, 1] - result.uv[:, 0], result.uv[:, 2] - result.uv[:, 0]
+        assert (a[:, 0] * b[:, 1] > a[:, 1] * b[:, 0]).all()
+    # Side by side they have the same outline, up to quarter turns.
+    first, *others = [apart.uv[k : k + 12].reshape(-1, 2) for k in range(0, 144, 12)]
+    for one in others:
+        turns = [one @ np.linalg.matrix_power([[0, 1], [-1, 0]], k) for k in range(4)]
+        gaps = [np.linalg.norm((at - at.min(axis=0))[:, None] - first + first.min(axis=0), axis=-1) for at in turns]
+        assert min(gap.min(axis=1).max() for gap in gaps) < 1e-6
