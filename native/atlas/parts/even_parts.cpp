@@ -182,7 +182,8 @@ public:
             const double worse = angles() / most;
             if (worse <= 1.0) return even;
             // Angles go about with the third root of E: leave out an E at which they will be worse, too.
-            while (std::next(next) != less_even_with_darts.end() && *next * std::pow(worse, 3) > tolerant * even) ++next;
+            while (std::next(next) != less_even_with_darts.end() && *next * std::pow(worse, 3) > tolerant * even)
+                ++next;
             even = std::min(even, *next);
         }
         relax_cut(even, effort);

@@ -24,6 +24,8 @@ namespace {
 constexpr double least_fold = std::numbers::pi / 6;  // angle between the faces of a crease
 constexpr double flat_angle = 1e-3;       // radians by which the angles round a flat vertex may miss a full turn
 constexpr double same_place = 1e-5;       // in roots of the surface's area
+constexpr double most_single = 0.75;      // of a chart's area, in faces that are alone in their planes
+constexpr double alone = 1.0 + 1e-9;      // of a face's area: its plane has no other face
 constexpr double least_plate = 0.002;     // of the surface's area: a plate is no smaller,
 constexpr double plate_to_strip = 2.0;    // and so many times larger than its neighbours without a crease
 constexpr double ruled = 0.3;             // of a planar face's outline: so much of it is one ruling of a rolled face
@@ -48,8 +50,12 @@ public:
         for (Index h = 0; h < net_.halfedge_count(); ++h)
             if (charts_.crease[h]) net_.cut(h);
         number_fans(net_);
-        for (const SeamedMesh& chart : connected_parts(net_))
-            if (!settle(chart, most_tips_)) settle_mixed(chart);
+        for (const SeamedMesh& chart : connected_parts(net_)) {
+            if (is_curved(chart))
+                charts_.rest.insert(charts_.rest.end(), chart.face.begin(), chart.face.end());
+            else if (!settle(chart, most_tips_))
+                settle_mixed(chart);
+        }
         join_rest();
         return std::move(charts_);
     }
@@ -68,6 +74,28 @@ private:
         if (twin(h) == no_twin || net_.whole[h]) return false;
         const Eigen::RowVector3d &a = plane(face_of(h)).normal, &b = plane(face_of(twin(h))).normal;
         return std::atan2(a.cross(b).norm(), a.dot(b)) > least_fold;
+    }
+
+    /// Whether a chart is curved in both directions, so that nothing of it can be laid flat: most faces are alone in
+    /// their planes, and the total curvature of its inner vertices is that of half a ball.
+    bool is_curved(const SeamedMesh& chart) const
+    {
+        std::vector<double> defect(static_cast<std::size_t>(chart.fan_count), 2.0 * std::numbers::pi);
+        std::vector<char> outside(defect.size(), 0);
+        double area = 0.0, single = 0.0, curvature = 0.0;
+        for (Index h = 0; h < chart.halfedge_count(); ++h) {
+            const auto at = [&](Index own) { return surface_.vertices.row(origin(chart.corners, own)); };
+            const Eigen::RowVector3d a = at(next_halfedge(h)) - at(h), b = at(previous_halfedge(h)) - at(h);
+            defect[origin(chart.fans, h)] -= std::atan2(a.cross(b).norm(), a.dot(b));
+            if (chart.twin[h] == no_twin) outside[origin(chart.fans, h)] = outside[target(chart.fans, h)] = 1;
+        }
+        for (std::size_t v = 0; v < defect.size(); ++v)
+            if (!outside[v]) curvature += std::abs(defect[v]);
+        for (const Index f : chart.face) {
+            area += surface_.areas[f];
+            if (!(plane(f).area > alone * surface_.areas[f])) single += surface_.areas[f];
+        }
+        return single > most_single * area && curvature > 2.0 * std::numbers::pi;
     }
 
     /// (F) the connected pieces of regions in a chart, numbered from 0 on.

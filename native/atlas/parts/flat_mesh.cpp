@@ -385,11 +385,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
         layout.not_even.insert(layout.not_even.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());
     std::ranges::sort(layout.not_even);
     std::ranges::move(hard, std::back_inserter(mesh.parts));  // they are exact: nothing relaxes or cuts them
-    for (const FlatPart& flat : mesh.parts) {
-        layout.darts += static_cast<Index>(flat.tips.size());
-        layout.dart_length += flat.dart_length;
-        layout.slit_length += flat.slit;
-    }
+    sum_cuts(mesh);
     mesh.left_out = std::move(opened.left_out);
     return mesh;
 }

@@ -133,11 +133,12 @@ double noisy_share(const CutSurface& surface, const PlanarRegions& regions)
         sum[regions.of[face_of(h)]] += bend;
         all[regions.of[face_of(h)]] += std::abs(bend);
     }
+    const double whole = surface.areas.sum();
     double share = 0.0;
     for (std::size_t r = 0; r < sum.size(); ++r)
-        if (regions.planes[r].area >= large_region * surface.areas.sum() && std::abs(sum[r]) < most_one_sided * all[r])
+        if (regions.planes[r].area >= large_region * whole && std::abs(sum[r]) < most_one_sided * all[r])
             share += regions.planes[r].area;
-    return share / surface.areas.sum();
+    return share / whole;
 }
 
 /// The share of the area in regions of several faces, or large ones.
@@ -145,11 +146,11 @@ double flat_share(const CutSurface& surface, const PlanarRegions& regions)
 {
     std::vector<Index> faces(regions.planes.size(), 0);
     for (const Index region : regions.of) ++faces[region];
+    const double whole = surface.areas.sum();
     double share = 0.0;
     for (std::size_t r = 0; r < faces.size(); ++r)
-        if (faces[r] > 1 || regions.planes[r].area >= large_region * surface.areas.sum())
-            share += regions.planes[r].area;
-    return share / surface.areas.sum();
+        if (faces[r] > 1 || regions.planes[r].area >= large_region * whole) share += regions.planes[r].area;
+    return share / whole;
 }
 
 }  // namespace
