@@ -25,7 +25,6 @@ constexpr double least_fold = std::numbers::pi / 6;  // angle between the faces 
 constexpr double flat_angle = 1e-3;       // radians by which the angles round a flat vertex may miss a full turn
 constexpr double same_place = 1e-5;       // in roots of the surface's area
 constexpr double most_single = 0.75;      // of a chart's area, in faces that are alone in their planes
-constexpr double alone = 1.0 + 1e-9;      // of a face's area: its plane has no other face
 constexpr double least_plate = 0.002;     // of the surface's area: a plate is no smaller,
 constexpr double plate_to_strip = 2.0;    // and so many times larger than its neighbours without a crease
 constexpr double ruled = 0.3;             // of a planar face's outline: so much of it is one ruling of a rolled face

@@ -19,6 +19,9 @@ struct RegionPlane {
     }
 };
 
+/// Of a face's area: a plane that is no larger holds no other face.
+inline constexpr double alone = 1.0 + 1e-9;
+
 struct PlanarRegions {
     std::vector<Index> of;            ///< (F) region of each face
     std::vector<RegionPlane> planes;  ///< (regions)

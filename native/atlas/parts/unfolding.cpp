@@ -4,6 +4,7 @@
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
+#include "parts/regions.h"
 #include "surface/free_flattening.h"
 
 #include <algorithm>
@@ -22,7 +23,6 @@ constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
 constexpr double large_chart = 0.01;      // of the area: charts from there on
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
-constexpr double alone = 1.0 + 1e-9;      // of a face's area: its plane has no other face
 
 constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
 constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
