@@ -211,9 +211,9 @@ class _Kept:
 
     def uniformize(
         self, vertices: np.ndarray, triangles: np.ndarray, *, progress: Any, cancel: Any, engine: str, even: float,
-        loops: str, **options: Any
+        loops: str, margin: float, pixels: int, **options: Any
     ) -> "koebe.UniformizeResult":  # fmt: skip
-        """As the package's, conformal, with the condensed engine, which alone can map again."""
+        """As the package's, conformal, with the condensed engine, which alone can map again. It packs no pieces."""
         surface = self._koebe.Surface(vertices, triangles, **options)
         result = surface.uniformize(progress=progress, cancel=cancel)
         self._surfaces[id(result)] = result, surface  # keep the result, too: then no other result gets its id
