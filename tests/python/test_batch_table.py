@@ -149,7 +149,7 @@ def test_the_report_of_one_map_has_hash_and_options_too(library, tmp_path):
     assert content["options"] == {
         "method": "ck", "engine": "condensed", "outer": "auto", "center": None, "point": None, "tolerance": 1e-6,
         "max_sweeps": 50, "most_lost": 0.01, "balance": "none", "polish": False,
-        "even": 0.0, "loops": "auto", "weld": None,
+        "even": 0.0, "loops": "auto", "weld": None, "margin": 8.0, "pixels": 2048,
     }  # fmt: skip
 
 

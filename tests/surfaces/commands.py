@@ -56,6 +56,21 @@ def corners_apart(one, other, variant):
     return float(np.abs(corners(one) - corners(other)[variant.corner]).max())
 
 
+def parts_apart(one, other, variant):
+    """As corners_apart. If the surface is turned, up is elsewhere: a part may lie turned in its box, by quarter turns,
+    and in another place of a cell of the packing."""
+    if variant.name != "turned" or len(one.parts) != len(other.parts):
+        return corners_apart(one, other, variant)
+    apart = 0.0
+    for part in one.parts:
+        own = (3 * np.asarray(part["faces"])[:, None] + np.arange(3)).ravel()
+        here, there = corners(one)[own] @ [1, 1j], corners(other)[variant.corner[own]] @ [1, 1j]
+        middle = [0.5 * (z.real.min() + z.real.max() + 1j * (z.imag.min() + z.imag.max())) for z in (here, there)]
+        apart = max(apart, abs(middle[0] - middle[1]) - 1 / 1024,
+                    min(np.abs(1j**k * (here - middle[0]) - (there - middle[1])).max() for k in range(4)))  # fmt: skip
+    return float(apart)
+
+
 def spheres_apart(one, other, variant):
     """On the sphere, which turns with the surface."""
     return float(np.abs(one.points @ variant.turn.T - other.points[variant.number]).max())
@@ -113,7 +128,7 @@ COMMANDS = {
     "ring": Command(koebe.ring_map, ("tube", "ring", "planar", "sphere")),
     "torus": Command(koebe.torus_map, ("tori",)),
     "schottky": Command(koebe.schottky_map, ("doubled", "tori")),
-    "parts": Command(koebe.parts, ("strewn", "doubled", "closed", "limbs", "tube")),
+    "parts": Command(koebe.parts, ("strewn", "doubled", "closed", "limbs", "tube"), broken_corners, parts_apart),
 }
 
 

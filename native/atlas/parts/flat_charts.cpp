@@ -22,14 +22,13 @@ namespace koebe {
 namespace {
 
 constexpr double least_fold = std::numbers::pi / 6;  // angle between the faces of a crease
-constexpr double flat_angle = 1e-3;       // radians by which the angles round a flat vertex may miss a full turn
-constexpr double same_place = 1e-5;       // in roots of the surface's area
-constexpr double most_single = 0.75;      // of a chart's area, in faces that are alone in their planes
-constexpr double least_plate = 0.002;     // of the surface's area: a plate is no smaller,
-constexpr double plate_to_strip = 2.0;    // and so many times larger than its neighbours without a crease
-constexpr double ruled = 0.3;             // of a planar face's outline: so much of it is one ruling of a rolled face
-constexpr double most_loose = 0.55;       // of a rolled face's outline: so much may be smooth towards other rest,
-constexpr double most_loose_alone = 0.3;  // and of a single plane's outline
+constexpr double flat_angle = 1e-3;     // radians by which the angles round a flat vertex may miss a full turn
+constexpr double same_place = 1e-5;     // in roots of the surface's area
+constexpr double most_single = 0.75;    // of a chart's area, in faces that are alone in their planes
+constexpr double least_plate = 0.002;   // of the surface's area: a plate is no smaller,
+constexpr double plate_to_strip = 2.0;  // and so many times larger than its neighbours without a crease
+constexpr double ruled = 0.3;           // of a planar face's outline: so much of it is one ruling of a rolled face
+constexpr double most_loose = 0.3;      // of a rolled face's outline: so much may be smooth towards other rest
 
 class ChartLayer {
 public:
@@ -269,8 +268,6 @@ private:
             if (const auto [p, q] = pair;
                 !is_plate[p] && !is_plate[q] && length > ruled * std::max(outline[p], outline[q]))
                 rolled.join(p, q);
-        std::vector<Index> members(count, 0);
-        for (std::size_t p = 0; p < count; ++p) ++members[rolled.find(static_cast<Index>(p))];
         for (const Index f : chart.face) group_[f] = is_plate[planar_[f]] ? planar_[f] : -1;
         // A polygon that leaves the plane of a plate is no part of the plate.
         for (bool changes = true; changes;) {
@@ -287,9 +284,7 @@ private:
             if (settle(piece, 0)) continue;
             for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
             for (const SeamedMesh& strip : cut_between_groups(piece))
-                if (looseness(strip, piece) >
-                        (members[group_[strip.face.front()]] > 1 ? most_loose : most_loose_alone) ||
-                    !settle(strip, 0))
+                if (looseness(strip, piece) > most_loose || !settle(strip, 0))
                     charts_.rest.insert(charts_.rest.end(), strip.face.begin(), strip.face.end());
         }
     }

@@ -47,7 +47,7 @@ public:
         for (const std::vector<Index>& faces : islands_)
             if (surface_.areas(faces).sum() >= least)
                 for (const Index f : faces)
-                    if (charts_.plane[f] > std::min(least, alone * surface_.areas[f])) sum += surface_.areas[f];
+                    if (charts_.plane[f] > alone * surface_.areas[f]) sum += surface_.areas[f];
         return sum;
     }
 
