@@ -12,9 +12,8 @@
 namespace koebe {
 namespace {
 
-// In the diagonal of the surface's box: coordinates of 32 bits, with five digits; a coarse scan, noise of 0.1 %.
-constexpr double stored_exactly = 1e-7, stored_digits = 1e-5;
-constexpr double flatter = 1.1;  // share of flat faces with five digits, over that with 32 bits, to choose five digits
+// In the diagonal of the surface's box: coordinates with five digits, a coarse scan, noise of 0.1 %.
+constexpr double stored_digits = 1e-5;
 constexpr double noise_levels[] = {3e-4, 4e-3};
 constexpr double large_region = 0.03;   // of the area: noise hides no smaller region
 constexpr double most_area = 0.6;       // of the area, in large regions: then the surface is flat up to noise
@@ -159,10 +158,7 @@ double flat_share(const CutSurface& surface, const PlanarRegions& regions)
 PlanarRegions planar_regions(const CutSurface& surface)
 {
     const double diagonal = (surface.vertices.colwise().maxCoeff() - surface.vertices.colwise().minCoeff()).norm();
-    // A larger tolerance joins neighbours on fine rolled surfaces, so it must make more faces flat.
-    PlanarRegions exact = RegionGrowth(surface, stored_exactly * diagonal).run();
-    PlanarRegions digits = RegionGrowth(surface, stored_digits * diagonal).run();
-    if (flat_share(surface, digits) > flatter * flat_share(surface, exact)) exact = std::move(digits);
+    PlanarRegions exact = RegionGrowth(surface, stored_digits * diagonal).run();
     if (flat_share(surface, exact) >= most_area) return exact;
     for (const double level : noise_levels)
         if (PlanarRegions noisy = RegionGrowth(surface, level * diagonal).run();
