@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cut/disjoint_sets.h"
 #include "mesh/topology.h"
 #include "parts/congruence.h"
 
@@ -31,27 +32,22 @@ struct Piece {
 std::vector<Piece> pieces_in(const FlatMesh& mesh)
 {
     // Parts are joined by their vertices.
-    std::vector<std::size_t> root(mesh.parts.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](std::size_t k) {
-        while (root[k] != k) k = root[k] = root[root[k]];
-        return k;
-    };
-    std::vector<std::size_t> part_at(static_cast<std::size_t>(mesh.layout.vertices.rows()), mesh.parts.size());
+    DisjointSets sets(mesh.parts.size());
+    std::vector<Index> part_at(static_cast<std::size_t>(mesh.layout.vertices.rows()), -1);
     for (std::size_t k = 0; k < mesh.parts.size(); ++k)
         for (const Index v : mesh.parts[k].original) {
-            if (part_at[v] < mesh.parts.size())
-                root[std::max(find(k), find(part_at[v]))] = std::min(find(k), find(part_at[v]));
-            part_at[v] = k;
+            if (part_at[v] >= 0) sets.join(static_cast<Index>(k), part_at[v]);
+            part_at[v] = static_cast<Index>(k);
         }
     std::vector<Piece> pieces;
-    std::vector<std::size_t> piece_of(mesh.parts.size());
+    std::vector<Index> piece_of(mesh.parts.size(), -1);  // by the set
     for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
-        if (find(k) == k) {
-            piece_of[k] = pieces.size();
+        Index& own = piece_of[sets.find(static_cast<Index>(k))];
+        if (own < 0) {
+            own = static_cast<Index>(pieces.size());
             pieces.emplace_back();
         }
-        pieces[piece_of[find(k)]].parts.push_back(k);
+        pieces[own].parts.push_back(k);
     }
     // The surface of each piece, its faces in the order of the mesh.
     for (Piece& piece : pieces) {
