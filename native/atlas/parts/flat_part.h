@@ -29,6 +29,7 @@ struct FlatPart {
     std::vector<Index> tips;               ///< tips of the darts (darts.h)
     double dart_length = 0.0;              ///< length of all darts
     bool one_to_one = true;                ///< false: its boundary crosses itself
+    bool is_near = false;                  ///< nearly as even as it can be: it was relaxed on a coarse surface
 };
 
 struct FlatOptions {

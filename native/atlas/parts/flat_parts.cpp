@@ -209,12 +209,15 @@ bool hopeless_as_one(const Part& root, double error)
     return own > worth_repairing * error * static_cast<double>(root.mesh.faces.size());
 }
 
-/// A whole piece in the map by which it was split, if that has no flaws as stored; else as uniformize repairs it.
-FlatPart as_one_map(const CutSurface& whole, const Part* root, ExecutionContext& context)
+/// A whole piece in the map by which it was split, if that has no flaws as stored; else as uniformize repairs it, if
+/// there is no such map, or if the parts are `broken`: repairs take long, and seldom bend less than cuts.
+/// @return no part if there is none
+std::optional<FlatPart> as_one_map(const CutSurface& whole, const Part* root, bool broken, ExecutionContext& context)
 {
     if (root != nullptr && root->map.positions.size() > 0) {
         FlatPart one = flat_as_mapped(root->mesh, points_of(root->map));
         if (!flaws_of(one, Frame(one.points).uv(one.points), whole.areas).any()) return one;
+        if (!broken) return {};
     }
     std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
     std::iota(faces.begin(), faces.end(), 0);
@@ -259,12 +262,13 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     const double error = angle_error(parts.parts);
     const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < large_error;
     if (!parts.flaws.broken() && (error < small_error || (is_cut && hopeless_as_one(*root, error)))) return {};
-    FlatPart one;
+    std::optional<FlatPart> found;
     try {
-        one = as_one_map(whole, root, context);
+        found = as_one_map(whole, root, parts.flaws.broken(), context);
     } catch (const SolverError&) {
-        return {};
     }
+    if (!found) return {};
+    FlatPart& one = *found;
     const auto error_of_one = [&] { return summed_angle_error(one.vertices, one.surface.triangles, one.points); };
     const double most = worth_repairing * error * static_cast<double>(one.faces.size());
     if (!parts.flaws.broken() && error < large_error && error_of_one() > most) return {};
@@ -272,14 +276,14 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     parts.flaws.spoilt = 0.0;
     if (flaws.broken() && !fewer(flaws, parts.flaws)) return {};
     const double own = error_of_one();
-    if (parts.flaws.broken()) return one;
+    if (parts.flaws.broken()) return found;
     if (own >= error * static_cast<double>(one.faces.size())) return {};
     double cost = 0.0;
     for (const FlatPart& part : parts.parts) cost += cost_of(part, part_price);
     if (cost_of(one, part_price) >= cost) return {};
     for (FlatPart& part : parts.parts) polish(part, context);
     if (own >= clearly * angle_error(parts.parts) * static_cast<double>(one.faces.size())) return {};
-    return one;
+    return found;
 }
 
 }  // namespace koebe

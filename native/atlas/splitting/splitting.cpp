@@ -24,6 +24,7 @@ constexpr double least_return = 0.5;       // of the price: the cost that a spli
 constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
 constexpr double surely_lost = 0.02;       // of a part's area: such a child needs its own map
 constexpr double hopeless = 1.0;           // overflow over area: so uneven that any cut in two is better than none
+constexpr double most_maps = 12.0;         // faces mapped, over the surface's: then parts that are open stay whole
 constexpr std::size_t few_open = 3;        // with fewer open parts, the work for each part goes side by side too
 constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
                                            // is so large that its cost matters
@@ -200,14 +201,15 @@ struct Step {
     SplitEffort effort;
 };
 
-Step take_step(const CutSurface& whole, const SplitOptions& options, const PartPointer& part, int threads,
+/// @param is_late no part is split any more
+Step take_step(const CutSurface& whole, const SplitOptions& options, const PartPointer& part, bool is_late, int threads,
                ExecutionContext& context)
 {
     Step step;
     if (!part->map.measured && part->map.lost_area > surely_lost * part->mesh.area)
         map_anew(whole, *part, context, step.effort);
     Split split;
-    if (!part->settled && part->map.overflow > options.part_price)
+    if (!part->settled && part->map.overflow > options.part_price && !is_late)
         split = best_split(whole, part, options, threads, context, step.effort);
     if (split.gain > 0.0) {
         step.open = std::move(split.children);
@@ -215,12 +217,12 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
     }
     if (!part->map.measured) {
         map_anew(whole, *part, context, step.effort);
-        if (part->map.overflow > options.part_price) {
+        if (part->map.overflow > options.part_price && !is_late) {
             step.open.push_back(part);
             return step;
         }
     }
-    if (part->map.overflow > std::max(options.part_price, hopeless * part->mesh.area))
+    if (part->map.overflow > std::max(options.part_price, hopeless * part->mesh.area) && !is_late)
         step.open = halved(whole, part, threads, context, step.effort);
     if (!step.open.empty()) return step;
     part->settled = true;
@@ -240,9 +242,10 @@ std::vector<PartPointer> split_parts(const CutSurface& whole, const SplitOptions
             return a->mesh.faces.size() > b->mesh.faces.size();
         });
         std::vector<Step> steps(open.size());
+        const bool is_late = effort.maps > most_maps;
         const int inner = open.size() <= few_open ? options.threads : 1;
         side_by_side(open.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
-            steps[i] = take_step(whole, options, open[i], inner, own);
+            steps[i] = take_step(whole, options, open[i], is_late, inner, own);
         });
         open.clear();
         for (Step& step : steps) {
