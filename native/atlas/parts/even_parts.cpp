@@ -3,8 +3,6 @@
 #include "circles/circle_fit.h"
 #include "even/even_map.h"
 #include "execution/side_by_side.h"
-#include "parts/carried_cuts.h"
-#include "parts/coarse_parts.h"
 #include "parts/dart_rounds.h"
 #include "parts/tension.h"
 #include "parts/through_rounds.h"
@@ -13,7 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -31,13 +29,9 @@ constexpr double roomy_piece = 0.1;                           // price of one mo
 constexpr double step = 1.5;                                  // factor from one E to the next
 constexpr double even_with_darts = 0.1;                       // E with darts, if no E is given,
 constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // and if angles are then worse
-constexpr Index faces_to_decide = 4000;                       // on which the cuts of all parts are decided,
-constexpr std::size_t many_faces = 6000;                      // if they have more faces,
-constexpr std::size_t fewest_in_part = 20;                    // and so many coarse ones in the mean
-constexpr double tolerant = 1.5;                              // of an E at which angles may be no worse
-constexpr EvenEffort carried_effort{12, 3, 24};               // for parts whose cuts were decided so, or
+constexpr double tolerant = 1.2;                              // of an E at which angles may be no worse
+constexpr EvenEffort carried_effort{12, 3, 24};               // for parts that were relaxed on a coarse surface, or
 constexpr EvenEffort own_effort{12, 6, 60};                   // for those of them that start from their own map
-constexpr double dearer_on_coarse = 2.0;                      // cuts: coarse parts bend less, and so overrate them
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -108,17 +102,15 @@ public:
 
     void relax(double even, const EvenEffort& effort)
     {
-        relax(even, [&](std::size_t) { return effort; });
+        relax(even, [&](const FlatPart&) { return effort; });
     }
 
-    template <typename EffortOf>
-    requires std::invocable<EffortOf, std::size_t>
-    void relax(double even, const EffortOf& effort_of)
+    void relax(double even, const std::function<EvenEffort(const FlatPart&)>& effort_of)
     {
         std::vector<char> moved(parts_.size(), 0);
         side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
             auto& [flat, round] = parts_[k];
-            moved[k] = make_even(flat_surface(flat, round), even, packed_side, own, effort_of(k)).moved;
+            moved[k] = make_even(flat_surface(flat, round), even, packed_side, own, effort_of(flat)).moved;
         });
         left_.clear();
         for (std::size_t k = 0; k < moved.size(); ++k)
@@ -171,23 +163,22 @@ public:
         return even;
     }
 
-    /// Relaxes parts whose cuts were decided on coarse parts. @param how as in CarriedParts @param most of the sum
-    /// of angle errors: if it is exceeded, E becomes less @return E
-    double finish(const std::vector<Carried>& how, double even, double most)
+    /// Relaxes parts with their cuts, at first only a little. If their angles are worse than `most`, goes on with an E
+    /// at which they may be no worse: angles go about with the third root of E. @return E; 0: no E is small enough
+    double relax_carried(double even, double most)
     {
-        const auto effort = [&](std::size_t k) { return how[k] == Carried::placed ? carried_effort : own_effort; };
-        for (auto next = less_even_with_darts.begin(); next != less_even_with_darts.end(); ++next) {
+        for (auto next = less_even_with_darts.begin();;) {
             relax_cut(even, look);
-            if (angles() <= most_worse * most) relax_cut(even, effort);
+            if (angles() <= most_worse * most)
+                relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
             const double worse = angles() / most;
             if (worse <= 1.0) return even;
-            // Angles go about with the third root of E: leave out an E at which they will be worse, too.
-            while (std::next(next) != less_even_with_darts.end() && *next * std::pow(worse, 3) > tolerant * even)
-                ++next;
-            even = std::min(even, *next);
+            next = std::find_if(next, less_even_with_darts.end(),
+                                [&](double less) { return less < even && less * std::pow(worse, 3) < tolerant * even; });
+            if (next == less_even_with_darts.end()) next = std::prev(next);
+            if (*next >= even) return 0.0;
+            even = *next;
         }
-        relax_cut(even, effort);
-        return even;
     }
 
 private:
@@ -208,8 +199,12 @@ private:
     }
 
     /// Relaxes parts that are one to one as stored, and keeps them so.
-    template <typename Effort>
-    void relax_cut(double even, const Effort& effort)
+    void relax_cut(double even, const EvenEffort& effort)
+    {
+        relax_cut(even, [&](const FlatPart&) { return effort; });
+    }
+
+    void relax_cut(double even, const std::function<EvenEffort(const FlatPart&)>& effort)
     {
         const std::vector<HeldPart> before = parts_;
         relax(even, effort);
@@ -231,8 +226,9 @@ private:
     ExecutionContext& context_;
 };
 
-/// E and the cuts, decided on these parts.
-EvenParts decide(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
+}  // namespace
+
+EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
 {
     PartRelaxation parts(flats, options, context);
     if (options.even == 0.0) return {};
@@ -241,68 +237,12 @@ EvenParts decide(std::vector<FlatPart>& flats, const EvenOptions& options, Execu
     return {even, even > 0.0 ? parts.left() : std::vector<std::size_t>{}};
 }
 
-/// Small parts whose cuts could not be carried get cuts that are decided on themselves.
-void cut_anew(CarriedParts& carried, double even, const EvenOptions& options, ExecutionContext& context)
+EvenParts relax_carried(std::vector<FlatPart>& flats, double even, double most, const EvenOptions& options,
+                        ExecutionContext& context)
 {
-    CarriedParts all;
-    for (std::size_t k = 0; k < carried.parts.size(); ++k) {
-        std::vector<FlatPart> own{std::move(carried.parts[k])};
-        Carried how = carried.how[k];
-        if (how == Carried::whole && own.front().faces.size() <= static_cast<std::size_t>(faces_to_decide)) {
-            PartRelaxation(own, options, context).relax_with_darts(even, search);
-            how = Carried::placed;
-        }
-        all.how.resize(all.how.size() + own.size(), how);
-        std::ranges::move(own, std::back_inserter(all.parts));
-    }
-    carried = std::move(all);
-}
-
-/// E and the cuts, decided on coarse parts. Then the fine parts are cut in the same places, and relaxed once.
-EvenParts decide_coarsely(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
-{
-    const CoarseParts before = coarse_parts(flats, faces_to_decide, context);
-    std::vector<FlatPart> after = before.parts;
-    EvenOptions coarse_options = options;
-    coarse_options.darts /= dearer_on_coarse;
-    const double even = decide(after, coarse_options, context).even;
-    if (!(even > 0.0)) return {};
-    const auto angles = [&] {
-        double sum = 0.0;
-        for (const FlatPart& flat : flats) sum += sum_of_angle_errors(flat);
-        return sum;
-    };
-    const double most =
-        options.even ? std::numeric_limits<double>::infinity() : angles();  // an E that is given is kept
-    std::vector<FlatPart> uncut = std::move(flats);
-    CarriedParts cut = carried(uncut, before, after, context);
-    cut_anew(cut, even, options, context);
-    flats = std::move(cut.parts);
-    EvenParts result;
-    {
-        PartRelaxation parts(flats, options, context);
-        result.even = parts.finish(cut.how, even, most);
-        result.left = parts.left();
-    }
-    if (angles() <= most) return result;
-    flats = std::move(uncut);  // cuts lower the angles, so no E would do without them
-    return {};
-}
-
-/// Whether parts are large enough for coarse ones: edges of a round loop must lie on the fine part's circle.
-bool has_many_faces(const std::vector<FlatPart>& flats, const EvenOptions& options)
-{
-    std::size_t faces = 0;
-    for (const FlatPart& flat : flats) faces += flat.faces.size();
-    return options.loops == LoopForm::free && options.even != 0.0 && faces > many_faces &&
-           flats.size() < faces_to_decide / fewest_in_part;
-}
-
-}  // namespace
-
-EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context)
-{
-    return has_many_faces(flats, options) ? decide_coarsely(flats, options, context) : decide(flats, options, context);
+    PartRelaxation parts(flats, options, context);
+    const double own = parts.relax_carried(even, most);
+    return {own, parts.left()};
 }
 
 double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, ExecutionContext& context)

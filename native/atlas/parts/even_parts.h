@@ -29,10 +29,12 @@ struct EvenParts {
 /// cuts parts through (through_rounds.h): first it joins loops, then it splits parts that darts did not help, and last
 /// it cuts for room (roomy_cuts.h). The pieces of a part come
 /// last, or after it. A part that is not one to one is not changed.
-///
-/// If there are many faces, all this is decided on coarse parts (coarse_parts.h). The cuts are carried to the fine
-/// parts (carried_cuts.h), which are relaxed once.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
+
+/// Relaxes parts that were decided on a coarse surface. @param even their E there: if angles are worse than `most`, a
+/// smaller E @param most sum of angle errors @return E = 0 if no E is small enough
+EvenParts relax_carried(std::vector<FlatPart>& flats, double even, double most, const EvenOptions& options,
+                        ExecutionContext& context);
 
 /// The cost of parts once they are even: their energy at this E, or at the E of parts with darts if none is given. To
 /// it come their boundary, half of which is a cut's or the surface's own, and one more part each, at the price of

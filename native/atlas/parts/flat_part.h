@@ -32,6 +32,7 @@ struct FlatPart {
     Complex up = 0.0;                      ///< where up in the world is in the plane, of length 1; 0: not clear
     bool has_copy = false;                 ///< another part has the same map, not mirrored (twins.h)
     bool one_to_one = true;                ///< false: its boundary crosses itself
+    bool is_near = false;                  ///< nearly as even as it can be: it was relaxed on a coarse surface
 };
 
 struct FlatOptions {
@@ -47,6 +48,19 @@ FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContex
 /// An edge, named by its vertices in the whole. So it has the same name in every part.
 using EdgeEnds = std::pair<Index, Index>;
 inline EdgeEnds sorted_ends(Index a, Index b) { return std::minmax(a, b); }
+
+/// @param vertex, face functions of their numbers; a vertex without a mirror image has the image -1
+template <typename OfVertex, typename OfFace>
+void rename_elements(std::vector<FlatPart>& parts, const OfVertex& vertex, const OfFace& face)
+{
+    for (FlatPart& part : parts) {
+        for (Index& f : part.faces) f = face(f);
+        for (Index& v : part.original) v = vertex(v);
+        for (Index& v : part.image) v = v < 0 ? v : vertex(v);
+        for (VertexLoop& loop : part.loops)
+            for (Index& v : loop) v = vertex(v);
+    }
+}
 
 constexpr double packed_side = 1.25;  ///< about the side of a square that holds parts of total area 1
 

@@ -36,7 +36,8 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
         whole.shown = values_at(options.show, piece.source_vertex);
         if (std::optional<UnfoldedParts> hard = hard_parts(whole, context)) {
             for (const Index f : hard->rest) rest.push_back(piece.source_face[f]);
-            name_by_input(piece, options.show, hard->parts);
+            note_shown(whole.shown, hard->parts);
+            name_by_source(piece, hard->parts);
             std::ranges::move(hard->parts, std::back_inserter(parts));
         } else {
             rest.insert(rest.end(), piece.source_face.begin(), piece.source_face.end());
@@ -53,14 +54,15 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
     return opened;
 }
 
-void name_by_input(const SurfacePiece& piece, const std::vector<double>& show, std::vector<FlatPart>& parts)
+void name_by_source(const SurfacePiece& piece, std::vector<FlatPart>& parts)
 {
-    for (FlatPart& part : parts) {
-        part.faces = values_at(piece.source_face, part.faces);
-        part.original = values_at(piece.source_vertex, part.original);
-        part.shown = values_at(show, part.original);
-        for (VertexLoop& loop : part.loops) loop = values_at(piece.source_vertex, loop);
-    }
+    rename_elements(
+        parts, [&](Index v) { return piece.source_vertex[v]; }, [&](Index f) { return piece.source_face[f]; });
+}
+
+void note_shown(const std::vector<double>& shown, std::vector<FlatPart>& parts)
+{
+    for (FlatPart& part : parts) part.shown = values_at(shown, part.original);
 }
 
 }  // namespace koebe

@@ -1,8 +1,6 @@
 #include "splitting/coarse_surface.h"
 
-#include "core/complex_places.h"
 #include "mesh/halfedge_mesh.h"
-#include "planar/planar_predicates.h"
 
 #include <Eigen/Geometry>
 
@@ -20,26 +18,18 @@ using Vertex = HalfedgeMesh::VertexHandle;
 using Halfedge = HalfedgeMesh::HalfedgeHandle;
 
 constexpr double least_cosine = 0.2;  // of the angle by which a collapse turns a face
-constexpr double least_height = 0.1;  // of a face of the map, over its longest edge; or as much as before
 
 OpenMesh::Vec3d normal(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const OpenMesh::Vec3d& c)
 {
     return OpenMesh::cross(b - a, c - a);
 }
 
-/// The height of a triangle in the plane over its longest edge; negative if it is turned over.
-double slenderness(Complex a, Complex b, Complex c)
-{
-    const double longest = std::max({std::norm(b - a), std::norm(c - b), std::norm(a - c)});
-    return cross(b - a, c - a) / std::max(longest, 1e-300);
-}
-
 class Coarsening {
 public:
-    Coarsening(const Vertices& vertices, const Triangles& triangles, const CoarseTogether& together)
+    Coarsening(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& image)
         : mesh(to_halfedge_mesh(vertices, triangles)),
           parent(static_cast<std::size_t>(vertices.rows())),
-          together_(together),
+          image_(image),
           reach_(parent.size(), 0.0)
     {
         note_tips(vertices, triangles);
@@ -123,11 +113,6 @@ private:
             const OpenMesh::Vec3d before = normal(mesh.point(from), mesh.point(b), mesh.point(c));
             const OpenMesh::Vec3d after = normal(mesh.point(to), mesh.point(b), mesh.point(c));
             if (!(OpenMesh::dot(before, after) > least_cosine * before.norm() * after.norm())) return false;
-            if (!together_.points) continue;
-            const auto at = [&](Vertex v) { return complex_at(*together_.points, v.idx()); };
-            const double least = std::min(least_height, slenderness(at(from), at(b), at(c)));
-            const double height = slenderness(at(to), at(b), at(c));
-            if (!(height > 0.0) || height < least) return false;
         }
         return true;
     }
@@ -141,9 +126,9 @@ private:
     /// The mirror image of a half-edge; and whether it has none because its vertices have none.
     std::pair<Halfedge, bool> image_of(Halfedge h) const
     {
-        if (together_.image.empty()) return {Halfedge(), true};
-        const Index from = together_.image[mesh.from_vertex_handle(h).idx()];
-        const Index to = together_.image[mesh.to_vertex_handle(h).idx()];
+        if (image_.empty()) return {Halfedge(), true};
+        const Index from = image_[mesh.from_vertex_handle(h).idx()];
+        const Index to = image_[mesh.to_vertex_handle(h).idx()];
         if (from < 0 || to < 0 || mesh.status(Vertex(from)).deleted() || mesh.status(Vertex(to)).deleted())
             return {Halfedge(), true};
         return {mesh.find_halfedge(Vertex(from), Vertex(to)), false};
@@ -162,7 +147,7 @@ private:
         }
     }
 
-    const CoarseTogether& together_;
+    const std::vector<Index>& image_;  // (V)
     // (V) how far a vertex has drawn others: without it a vertex would go along a row of equal edges to its end.
     std::vector<double> reach_;
     Queue queue_;
@@ -172,9 +157,9 @@ private:
 }  // namespace
 
 CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
-                             const CoarseTogether& together, ExecutionContext& context)
+                             const std::vector<Index>& image, ExecutionContext& context)
 {
-    Coarsening coarsening(vertices, triangles, together);
+    Coarsening coarsening(vertices, triangles, image);
     coarsening.run(faces, context);
     const HalfedgeMesh& mesh = coarsening.mesh;
     std::vector<Index>& parent = coarsening.parent;

@@ -16,16 +16,11 @@ struct CoarseSurface {
     std::vector<Index> vertex_at;  ///< (V) for each fine vertex the coarse vertex that it was moved to
 };
 
-/// What must be coarsened with the surface.
-struct CoarseTogether {
-    const PlanarPoints* points = nullptr;  ///< (V, 2) a map: its faces stay upright, and no needles
-    std::vector<Index> image = {};         ///< (V) mirror images, -1 for none: an edge and its image go together
-};
-
 /// Collapses edges (OpenMesh), those first that move vertices least, until `faces` are left or no edge can go. Never
 /// turns a face over. Keeps the topology and the number of loops.
-/// @param triangles (F, 3) manifold and oriented
+/// @param triangles (F, 3) manifold and oriented @param image (V) mirror images, -1 for none: an edge and its image go
+/// together; empty: there is no mirror
 CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
-                             const CoarseTogether& together, ExecutionContext& context);
+                             const std::vector<Index>& image, ExecutionContext& context);
 
 }  // namespace koebe

@@ -1,0 +1,247 @@
+#include "parts/carried_net.h"
+
+#include "core/connectivity.h"
+#include "mesh/nearest_first.h"
+#include "parts/tension.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double far_off = 4.0;         // price of an edge as far from a coarse edge as that is long, beside its length
+constexpr double longest_detour = 3.0;  // length of a path over the length of its chain
+
+class PathFinder {
+public:
+    PathFinder(const Proxy& proxy, const CoarseNet& net)
+        : fine_(proxy.fine.whole), coarse_(proxy.surface), vertex_(proxy.coarse.vertex), net_(net)
+    {
+        mesh_ = seamed(fine_.vertices, fine_.surface, fine_.polygon, fine_.shown);
+        taken_ = boundary_mask(fine_.surface);
+        on_path_.assign(taken_.size(), 0);
+        loop_of_.assign(taken_.size(), -1);
+        for (std::size_t k = 0; k < fine_.surface.loops.size(); ++k)
+            for (const Index v : fine_.surface.loops[k]) loop_of_[v] = static_cast<int>(k);
+        for (Index h = 0; h < static_cast<Index>(net.open.size()); ++h)  // paths go through no vertex of another chain
+            if (net.open[h]) taken_[fine_origin(h)] = taken_[fine_target(h)] = 1;
+        const auto may_cut = [&](Index h) { return mesh_.twin[h] != no_twin && !mesh_.whole[h]; };
+        begin_.assign(taken_.size() + 1, 0);
+        for (Index h = 0; h < mesh_.halfedge_count(); ++h)
+            if (may_cut(h)) ++begin_[origin(fine_.surface.triangles, h) + 1];
+        for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
+        leaving_.resize(begin_.back());
+        std::vector<std::size_t> next(begin_.begin(), std::prev(begin_.end()));
+        for (Index h = 0; h < mesh_.halfedge_count(); ++h)
+            if (may_cut(h)) leaving_[next[origin(fine_.surface.triangles, h)]++] = h;
+    }
+
+    /// The chains of cut edges. A chain that closes begins at its lowest vertex.
+    std::vector<Path> chains() const
+    {
+        const Triangles& triangles = coarse_.triangles;
+        std::vector<std::vector<Index>> leaving(static_cast<std::size_t>(coarse_.vertex_count));
+        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
+            if (coarse_.twin[h] != no_twin && (net_.open[h] || net_.open[coarse_.twin[h]]))
+                leaving[origin(triangles, h)].push_back(h);
+        const std::vector<char> outside = boundary_mask(coarse_);
+        std::vector<char> seen(coarse_.twin.size(), 0);
+        std::vector<Path> all;
+        const auto is_node = [&](Index v) { return outside[v] != 0 || leaving[v].size() != 2; };
+        const auto walk = [&](Index h, Index start) {
+            Path chain{h};
+            for (Index end = target(triangles, h); !is_node(end) && end != start; end = target(triangles, h)) {
+                h = leaving[end][leaving[end][0] == coarse_.twin[h] ? 1 : 0];
+                chain.push_back(h);
+            }
+            for (const Index own : chain) seen[own] = seen[coarse_.twin[own]] = 1;
+            all.push_back(std::move(chain));
+        };
+        for (const bool closed : {false, true})
+            for (Index v = 0; v < coarse_.vertex_count; ++v)
+                if (is_node(v) != closed)
+                    for (const Index h : leaving[v])
+                        if (!seen[h]) walk(h, v);
+        return all;
+    }
+
+    std::optional<CarriedPath> carried(const Path& chain)
+    {
+        auto path = path_along(chain);
+        if (!path || path_length(fine_.vertices, fine_.surface.triangles, *path) > longest_detour * chain_length(chain))
+            return {};
+        for (const Index h : *path)
+            for (const Index v : {origin(fine_.surface.triangles, h), target(fine_.surface.triangles, h)})
+                taken_[v] = on_path_[v] = 1;
+        note(chain.front(), path->front());
+        note(coarse_.twin[chain.back()], fine_.surface.twin[path->back()]);
+        return CarriedPath{chain, std::move(*path)};
+    }
+
+private:
+    /// Notes that a path leaves the end of a chain, if it is there.
+    void note(Index coarse, Index fine)
+    {
+        const Index v = origin(fine_.surface.triangles, fine);
+        if (v == fine_origin(coarse)) placed_[v].emplace_back(coarse, fine);
+    }
+
+    /// Half-edges that leave a vertex, counter-clockwise; from the boundary on, if the vertex is there.
+    static std::vector<Index> leaving_of(const Surface& surface, Index h)
+    {
+        const Index start = h;
+        for (Index t = surface.twin[h]; t != no_twin && next_halfedge(t) != start; t = surface.twin[h])
+            h = next_halfedge(t);
+        std::vector<Index> ring{h};
+        for (Index t = surface.twin[previous_halfedge(h)]; t != no_twin && t != ring.front();
+             t = surface.twin[previous_halfedge(t)])
+            ring.push_back(t);
+        return ring;
+    }
+
+    /// Whether chains leave their common end in the same order as their paths, with one more path.
+    bool keeps_order(Index coarse, Index fine) const
+    {
+        const auto found = placed_.find(origin(fine_.surface.triangles, fine));
+        if (found == placed_.end()) return true;
+        std::vector<std::pair<Index, Index>> all = found->second;
+        all.emplace_back(coarse, fine);
+        const std::vector<Index> here = leaving_of(coarse_, coarse), there = leaving_of(fine_.surface, fine);
+        const auto place = [](const std::vector<Index>& ring, Index h) { return std::ranges::find(ring, h) - ring.begin(); };
+        std::ranges::sort(all, {}, [&](const auto& own) { return place(here, own.first); });
+        int descents = 0;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            descents += place(there, all[(i + 1) % all.size()].second) <= place(there, all[i].second);
+        const bool is_open = loop_of_[found->first] >= 0;  // then the order has a beginning
+        return descents <= 1 && (!is_open || place(there, all.back().second) >= place(there, all.front().second));
+    }
+
+    Index fine_origin(Index coarse) const { return vertex_[origin(coarse_.triangles, coarse)]; }
+    Index fine_target(Index coarse) const { return vertex_[target(coarse_.triangles, coarse)]; }
+
+    double chain_length(const Path& chain) const
+    {
+        double sum = 0.0;
+        for (const Index h : chain) sum += (fine_.vertices.row(fine_origin(h)) - fine_.vertices.row(fine_target(h))).norm();
+        return sum;
+    }
+
+    /// A short path near a chain, through its vertices.
+    std::optional<Path> path_along(const Path& chain) const
+    {
+        std::vector<char> taken = taken_;
+        Path path;
+        for (std::size_t i = 0; i < chain.size(); ++i) {
+            const bool is_first = i == 0, is_last = i + 1 == chain.size();
+            const ChainEnds ends{is_first ? chain[i] : no_twin, is_last ? coarse_.twin[chain[i]] : no_twin};
+            std::optional<Path> step = path_between(chain[i], ends, taken, false);
+            if (!step && (is_first || is_last)) step = path_between(chain[i], ends, taken, true);
+            if (!step) return {};
+            for (const Index h : *step) taken[target(fine_.surface.triangles, h)] = 1;
+            path.insert(path.end(), step->begin(), step->end());
+        }
+        return path;
+    }
+
+    /// Half-edges that leave the ends of a chain, no_twin for none.
+    struct ChainEnds {
+        Index first, last;
+    };
+
+    /// The shortest path near a coarse half-edge. @param ends if the path is the first or last one of a chain @param
+    /// taken (V) 1: the path may not touch it @param anywhere ends on the boundary may be elsewhere on the same loop
+    std::optional<Path> path_between(Index coarse, const ChainEnds& ends, const std::vector<char>& taken,
+                                     bool anywhere) const
+    {
+        const Index from = fine_origin(coarse), to = fine_target(coarse);
+        const Triangles& triangles = fine_.surface.triangles;
+        const Eigen::RowVector3d start = fine_.vertices.row(from), along = fine_.vertices.row(to) - start;
+        NearestFirst nearest(fine_.surface.vertex_count);
+        std::unordered_map<Index, Index> last;
+        nearest.reach(from, 0.0);
+        if (anywhere && loop_of_[from] >= 0 && loop_of_[from] != loop_of_[to])
+            for (const Index v : fine_.surface.loops[loop_of_[from]])
+                if (!on_path_[v]) nearest.reach(v, 0.0);
+        const auto is_end = [&](Index v) {
+            return v == to || (anywhere && loop_of_[to] >= 0 && loop_of_[v] == loop_of_[to] &&
+                               loop_of_[to] != loop_of_[from] && !on_path_[v]);
+        };
+        Index end = nearest.take();
+        for (Index v = end; v >= 0 && !is_end(v); v = end = nearest.take())
+            for (std::size_t i = begin_[v]; i < begin_[v + 1]; ++i) {
+                const Index h = leaving_[i], w = target(triangles, h);
+                if (taken[w] && !is_end(w)) continue;
+                if (v == from && ends.first != no_twin && !keeps_order(ends.first, h)) continue;
+                if (w == to && ends.last != no_twin && !keeps_order(ends.last, fine_.surface.twin[h])) continue;
+                const Eigen::RowVector3d off = 0.5 * (fine_.vertices.row(v) + fine_.vertices.row(w)) - start;
+                const double share = std::clamp(off.dot(along) / along.squaredNorm(), 0.0, 1.0);
+                const double price = 1.0 + far_off * (off - share * along).squaredNorm() / along.squaredNorm();
+                if (nearest.reach(w, nearest.distance()[v] + mesh_.length[h] * price)) last[w] = h;
+            }
+        if (end < 0) return {};
+        Path path;
+        for (Index v = end; last.contains(v); v = origin(triangles, last[v])) path.push_back(last[v]);
+        std::ranges::reverse(path);
+        return path;
+    }
+
+    const CutSurface& fine_;
+    const Surface& coarse_;
+    const std::vector<Index>& vertex_;  // (V) coarse: the fine vertex
+    const CoarseNet& net_;
+    SeamedMesh mesh_;
+    std::vector<char> taken_, on_path_;  // (V) fine: on the boundary or on a path
+    std::vector<int> loop_of_;           // (V) fine; -1 inside
+    std::vector<std::size_t> begin_;
+    std::unordered_map<Index, std::vector<std::pair<Index, Index>>> placed_;  // by the fine vertex: as they leave it
+    std::vector<Index> leaving_;  // half-edges that may be cut, by the vertex that they leave
+};
+
+}  // namespace
+
+bool CoarseNet::parts_differ(const Surface& surface, Index halfedge) const
+{
+    return place[face_of(halfedge)].part != place[face_of(surface.twin[halfedge])].part;
+}
+
+std::optional<CoarseNet> coarse_net(const Proxy& proxy, const std::vector<FlatPart>& parts)
+{
+    const Triangles& triangles = proxy.surface.triangles;
+    CoarseNet net{std::vector<CoarseNet::Place>(static_cast<std::size_t>(triangles.rows())),
+                  std::vector<char>(proxy.surface.twin.size(), 0)};
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (std::size_t i = 0; i < parts[k].faces.size(); ++i) {
+            const Index face = parts[k].faces[i];
+            if (net.place[face].part >= 0) return {};
+            net.place[face] = {static_cast<int>(k), static_cast<Index>(i)};
+            for (int c = 0; c < 3; ++c) {
+                const Index corner = parts[k].surface.triangles(static_cast<Eigen::Index>(i), c);
+                if (parts[k].original[corner] != triangles(face, c)) return {};
+                if (parts[k].surface.twin[3 * i + static_cast<std::size_t>(c)] == no_twin) net.open[3 * face + c] = 1;
+            }
+        }
+    if (std::ranges::any_of(net.place, [](const auto& own) { return own.part < 0; })) return {};
+    return net;
+}
+
+std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net, const ExecutionContext& context)
+{
+    PathFinder finder(proxy, net);
+    std::vector<CarriedPath> all;
+    for (const Path& chain : finder.chains()) {
+        context.checkpoint();
+        if (auto path = finder.carried(chain)) all.push_back(std::move(*path));
+    }
+    return all;
+}
+
+double path_length(const Vertices& vertices, const Triangles& triangles, const Path& path)
+{
+    double sum = 0.0;
+    for (const Index h : path) sum += (vertices.row(origin(triangles, h)) - vertices.row(target(triangles, h))).norm();
+    return sum;
+}
+
+}  // namespace koebe

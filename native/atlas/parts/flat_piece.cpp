@@ -1,0 +1,134 @@
+#include "parts/flat_piece.h"
+
+#include "parts/hard_surface.h"
+#include "splitting/closed_surface.h"
+#include "splitting/hidden_cuts.h"
+#include "splitting/mirror_symmetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double own_piece = 0.25;         // of the area: in a smaller piece parts cost less,
+constexpr double small_piece = 0.01;       // and below this in proportion to the piece's area
+constexpr int rounds = 2;                  // of splitting and merging
+constexpr double eager = 0.37;             // of the prices: parts are split at these, and merged at the whole prices
+constexpr double price_like_cut = 0.0037;  // at which a split of a flat part costs as a cut as long as the root
+constexpr double vain = 0.9;               // of the overflow: cuts that leave more are in vain
+
+double overflow_of(const std::vector<PartPointer>& parts)
+{
+    double sum = 0.0;
+    for (const PartPointer& part : parts) sum += part->map.overflow;
+    return sum;
+}
+
+/// Splits and merges parts, and maps them. A cut that pays only together with later cuts is found at lower prices;
+/// merging takes back what did not pay in the end. The parts stay as they were if cuts bring next to nothing, for
+/// example between many tight holes. @param first faces of the first parts; empty: one part with all faces
+std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::vector<Index>> first,
+                                    const SplitOptions& options, ExecutionContext& context, SplitEffort& effort)
+{
+    std::vector<PartPointer> uncut = first_parts(whole, std::move(first), context, effort);
+    std::vector<PartPointer> parts = uncut;
+    const SplitOptions eagerly{eager * options.part_price, eager * options.cut_price, options.threads};
+    RefusedMerges refused;
+    for (int round = 0; round < rounds; ++round) {
+        parts = split_parts(whole, eagerly, std::move(parts), context, effort);
+        if (parts.size() > uncut.size() && overflow_of(parts) > vain * overflow_of(uncut)) return uncut;
+        if (parts.size() == 1 || !merge_parts(whole, options, parts, refused, context, effort)) break;
+    }
+    merge_crumbs(whole, options, parts, context, effort);
+    return parts;
+}
+
+/// The piece with the boundary that it came with.
+CutSurface opened(const PieceInput& input)
+{
+    CutSurface whole = cut_surface(input.piece.vertices, input.piece.triangles, input.polygon);
+    whole.slit = input.slit;
+    whole.seam = input.seam;
+    whole.shown = input.shown;
+    return whole;
+}
+
+/// The part from which all parts were cut; null: there is none.
+std::shared_ptr<const Part> root_of(const std::vector<PartPointer>& parts, const CutSurface& whole)
+{
+    std::shared_ptr<const Part> root = parts.front();
+    while (root->parent) root = root->parent;
+    return root->mesh.faces.size() == static_cast<std::size_t>(whole.areas.size()) ? root : nullptr;
+}
+
+}  // namespace
+
+PieceSurface surface_of(const PieceInput& input)
+{
+    PieceSurface surface;
+    if (std::optional<CutSurface> closed = closed_surface(input.piece, input.piece.vertices, input.polygon)) {
+        closed->shown = input.shown;
+        surface.first = halves(*closed);
+        if (!surface.first.empty()) {
+            surface.whole = std::move(*closed);
+            surface.whole.slit = input.slit;
+            surface.whole.seam = input.seam;
+            return surface;
+        }
+    }
+    surface.whole = opened(input);
+    return surface;
+}
+
+SplitOptions prices_for(double area, double price, int threads)
+{
+    const double share = area < small_piece ? std::sqrt(small_piece / own_piece) * area / small_piece
+                                            : std::min(1.0, std::sqrt(area / own_piece));
+    return {share * price, std::min(1.0, share / std::sqrt(area)) * price, threads};
+}
+
+EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads)
+{
+    const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
+    return {options.even,  round ? LoopForm::round : LoopForm::free,
+            options.darts, options.price / price_like_cut,
+            roomy,         threads};
+}
+
+FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsOptions& options, int threads,
+                     ExecutionContext& context, SplitEffort& effort)
+{
+    // Cut it where that pays, alike on both sides of a mirror, and hide the cuts.
+    auto& [whole, first] = surface;
+    const bool is_closed = whole.surface.loops.empty();
+    const SplitOptions prices = prices_for(whole.areas.sum(), options.price, threads);
+    std::vector<PartPointer> parts = even_parts(whole, std::move(first), prices, context, effort);
+    const Mirror mirror = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon);
+    const bool is_symmetric = make_symmetric(whole, prices, mirror, parts, context, effort);
+    const std::vector<PartPointer> before = parts;
+    hide_cuts(whole, prices, parts, context, effort);
+    if (is_symmetric && !make_symmetric(whole, prices, mirror, parts, context, effort)) parts = before;
+    merge_crumbs(whole, prices, parts, context, effort);
+    std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
+
+    // Lay the parts flat. A part that was cut for its flaws has been tried as one part.
+    const std::shared_ptr<const Part> root = root_of(parts, whole);
+    const bool is_cut = parts.size() > 1;
+    FlatParts flats = flat_parts(whole, mirror, parts, {prices.cut_price, prices.part_price, options.round_cuts},
+                                 threads, context, effort);
+    if (is_cut || flats.parts.size() == 1)
+        if (auto one = better_as_one(is_closed ? opened(input) : whole, root.get(), flats, prices.part_price, context)) {
+            flats.parts.clear();
+            flats.parts.push_back(std::move(*one));
+        }
+    if (!mirror.vertex.empty())
+        for (FlatPart& part : flats.parts)
+            for (const Index v : part.original) part.image.push_back(mirror.vertex[v]);
+    note_shown(input.shown, flats.parts);
+    return flats;
+}
+
+}  // namespace koebe

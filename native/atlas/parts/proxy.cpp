@@ -1,0 +1,56 @@
+#include "parts/proxy.h"
+
+#include "core/connectivity.h"
+#include "surface/mirror.h"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+/// The coarse piece, opened if it is closed. Its area is the fine one's, as chords are shorter than arcs.
+SurfacePiece coarse_piece(const CoarseSurface& coarse, const Surface& surface, double area, ExecutionContext& context)
+{
+    const double larger = std::sqrt(area / face_areas(coarse.vertices, coarse.triangles).sum());
+    const Vertices vertices = larger * coarse.vertices;
+    if (surface.loops.empty())
+        return std::move(open_surface(vertices, coarse.triangles, {.slit_beside_handles = false}, context).pieces[0]);
+    SurfacePiece piece{vertices, coarse.triangles, {}, {}, {}};
+    piece.source_vertex.resize(coarse.vertex.size());
+    piece.source_face.resize(coarse.face.size());
+    std::iota(piece.source_vertex.begin(), piece.source_vertex.end(), 0);
+    std::iota(piece.source_face.begin(), piece.source_face.end(), 0);
+    return piece;
+}
+
+/// (3F) of the coarse piece: on the boundary as the fine half-edge that leaves the same vertex.
+std::vector<char> coarse_seams(const CutSurface& fine, const CoarseSurface& coarse, const Surface& surface)
+{
+    std::vector<char> seam(surface.twin.size(), 1), leaving(static_cast<std::size_t>(fine.vertices.rows()), 1);
+    for (Index h = 0; h < static_cast<Index>(fine.surface.twin.size()); ++h)
+        if (fine.surface.twin[h] == no_twin) leaving[origin(fine.surface.triangles, h)] = fine.seam[h];
+    for (Index h = 0; h < static_cast<Index>(seam.size()); ++h)
+        if (surface.twin[h] == no_twin) seam[h] = leaving[coarse.vertex[origin(surface.triangles, h)]];
+    return seam;
+}
+
+}  // namespace
+
+Proxy proxy_of(const PieceInput& input, PieceSurface fine, Index faces, ExecutionContext& context)
+{
+    Proxy proxy{std::move(fine), {}, {}, {}};
+    const CutSurface& whole = proxy.fine.whole;
+    const Mirror mirror = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon);
+    proxy.coarse = coarse_surface(whole.vertices, whole.surface.triangles, faces, mirror.vertex, context);
+    proxy.surface = analyze_surface(proxy.coarse.triangles, static_cast<Index>(proxy.coarse.vertex.size()));
+    proxy.input.piece = coarse_piece(proxy.coarse, proxy.surface, whole.areas.sum(), context);
+    proxy.input.seam = coarse_seams(whole, proxy.coarse, proxy.surface);
+    if (!input.shown.empty())
+        for (const Index v : proxy.input.piece.source_vertex)
+            proxy.input.shown.push_back(input.shown[proxy.coarse.vertex[v]]);
+    return proxy;
+}
+
+}  // namespace koebe
