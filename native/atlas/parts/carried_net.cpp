@@ -70,8 +70,7 @@ public:
     std::optional<CarriedPath> carried(const Path& chain)
     {
         auto path = path_along(chain);
-        if (!path || path_length(fine_.vertices, fine_.surface.triangles, *path) > longest_detour * chain_length(chain))
-            return {};
+        if (!path || (!net_.parts_differ(coarse_, chain.front()) && is_detour(*path, chain))) return {};
         for (const Index h : *path)
             for (const Index v : {origin(fine_.surface.triangles, h), target(fine_.surface.triangles, h)})
                 taken_[v] = on_path_[v] = 1;
@@ -81,6 +80,11 @@ public:
     }
 
 private:
+    bool is_detour(const Path& path, const Path& chain) const
+    {
+        return path_length(fine_.vertices, fine_.surface.triangles, path) > longest_detour * chain_length(chain);
+    }
+
     /// Notes that a path leaves the end of a chain, if it is there.
     void note(Index coarse, Index fine)
     {
@@ -230,7 +234,9 @@ std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net,
 {
     PathFinder finder(proxy, net);
     std::vector<CarriedPath> all;
-    for (const Path& chain : finder.chains()) {
+    std::vector<Path> chains = finder.chains();
+    std::ranges::stable_partition(chains, [&](const Path& own) { return net.parts_differ(proxy.surface, own.front()); });
+    for (const Path& chain : chains) {
         context.checkpoint();
         if (auto path = finder.carried(chain)) all.push_back(std::move(*path));
     }

@@ -11,6 +11,7 @@
 #include "parts/tension.h"
 #include "parts/through_cuts.h"
 #include "planar/boundary_crossings.h"
+#include "planar/planar_predicates.h"
 #include "surface/laplacian.h"
 
 #include <Eigen/Geometry>
@@ -30,9 +31,14 @@ constexpr double least_cotangent = 0.05;  // of a face's weight in the courses o
 
 constexpr double hold = 1e6;              // weight with which held vertices stay, over a cotangent
 
-constexpr std::array held_share{0.0, 0.9, 1.0, 1.0};  // how near to the part's loops the piece's are held, if they
-                                                     // cross else
-constexpr double bulge = 1e-3;  // of a coarse edge: how far its fine vertices lie outside, so that no face is flat
+/// An attempt to hold crossing loops at the part's loops.
+struct Attempt {
+    double share;  ///< how near to them
+    double bulge;  ///< of a coarse edge: how far its fine vertices lie outside, so that no face is flat
+};
+constexpr std::array attempts{Attempt{0.0, 0.0},  Attempt{0.9, 1e-3}, Attempt{1.0, 1e-3}, Attempt{1.0, 1e-4},
+                              Attempt{1.0, 1e-5}};
+constexpr double ear_height = 0.01;  // of a face at a corner that the part rounds, over its base
 
 using HeldVertex = std::pair<Index, Complex>;  // and where it stays
 using Corners = std::array<Eigen::RowVector3d, 3>;
@@ -228,11 +234,11 @@ private:
         const std::vector<char> none(piece.original.size(), 0);
         const PlanarPoints freely = courses(piece, parts_[part], face_near, {});
         piece.points = freely;
-        std::vector<HeldVertex> by_rims;
         std::vector<char> is_held(piece.surface.loops.size(), 0);
-        for (const double share : held_share) {
+        for (const auto& [share, bulge] : attempts) {
             if (share > 0.0) {
-                if (by_rims.empty() && (by_rims = rims_of(piece, parts_[part])).empty()) return false;
+                const std::vector<HeldVertex> by_rims = rims_of(piece, parts_[part], bulge);
+                if (by_rims.empty()) return false;
                 piece.points = courses(piece, parts_[part], face_near, held_between(piece, freely, by_rims, is_held, share));
             }
             if (!piece.points.allFinite()) return false;
@@ -329,12 +335,38 @@ private:
         std::vector<HeldVertex> held;
         for (const auto& [v, at] : by_rims)
             if (counts[v]) held.emplace_back(v, share * at + (1.0 - share) * (complex_at(freely, v) + shift));
+        turn_ears_upright(piece, held);
         return held;
     }
 
-    /// The boundary's vertices on the boundary of the relaxed part, at the same share of each coarse edge. Empty if
-    /// the loops do not correspond.
-    std::vector<HeldVertex> rims_of(const FlatPart& piece, const FlatPart& part) const
+    /// Moves the tip of a face with two edges on the boundary inwards, if the face would not be upright: at such a corner
+    /// the part has more than one face.
+    static void turn_ears_upright(const FlatPart& piece, std::vector<HeldVertex>& held)
+    {
+        const Triangles& triangles = piece.surface.triangles;
+        const std::vector<Index>& twin = piece.surface.twin;
+        PlanarPoints points = piece.points;
+        std::vector<char> is_held(piece.original.size(), 0);
+        for (const auto& [v, at] : held) {
+            points.row(v) << at.real(), at.imag();
+            is_held[v] = 1;
+        }
+        std::vector<Index> ear(piece.original.size(), no_twin);  // the half-edge that leaves its tip
+        for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
+            if (twin[h] == no_twin && twin[previous_halfedge(h)] == no_twin &&
+                std::ranges::all_of(triangles.row(face_of(h)), [&](Index v) { return is_held[v] != 0; }) &&
+                !(signed_area(points, triangles, face_of(h)) > 0.0))
+                ear[origin(triangles, h)] = h;
+        for (auto& [v, at] : held)
+            if (ear[v] != no_twin) {
+                const Complex from = complex_at(points, origin(triangles, previous_halfedge(ear[v])));
+                at = from + Complex(0.5, -ear_height) * (complex_at(points, target(triangles, ear[v])) - from);
+            }
+    }
+
+    /// The boundary's vertices on the boundary of the relaxed part, at the same share of its length from one common
+    /// vertex to the next. Empty if the loops do not correspond.
+    std::vector<HeldVertex> rims_of(const FlatPart& piece, const FlatPart& part, double bulge) const
     {
         std::vector<Index> coarse_of(static_cast<std::size_t>(proxy_.fine.whole.vertices.rows()), -1);
         for (const VertexLoop& rim : part.surface.loops)
@@ -349,43 +381,55 @@ private:
                     anchors.push_back(i);
                     names.push_back(name);
                 }
-            const std::optional<VertexLoop> rim = rim_of(names, part, taken);
-            if (!rim) return {};
+            const VertexLoop rim = rim_of(names, part, taken);
+            if (rim.empty()) return {};
+            std::size_t next = 0;
             for (std::size_t k = 0; k < anchors.size(); ++k) {
-                const std::size_t from = anchors[k], to = anchors[(k + 1) % anchors.size()];
-                const Complex start = complex_at(part.points, (*rim)[k]);
-                const Complex end = complex_at(part.points, (*rim)[(k + 1) % rim->size()]);
-                const auto at = [&](std::size_t i) { return piece.vertices.row(loop[i % loop.size()]); };
-                const std::size_t count = to > from ? to - from : to + loop.size() - from;
-                std::vector<double> length{0.0};
-                for (std::size_t i = 0; i < count; ++i)
-                    length.push_back(length.back() + (at(from + i + 1) - at(from + i)).norm());
-                for (std::size_t i = 0; i < count; ++i) {
-                    const double t = length[i] / length.back();
-                    const Complex outward(t, -bulge * 4.0 * t * (1.0 - t));
-                    held.emplace_back(loop[(from + i) % loop.size()], start + outward * (end - start));
-                }
+                std::vector<Complex> course{complex_at(part.points, rim[next])};
+                const Index to_name = names[(k + 1) % names.size()];
+                do course.push_back(complex_at(part.points, rim[++next % rim.size()]));
+                while (next % rim.size() != 0 && (k + 1 == anchors.size() || part.original[rim[next]] != to_name));
+                hold_along(course, piece, loop, anchors[k], anchors[(k + 1) % anchors.size()], bulge, held);
             }
         }
         return held;
     }
 
-    /// The part's loop with these names one after the other, from the first of them.
-    static std::optional<VertexLoop> rim_of(const std::vector<Index>& names, const FlatPart& part,
-                                            std::vector<char>& taken)
+    /// Spreads the vertices of a loop from one place in it up to the next along a course in the plane.
+    static void hold_along(const std::vector<Complex>& course, const FlatPart& piece, const VertexLoop& loop,
+                           std::size_t from, std::size_t to, double bulge, std::vector<HeldVertex>& held)
+    {
+        const std::size_t count = to > from ? to - from : to + loop.size() - from;
+        const auto vertex = [&](std::size_t i) { return loop[(from + i) % loop.size()]; };
+        std::vector<double> length{0.0}, course_length{0.0};
+        for (std::size_t i = 0; i < count; ++i)
+            length.push_back(length.back() + (piece.vertices.row(vertex(i + 1)) - piece.vertices.row(vertex(i))).norm());
+        for (std::size_t i = 1; i < course.size(); ++i)
+            course_length.push_back(course_length.back() + std::abs(course[i] - course[i - 1]));
+        std::size_t k = 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double here = length[i] / length.back() * course_length.back();
+            while (k + 1 < course.size() && here > course_length[k]) ++k;
+            const double edge = course_length[k] - course_length[k - 1];
+            const double t = edge > 0.0 ? (here - course_length[k - 1]) / edge : 0.0;
+            held.emplace_back(vertex(i), course[k - 1] + Complex(t, -bulge * 4.0 * t * (1.0 - t)) * (course[k] - course[k - 1]));
+        }
+    }
+
+    /// The part's loop that has these names one after the other, from the first of them; empty if there is none. It may
+    /// have others between them: short darts may have no path, and a path may end elsewhere on a loop.
+    static VertexLoop rim_of(const std::vector<Index>& names, const FlatPart& part, std::vector<char>& taken)
     {
         for (std::size_t k = 0; k < part.surface.loops.size(); ++k) {
             VertexLoop rim = part.surface.loops[k];
-            if (taken[k] || rim.size() != names.size()) continue;
-            for (std::size_t turn = 0; turn < rim.size(); ++turn) {
-                const auto is_same = [&](std::size_t i) { return part.original[rim[i]] == names[i]; };
-                std::size_t i = 0;
-                while (i < rim.size() && is_same(i)) ++i;
-                if (i == rim.size()) {
-                    taken[k] = 1;
-                    return rim;
-                }
-                std::ranges::rotate(rim, rim.begin() + 1);
+            if (taken[k] || names.empty()) continue;
+            for (std::size_t turn = 0; turn < rim.size(); ++turn, std::ranges::rotate(rim, rim.begin() + 1)) {
+                if (part.original[rim.front()] != names.front()) continue;
+                std::size_t found = 0;
+                for (const Index v : rim) found += found < names.size() && part.original[v] == names[found];
+                if (found < names.size()) continue;
+                taken[k] = 1;
+                return rim;
             }
         }
         return {};

@@ -6,8 +6,8 @@
 #include "foldover/face_energy.h"
 #include "foldover/newton_system.h"
 #include "foldover/turn_upright.h"
+#include "foldover/void_mesh.h"
 #include "planar/boundary_crossings.h"
-#include "planar/planar_mesh.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 #include "surface/laplacian.h"
@@ -25,68 +25,6 @@
 
 namespace koebe {
 namespace {
-
-struct VoidMesh {
-    PlanarPoints points;  ///< (V + n, 2) points of the surface, four corners of the frame, other points of the void
-    Triangles triangles;  ///< triangles of the void only, counter-clockwise
-};
-
-constexpr double frame_margin = 0.25;  // of the extent, on each side
-constexpr PlanarMeshOptions coarse{.gradation = 1.0, .smoothing = 0};
-
-VectorXcd polygon_of(const VertexLoop& loop, const PlanarPoints& points)
-{
-    VectorXcd polygon(static_cast<Eigen::Index>(loop.size()));
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        polygon[static_cast<Eigen::Index>(i)] = Complex(points(loop[i], 0), points(loop[i], 1));
-    return polygon;
-}
-
-/// Its corners.
-VectorXcd frame_of(const PlanarPoints& points)
-{
-    const Eigen::RowVector2d low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
-    const double margin = frame_margin * (high - low).maxCoeff();
-    VectorXcd frame(4);
-    frame << Complex(low[0] - margin, low[1] - margin), Complex(high[0] + margin, low[1] - margin),
-        Complex(high[0] + margin, high[1] + margin), Complex(low[0] - margin, high[1] + margin);
-    return frame;
-}
-
-/// Triangulates the space between a frame and the outer loop, and the inside of each inner loop.
-/// @param loops simple and apart; the loop that encloses most is the outer loop
-/// @throws InputError loops that are not simple, or not apart
-VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points)
-{
-    const VectorXcd frame = frame_of(points);
-    const Index first_corner = static_cast<Index>(points.rows());
-    std::vector<Complex> added(frame.begin(), frame.end());
-    std::vector<Index> corners;
-    /// @param names of the polygons' vertices; all others are new
-    const auto add = [&](const PlanarMesh& mesh, const std::vector<Index>& names) {
-        const Index known = static_cast<Index>(names.size());
-        const Index first = first_corner + static_cast<Index>(added.size()) - known;
-        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
-            for (const Index v : mesh.triangles.row(f)) corners.push_back(v < known ? names[v] : first + v);
-        added.insert(added.end(), mesh.points.begin() + known, mesh.points.end());
-    };
-    const auto size = [&](const VertexLoop& loop) { return std::abs(enclosed_area(loop, points)); };
-    const auto outer = std::ranges::max_element(loops, {}, size);
-    std::vector<Index> names(4);
-    std::iota(names.begin(), names.end(), first_corner);
-    names.insert(names.end(), outer->begin(), outer->end());
-    add(planar_mesh({frame, polygon_of(*outer, points)}, coarse), names);
-    for (auto loop = loops.begin(); loop != loops.end(); ++loop)
-        if (loop != outer) add(planar_mesh({polygon_of(*loop, points)}, coarse), *loop);
-
-    VoidMesh mesh;
-    mesh.points.resize(points.rows() + static_cast<Eigen::Index>(added.size()), 2);
-    mesh.points.topRows(points.rows()) = points;
-    for (std::size_t i = 0; i < added.size(); ++i)
-        mesh.points.row(points.rows() + static_cast<Eigen::Index>(i)) << added[i].real(), added[i].imag();
-    mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
-    return mesh;
-}
 
 using Mobility = FoldoverProblem::Mobility;
 
@@ -107,6 +45,7 @@ constexpr double least_gap = 1e-4;         // between loops, over the extent
 constexpr double area_rounding = 1.5e-7;   // twice the area lost by 32-bit floats, over the edge and the extent
 constexpr double ample_face = 1000.0;      // times that: a face as large is not hindered
 constexpr double shortest_drawn = 1e-7;    // over the extent: shorter edges say nothing about a loop's course
+constexpr int fine_grid = 1 << 21;         // with the void, which opens narrow gaps again
 constexpr std::array grids{1 << 19, 1 << 20, 1 << 21, 1 << 22};  // points along the extent; 32-bit floats have 1 << 24
 
 double area(const CornerPlaces& at) { return 0.5 * cross(at[1] - at[0], at[2] - at[0]); }
@@ -179,7 +118,7 @@ public:
     bool relax_once(EvenMap& result, int iterations)
     {
         FoldoverProblem problem = surface_problem();
-        const FoldoverResult done = minimize(problem, iterations, &pattern_);
+        const FoldoverResult done = minimize(problem, iterations, grid_, &pattern_);
         take(problem, done, result);
         return done.hindered;
     }
@@ -190,11 +129,12 @@ public:
         for (int round = 0; round < effort_.most_rounds; ++round) {
             FoldoverProblem problem = surface_problem();
             try {
-                add_void(problem);
+                add_void(flat_.loops, void_weight / static_cast<double>(flat_.triangles.rows()), least_gap * extent_,
+                         problem);
             } catch (const InputError&) {
                 return;
             }
-            const FoldoverResult done = minimize(problem, steps_a_round);
+            const FoldoverResult done = minimize(problem, steps_a_round, grid_ > 0 ? std::max(grid_, fine_grid) : 0);
             take(problem, done, result);
             ++result.rounds;
             const double now = energy();
@@ -204,7 +144,8 @@ public:
     }
 
 private:
-    FoldoverResult minimize(FoldoverProblem& problem, int iterations, NewtonPattern* pattern = nullptr) const
+    /// @param grid on which loops stay apart; 0: none
+    FoldoverResult minimize(FoldoverProblem& problem, int iterations, int grid, NewtonPattern* pattern = nullptr) const
     {
         const Eigen::Index own = flat_.points.rows();
         return minimize_foldover_free(problem, context_,
@@ -217,7 +158,7 @@ private:
                                        .refuses = [&](const FoldoverPlaces& places) {
                                            const PlanarPoints points = places.points.topRows(own);
                                            return !apart(points, shortest_) ||
-                                                  (grid_ > 0 && !apart_on_grid(points, grid_)) ||
+                                                  (grid > 0 && !apart_on_grid(points, grid)) ||
                                                   (flat_.refuses && flat_.refuses(places));
                                        }});
     }
@@ -319,40 +260,6 @@ private:
         problem.lift = flat_.lift;
         problem.periods = periods();
         return problem;
-    }
-
-    void add_void(FoldoverProblem& problem) const
-    {
-        const VoidMesh around = void_mesh(flat_.loops, flat_.points);
-        const Eigen::Index own = flat_.triangles.rows();
-        std::vector<Index> kept;
-        for (Eigen::Index f = 0; f < around.triangles.rows(); ++f)
-            if (area(corners_of(around.points, around.triangles, f)) > 0.0) kept.push_back(static_cast<Index>(f));
-        const Eigen::Index count = own + static_cast<Eigen::Index>(kept.size());
-        const double weight = void_weight / static_cast<double>(own);
-        problem.points = around.points;
-        problem.triangles.conservativeResize(count, 3);
-        problem.weight.conservativeResize(count);
-        problem.floor.conservativeResize(count);
-        // A void face keeps its present shape: a light one, so that it only holds the loops apart.
-        for (std::size_t i = 0; i < kept.size(); ++i) {
-            const Eigen::Index f = own + static_cast<Eigen::Index>(i);
-            const auto row = around.triangles.row(kept[i]);
-            problem.triangles.row(f) = row;
-            Eigen::Matrix2d edges;
-            edges << (around.points.row(row[1]) - around.points.row(row[0])).transpose(),
-                (around.points.row(row[2]) - around.points.row(row[0])).transpose();
-            problem.reference.push_back(edges);
-            problem.weight[f] = weight;
-            const double now = 0.5 * edges.determinant();
-            const double longest = longest_edge(corners_of(around.points, around.triangles, kept[i]));
-            problem.floor[f] = std::min(0.5 * least_gap * extent_ * longest / now, 0.5);
-        }
-        // The frame is held, all else of the void is free.
-        problem.mobility.resize(static_cast<std::size_t>(around.points.rows()), Mobility::free);
-        for (int corner = 0; corner < 4; ++corner)
-            problem.mobility[static_cast<std::size_t>(flat_.points.rows()) + corner] = Mobility::held;
-        problem.track_of.resize(problem.mobility.size(), -1);
     }
 
     void take(const FoldoverProblem& problem, const FoldoverResult& done, EvenMap& result)

@@ -1,7 +1,9 @@
 #include "foldover/turn_upright.h"
 
+#include "core/errors.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
+#include "foldover/void_mesh.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
@@ -15,26 +17,38 @@ using Mobility = FoldoverProblem::Mobility;
 
 constexpr std::array reach{2, 6, 18};  // rings
 
+constexpr double void_weight = 1e-3;       // of a face of the void, over a face of the surface
+
+/// What loops do: stay, move without meeting, or move.
+enum class LoopsMay { stay, move_apart, move };
+
 class FallenFaces {
 public:
     FallenFaces(const Vertices& vertices, const Triangles& triangles, const std::vector<VertexLoop>& loops,
                 const std::vector<char>& fixed, const PlanarPoints& points)
         : vertices_(vertices), triangles_(triangles), loops_(loops), fixed_(fixed), points_(points)
     {
-        for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
-            if (!is_upright(f, points)) fallen_.push_back(f);
+        fallen_ = fallen(points);
     }
 
     const std::vector<Index>& faces() const { return fallen_; }
 
+    /// Goes on from other points, if fewer faces are without positive area there.
+    void go_on_from(PlanarPoints points)
+    {
+        if (!points.allFinite() || fallen(points).size() >= fallen_.size()) return;
+        points_ = std::move(points);
+        fallen_ = fallen(points_);
+    }
+
     bool is_upright(Index f, const PlanarPoints& points) const { return signed_area(points, triangles_, f) > 0.0; }
 
     /// @return the points after; `right` says whether all faces are upright
-    std::pair<bool, PlanarPoints> moved(int rings, bool hold_loops, const ExecutionContext& context) const
+    std::pair<bool, PlanarPoints> moved(int rings, LoopsMay loops_may, const ExecutionContext& context) const
     {
         FoldoverProblem problem;
         problem.points = points_;
-        problem.mobility = mobile(rings, hold_loops);
+        problem.mobility = mobile(rings, loops_may == LoopsMay::stay);
         std::vector<Index> faces;
         for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
             if (std::ranges::any_of(triangles_.row(f), [&](Index v) { return problem.mobility[v] != Mobility::held; }))
@@ -42,14 +56,29 @@ public:
         problem.triangles = triangles_(faces, Eigen::all);
         problem.reference = patch_shapes(vertices_, triangles_, points_, faces, PatchShape::surface).references;
         problem.floor = VectorXd::Zero(problem.triangles.rows());
+        if (loops_may == LoopsMay::move_apart) {
+            try {
+                add_void(loops_, void_weight, 0.0, problem);
+            } catch (const InputError&) {  // they are not apart now
+                return {false, points_};
+            }
+        }
         const bool right = !faces.empty() && minimize_foldover_free(problem, context).foldover_free &&
                            problem.points.allFinite() &&
                            std::ranges::all_of(faces, [&](Index f) { return is_upright(f, problem.points); }) &&
                            std::ranges::all_of(fallen_, [&](Index f) { return is_upright(f, problem.points); });
-        return {right, std::move(problem.points)};
+        return {right, problem.points.topRows(points_.rows())};
     }
 
 private:
+    std::vector<Index> fallen(const PlanarPoints& points) const
+    {
+        std::vector<Index> faces;
+        for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
+            if (!is_upright(f, points)) faces.push_back(f);
+        return faces;
+    }
+
     std::vector<Mobility> mobile(int rings, bool hold_loops) const
     {
         std::vector<char> near(static_cast<std::size_t>(points_.rows()), 0);
@@ -75,7 +104,7 @@ private:
     const Triangles& triangles_;
     const std::vector<VertexLoop>& loops_;
     const std::vector<char>& fixed_;
-    const PlanarPoints& points_;
+    PlanarPoints points_;
     std::vector<Index> fallen_;
 };
 
@@ -84,14 +113,17 @@ private:
 bool turn_upright(const Vertices& vertices, const Triangles& triangles, const std::vector<VertexLoop>& loops,
                   const std::vector<char>& fixed, PlanarPoints& points, const ExecutionContext& context)
 {
-    const FallenFaces fallen(vertices, triangles, loops, fixed, points);
+    FallenFaces fallen(vertices, triangles, loops, fixed, points);
     if (fallen.faces().empty()) return true;
-    for (const bool hold_loops : {true, false})
-        for (const int rings : reach)
-            if (auto [right, after] = fallen.moved(rings, hold_loops, context); right) {
+    for (const LoopsMay loops_may : {LoopsMay::stay, LoopsMay::move_apart, LoopsMay::move})
+        for (const int rings : reach) {
+            auto [right, after] = fallen.moved(rings, loops_may, context);
+            if (right) {
                 points = std::move(after);
                 return true;
             }
+            if (loops_may == LoopsMay::stay) fallen.go_on_from(std::move(after));
+        }
     return false;
 }
 
