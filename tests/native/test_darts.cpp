@@ -1,8 +1,7 @@
 #include "even/even_forces.h"
 #include "even/even_map.h"
 #include "mesh/topology.h"
-#include "parts/carried_cuts.h"
-#include "parts/coarse_parts.h"
+#include "parts/carried_parts.h"
 #include "parts/dart_rounds.h"
 #include "parts/darts.h"
 #include "planar/boundary_crossings.h"
@@ -145,53 +144,54 @@ TEST(Darts, one_that_begins_at_a_round_loop_leaves_both_ends_on_the_circle)
                     1e-12);
 }
 
-TEST(CoarseParts, keep_places_loops_and_area)
+/// A cone as a piece of a mesh, and its proxy.
+Proxy proxy_of_cone(const FlatPart& fine, Index faces)
 {
-    const FlatPart fine = cone(1.5 * pi);
+    PieceInput input{whole_piece(fine.vertices, fine.surface.triangles)};
+    input.seam.assign(fine.surface.twin.size(), 0);
     ExecutionContext context;
-    const CoarseParts coarse = coarse_parts({fine, fine}, 400, context);
-    ASSERT_EQ(coarse.parts.size(), 2U);
-    std::size_t faces = 0;
-    for (std::size_t k = 0; k < 2; ++k) {
-        const FlatPart& part = coarse.parts[k];
-        faces += part.faces.size();
-        EXPECT_EQ(part.surface.loops.size(), 1U);
-        EXPECT_TRUE(lies_one_to_one(part, part.points));
-        double area = 0.0, fine_area = 0.0;
-        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
-            area += signed_area(part.points, part.surface.triangles, f);
-        for (Eigen::Index f = 0; f < fine.surface.triangles.rows(); ++f)
-            fine_area += signed_area(fine.points, fine.surface.triangles, f);
-        EXPECT_NEAR(area, fine_area, 0.05 * fine_area);
-        for (std::size_t v = 0; v < part.original.size(); ++v) {
-            EXPECT_EQ(part.original[v], fine.original[coarse.vertex[k][v]]);
-            EXPECT_EQ(part.points.row(static_cast<Eigen::Index>(v)), fine.points.row(coarse.vertex[k][v]));
-        }
-    }
-    EXPECT_LE(faces, 400U);
-    EXPECT_GT(faces, 350U);
+    return proxy_of(input, surface_of(input), faces, context);
 }
 
-// The cuts of a coarse part lie in the fine part where they lay, and let it lie flat as they did there.
-TEST(CarriedCuts, a_dart_lays_the_fine_cone_flat_too)
+TEST(Proxy, keeps_loops_and_area_and_places_of_vertices)
+{
+    const FlatPart fine = cone(1.5 * pi);
+    const Proxy proxy = proxy_of_cone(fine, 300);
+    EXPECT_LE(proxy.surface.triangles.rows(), 300);
+    EXPECT_GT(proxy.surface.triangles.rows(), 250);
+    EXPECT_EQ(proxy.surface.loops.size(), 1U);
+    EXPECT_NEAR(face_areas(proxy.input.piece.vertices, proxy.input.piece.triangles).sum(), area_of_cone, 1e-3);
+    for (std::size_t v = 0; v < proxy.coarse.vertex.size(); ++v)
+        EXPECT_EQ(proxy.coarse.vertices.row(static_cast<Eigen::Index>(v)), fine.vertices.row(proxy.coarse.vertex[v]));
+}
+
+// The cuts of a part of the proxy lie in the fine part where they lay, and let it lie flat as they did there.
+TEST(CarriedParts, a_dart_lays_the_fine_cone_flat_too)
 {
     constexpr double even = 0.1;
     FlatPart fine = cone(1.5 * pi);
+    const Proxy proxy = proxy_of_cone(fine, 300);
+    FlatPart coarse;
+    coarse.vertices = proxy.input.piece.vertices;
+    coarse.surface = proxy.surface;
+    coarse.points = fine.points(proxy.coarse.vertex, Eigen::all);
+    coarse.held.assign(proxy.coarse.vertex.size(), 0);
+    for (Index f = 0; f < static_cast<Index>(proxy.surface.triangles.rows()); ++f) coarse.faces.push_back(f);
+    for (Index v = 0; v < proxy.surface.vertex_count; ++v) coarse.original.push_back(v);
     relax(fine, even);
     const double before = energy(fine, even);
     ExecutionContext context;
-    const CoarseParts coarse = coarse_parts({fine}, 300, context);
-    std::vector<HeldPart> cut{{coarse.parts.front(), {}}};
+    std::vector<HeldPart> cut{{coarse, {}}};
     relax(cut.front().flat, even);
     cut_darts(cut, even, 1e-3, 1, context);
     relax(cut.front().flat, even);
     const FlatPart& after = cut.front().flat;
     ASSERT_EQ(after.tips.size(), 1U);
-    EXPECT_EQ(after.original[after.tips.front()], 0);
-    const CarriedParts carried_parts = carried({fine}, coarse, {after}, context);
-    ASSERT_EQ(carried_parts.parts.size(), 1U);
-    EXPECT_EQ(carried_parts.how, std::vector<Carried>{Carried::placed});
-    FlatPart part = carried_parts.parts.front();
+    EXPECT_EQ(proxy.coarse.vertex[after.original[after.tips.front()]], 0);
+    std::vector<FlatPart> carried = carried_parts(proxy, {after}, 1, context);
+    ASSERT_EQ(carried.size(), 1U);
+    FlatPart& part = carried.front();
+    EXPECT_TRUE(part.is_near);
     EXPECT_EQ(part.faces, fine.faces);
     EXPECT_EQ(part.surface.loops.size(), 1U);
     ASSERT_EQ(part.tips.size(), 1U);
@@ -201,4 +201,66 @@ TEST(CarriedCuts, a_dart_lays_the_fine_cone_flat_too)
     EXPECT_LT(energy(part, even), 0.2 * before);  // it starts near the end,
     relax(part, even);
     EXPECT_LT(energy(part, even), 1e-5 * before);  // and reaches it
+}
+
+/// Some faces of a proxy as a part, without places in the plane.
+FlatPart part_of_faces(const Proxy& proxy, const std::vector<Index>& faces)
+{
+    FlatPart part;
+    part.faces = faces;
+    std::vector<Index> name(proxy.coarse.vertex.size(), -1);
+    Triangles triangles(static_cast<Eigen::Index>(faces.size()), 3);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            const Index v = proxy.surface.triangles(faces[i], k);
+            if (name[v] < 0) {
+                name[v] = static_cast<Index>(part.original.size());
+                part.original.push_back(v);
+            }
+            triangles(static_cast<Eigen::Index>(i), k) = name[v];
+        }
+    part.surface = analyze_surface(triangles, static_cast<Index>(part.original.size()));
+    return part;
+}
+
+TEST(CarriedParts, borders_of_a_proxy_s_parts_become_fine_ones_as_long)
+{
+    const FlatPart fine = cone(1.5 * pi);
+    const Proxy proxy = proxy_of_cone(fine, 300);
+    const double side = std::sqrt(2.0 * area_of_cone / (1.5 * pi));
+    std::vector<std::vector<Index>> faces(2);
+    double coarse_border = 0.0;
+    std::vector<int> label;
+    for (const auto& face : proxy.surface.triangles.rowwise()) {
+        Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
+        for (const Index v : face) middle += proxy.coarse.vertices.row(v) / 3.0;
+        label.push_back(middle.norm() < 0.6 * side ? 0 : 1);
+        faces[label.back()].push_back(static_cast<Index>(label.size() - 1));
+    }
+    const auto border = [](const Surface& surface, const Vertices& vertices, const std::vector<int>& own) {
+        double sum = 0.0;
+        for (Index h = 0; h < static_cast<Index>(surface.twin.size()); ++h)
+            if (surface.twin[h] >= 0 && own[h / 3] < own[surface.twin[h] / 3])
+                sum += (vertices.row(surface.triangles(h / 3, h % 3)) -
+                        vertices.row(surface.triangles(h / 3, (h + 1) % 3)))
+                           .norm();
+        return sum;
+    };
+    coarse_border = border(proxy.surface, proxy.coarse.vertices, label);
+    ExecutionContext context;
+    const std::vector<std::vector<Index>> carried =
+        carried_faces(proxy, {part_of_faces(proxy, faces[0]), part_of_faces(proxy, faces[1])}, context);
+    ASSERT_EQ(carried.size(), 2U);
+    EXPECT_EQ(carried[0].size() + carried[1].size(), fine.faces.size());
+    std::vector<int> own(fine.faces.size(), 1);
+    for (const Index f : carried[0]) own[f] = 0;
+    for (std::size_t f = 0; f < own.size(); ++f) {
+        double off = 0.0;
+        for (int k = 0; k < 3; ++k)
+            off += fine.vertices.row(fine.surface.triangles(static_cast<Eigen::Index>(f), k)).norm() / 3.0;
+        if (std::abs(off / side - 0.6) > 0.2) {
+            EXPECT_EQ(own[f], off < 0.6 * side ? 0 : 1) << f;
+        }
+    }
+    EXPECT_NEAR(border(fine.surface, fine.vertices, own), coarse_border, 0.15 * coarse_border);
 }

@@ -8,7 +8,6 @@
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
 #include "splitting/coarse_surface.h"
-#include "splitting/fine_labels.h"
 #include "splitting/mirror_symmetry.h"
 
 #include <Eigen/Geometry>
@@ -414,34 +413,6 @@ TEST(Parts, a_coarse_surface_keeps_loops_and_area)
             const Index v = mesh.triangles(coarse.face[f], k);
             EXPECT_TRUE((coarse.triangles.row(static_cast<Eigen::Index>(f)).array() == coarse.vertex_at[v]).any()) << f;
         }
-}
-
-TEST(Parts, coarse_labels_become_fine_ones)
-{
-    const Mesh mesh = finger(10.0, 48);
-    const CutSurface whole = cut_surface(mesh.vertices, mesh.triangles, {});
-    ExecutionContext context;
-    const CoarseSurface coarse =
-        coarse_surface(mesh.vertices, mesh.triangles, static_cast<Index>(mesh.triangles.rows()) / 6, {}, context);
-    std::vector<int> label;
-    for (const auto& face : coarse.triangles.rowwise()) {
-        const double height =
-            (coarse.vertices(face[0], 2) + coarse.vertices(face[1], 2) + coarse.vertices(face[2], 2)) / 3.0;
-        label.push_back(height < 4.0 ? 0 : height < 8.0 ? 1 : 2);
-    }
-    const std::vector<int> fine = fine_labels(whole, coarse, label, 3, context);
-    for (std::size_t f = 0; f < fine.size(); ++f) {
-        const double height = mesh.vertices(mesh.triangles.row(static_cast<Eigen::Index>(f)), 2).mean();
-        if (std::abs(height - 4.0) > 1.5 && std::abs(height - 8.0) > 1.5) {
-            EXPECT_EQ(fine[f], height < 4.0 ? 0 : height < 8.0 ? 1 : 2) << f;
-        }
-    }
-    // The borders are the girth, not the zigzag of coarse faces.
-    double border = 0.0;
-    for (std::size_t h = 0; h < whole.surface.twin.size(); ++h)
-        if (const Index t = whole.surface.twin[h]; t >= 0 && fine[t / 3] != fine[h / 3])
-            border += 0.5 * whole.lengths[static_cast<Eigen::Index>(h)];
-    EXPECT_NEAR(border, 2 * 2 * pi, 0.02 * 2 * 2 * pi);
 }
 
 TEST(Parts, polygons_stay_whole)

@@ -113,7 +113,9 @@ private:
         std::vector<std::pair<Index, Index>> all = found->second;
         all.emplace_back(coarse, fine);
         const std::vector<Index> here = leaving_of(coarse_, coarse), there = leaving_of(fine_.surface, fine);
-        const auto place = [](const std::vector<Index>& ring, Index h) { return std::ranges::find(ring, h) - ring.begin(); };
+        const auto place = [](const std::vector<Index>& ring, Index h) {
+            return std::ranges::find(ring, h) - ring.begin();
+        };
         std::ranges::sort(all, {}, [&](const auto& own) { return place(here, own.first); });
         int descents = 0;
         for (std::size_t i = 0; i < all.size(); ++i)
@@ -128,7 +130,8 @@ private:
     double chain_length(const Path& chain) const
     {
         double sum = 0.0;
-        for (const Index h : chain) sum += (fine_.vertices.row(fine_origin(h)) - fine_.vertices.row(fine_target(h))).norm();
+        for (const Index h : chain)
+            sum += (fine_.vertices.row(fine_origin(h)) - fine_.vertices.row(fine_target(h))).norm();
         return sum;
     }
 
@@ -235,7 +238,8 @@ std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net,
     PathFinder finder(proxy, net);
     std::vector<CarriedPath> all;
     std::vector<Path> chains = finder.chains();
-    std::ranges::stable_partition(chains, [&](const Path& own) { return net.parts_differ(proxy.surface, own.front()); });
+    std::ranges::stable_partition(chains,
+                                  [&](const Path& own) { return net.parts_differ(proxy.surface, own.front()); });
     for (const Path& chain : chains) {
         context.checkpoint();
         if (auto path = finder.carried(chain)) all.push_back(std::move(*path));

@@ -14,9 +14,9 @@ namespace koebe {
 std::vector<std::vector<Index>> carried_faces(const Proxy& proxy, const std::vector<FlatPart>& parts,
                                               const ExecutionContext& context);
 
-/// Cuts the fine surface along the net of the parts, with their darts and slits. Each piece takes its place in the plane
-/// from its relaxed part: its edges have, in the mean, the courses that the part's map would give them. A piece that is
-/// not one to one there, also as stored, is mapped by itself.
+/// Cuts the fine surface along the net of the parts, with their darts and slits. Each piece takes its place in the
+/// plane from its relaxed part: its edges have, in the mean, the courses that the part's map would give them. A piece
+/// that is not one to one there, also as stored, is mapped by itself.
 /// @param parts they name faces and vertices of the coarse surface
 /// @return pieces with numbers of the fine surface; empty if they do not correspond to the parts
 std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPart>& parts, int threads,

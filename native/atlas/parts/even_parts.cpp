@@ -20,18 +20,18 @@ namespace koebe {
 namespace {
 
 constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: vertices farther off are free
-constexpr double first_even = 0.02, least_even = 0.005;       // start and end of the search for E
-constexpr EvenEffort search{.most_steps = 12};                // for an E of the search, and before it for
-constexpr EvenEffort look{4, 1, 8};                           // a first look, which ends the trial if
-constexpr double clearly_worse = 1.02;                        // angles are worse by this factor
-constexpr double most_worse = 1.1;                            // the same, of parts that start from coarse ones
-constexpr double roomy_piece = 0.1;                           // price of one more part, if that saves room
-constexpr double step = 1.5;                                  // factor from one E to the next
-constexpr double even_with_darts = 0.1;                       // E with darts, if no E is given,
-constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // and if angles are then worse
-constexpr double tolerant = 1.2;                              // of an E at which angles may be no worse
-constexpr EvenEffort carried_effort{12, 3, 24};               // for parts that were relaxed on a coarse surface, or
-constexpr EvenEffort own_effort{12, 6, 60};                   // for those of them that start from their own map
+constexpr double first_even = 0.02, least_even = 0.005;           // start and end of the search for E
+constexpr EvenEffort search{.most_steps = 12, .most_rounds = 5};  // for an E of the search, and before it for
+constexpr EvenEffort look{4, 1, 8};                               // a first look, which ends the trial if
+constexpr double clearly_worse = 1.02;                            // angles are worse by this factor
+constexpr double most_worse = 1.1;                                // the same, of parts that start from coarse ones
+constexpr double roomy_piece = 0.1;                               // price of one more part, if that saves room
+constexpr double step = 1.5;                                      // factor from one E to the next
+constexpr double even_with_darts = 0.1;                           // E with darts, if no E is given,
+constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};      // and if angles are then worse
+constexpr double tolerant = 1.2;                                  // of an E at which angles may be no worse
+constexpr EvenEffort carried_effort{12, 3, 24};                   // for parts that were relaxed on a coarse surface, or
+constexpr EvenEffort own_effort{12, 6, 60};                       // for those of them that start from their own map
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -173,8 +173,9 @@ public:
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
             const double worse = angles() / most;
             if (worse <= 1.0) return even;
-            next = std::find_if(next, less_even_with_darts.end(),
-                                [&](double less) { return less < even && less * std::pow(worse, 3) < tolerant * even; });
+            next = std::find_if(next, less_even_with_darts.end(), [&](double less) {
+                return less < even && less * std::pow(worse, 3) < tolerant * even;
+            });
             if (next == less_even_with_darts.end()) next = std::prev(next);
             if (*next >= even) return 0.0;
             even = *next;

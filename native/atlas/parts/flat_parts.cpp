@@ -210,15 +210,14 @@ bool hopeless_as_one(const Part& root, double error)
 }
 
 /// A whole piece in the map by which it was split, if that has no flaws as stored; else as uniformize repairs it, if
-/// there is no such map, or if the parts are `broken`: repairs take long, and seldom bend less than cuts.
-/// @return no part if there is none
+/// the parts are `broken`: repairs take long, and seldom bend less than cuts. @return no part if there is none
 std::optional<FlatPart> as_one_map(const CutSurface& whole, const Part* root, bool broken, ExecutionContext& context)
 {
     if (root != nullptr && root->map.positions.size() > 0) {
         FlatPart one = flat_as_mapped(root->mesh, points_of(root->map));
         if (!flaws_of(one, Frame(one.points).uv(one.points), whole.areas).any()) return one;
-        if (!broken) return {};
     }
+    if (!broken) return {};
     std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
     std::iota(faces.begin(), faces.end(), 0);
     const PartMesh mesh = part_mesh(whole, std::move(faces));

@@ -120,7 +120,8 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
     FlatParts flats = flat_parts(whole, mirror, parts, {prices.cut_price, prices.part_price, options.round_cuts},
                                  threads, context, effort);
     if (is_cut || flats.parts.size() == 1)
-        if (auto one = better_as_one(is_closed ? opened(input) : whole, root.get(), flats, prices.part_price, context)) {
+        if (auto one =
+                better_as_one(is_closed ? opened(input) : whole, root.get(), flats, prices.part_price, context)) {
             flats.parts.clear();
             flats.parts.push_back(std::move(*one));
         }

@@ -21,6 +21,12 @@ std::vector<Value> values_at(const std::vector<Value>& values, const std::vector
 
 }  // namespace
 
+bool may_unfold(const PartsOptions& options)
+{
+    return options.even != 0.0 && options.darts > 0.0 && !options.round_cuts && options.loops != LoopForm::round &&
+           options.slits.empty();
+}
+
 OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
                                         OpenedSurface connected, const PartsOptions& options,
                                         std::vector<FlatPart>& parts, ExecutionContext& context)

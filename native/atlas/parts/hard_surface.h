@@ -10,6 +10,9 @@
 
 namespace koebe {
 
+/// Whether pieces may be unfolded true to size: E is not 0, and neither round loops nor slits are asked for.
+bool may_unfold(const PartsOptions& options);
+
 /// @param vertices, triangles of the input @param scaled the vertices, so that all areas sum to 1
 /// @param connected the input's surfaces, not opened (OpenOptions::open). Hard surfaces lose their parts (unfolding.h)
 /// @param parts takes the hard parts, by numbers of the input

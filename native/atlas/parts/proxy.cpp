@@ -4,7 +4,6 @@
 #include "surface/mirror.h"
 
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -17,12 +16,7 @@ SurfacePiece coarse_piece(const CoarseSurface& coarse, const Surface& surface, d
     const Vertices vertices = larger * coarse.vertices;
     if (surface.loops.empty())
         return std::move(open_surface(vertices, coarse.triangles, {.slit_beside_handles = false}, context).pieces[0]);
-    SurfacePiece piece{vertices, coarse.triangles, {}, {}, {}};
-    piece.source_vertex.resize(coarse.vertex.size());
-    piece.source_face.resize(coarse.face.size());
-    std::iota(piece.source_vertex.begin(), piece.source_vertex.end(), 0);
-    std::iota(piece.source_face.begin(), piece.source_face.end(), 0);
-    return piece;
+    return whole_piece(vertices, coarse.triangles);
 }
 
 /// (3F) of the coarse piece: on the boundary as the fine half-edge that leaves the same vertex.

@@ -17,7 +17,7 @@ using Mobility = FoldoverProblem::Mobility;
 
 constexpr std::array reach{2, 6, 18};  // rings
 
-constexpr double void_weight = 1e-3;       // of a face of the void, over a face of the surface
+constexpr double void_weight = 1e-3;  // of a face of the void, over a face of the surface
 
 /// What loops do: stay, move without meeting, or move.
 enum class LoopsMay { stay, move_apart, move };

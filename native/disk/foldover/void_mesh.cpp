@@ -102,8 +102,8 @@ void add_void(const std::vector<VertexLoop>& loops, double weight, double gap, F
         // The wanted shape: as it is, or wider if it is a narrow one.
         Eigen::Matrix2d& shape = shapes[i];
         const Eigen::Vector2d a = shape.col(0), b = shape.col(1), c = b - a;
-        const Eigen::Vector2d longest = a.norm() < b.norm() ? (b.norm() < c.norm() ? c : b)
-                                                            : (a.norm() < c.norm() ? c : a);
+        const Eigen::Vector2d longest =
+            a.norm() < b.norm() ? (b.norm() < c.norm() ? c : b) : (a.norm() < c.norm() ? c : a);
         const double width = shape.determinant() / longest.norm();
         const double wider = std::clamp(gap / width, 1.0, most_widened);
         const Eigen::Vector2d across = Eigen::Vector2d(-longest[1], longest[0]).normalized();

@@ -12,9 +12,10 @@ namespace koebe {
 /// the gap. As long as none turns over, no loops cross.
 /// @param loops of the problem's map, simple and apart; the loop that encloses most is the outer loop
 /// @param weight of each of these triangles; small, so that they only hold the loops apart
-/// @param gap wanted width between loops, in the unit of the points: wider triangles stay as wide, narrower ones lose at
-/// most half their width; 0: they stay upright
-/// @param problem its floors are set; empty weights become 1. New points follow its own ones: all are free but the frame
+/// @param gap wanted width between loops, in the unit of the points: wider triangles stay as wide, narrower ones lose
+/// at most half their width; 0: they stay upright
+/// @param problem its floors are set; empty weights become 1. New points follow its own ones: all are free but the
+/// frame
 /// @throws InputError loops that are not simple, or not apart
 void add_void(const std::vector<VertexLoop>& loops, double weight, double gap, FoldoverProblem& problem);
 

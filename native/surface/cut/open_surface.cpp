@@ -373,6 +373,16 @@ SurfacePiece to_piece(const SeamedMesh& mesh, const Vertices& vertices)
 
 }  // namespace
 
+SurfacePiece whole_piece(const Vertices& vertices, const Triangles& triangles)
+{
+    SurfacePiece piece{vertices, triangles, {}, {}, {}};
+    piece.source_vertex.resize(static_cast<std::size_t>(vertices.rows()));
+    piece.source_face.resize(static_cast<std::size_t>(triangles.rows()));
+    std::iota(piece.source_vertex.begin(), piece.source_vertex.end(), 0);
+    std::iota(piece.source_face.begin(), piece.source_face.end(), 0);
+    return piece;
+}
+
 const char* to_string(CutKind kind) noexcept
 {
     return word_of(kind, std::array{"crowded_edge", "orientation", "bow_tie", "handle", "opening"});

@@ -36,6 +36,9 @@ struct SurfacePiece {
     std::vector<char> turned;          ///< (F') 1 where the second and third corner are exchanged
 };
 
+/// All faces as one piece, which names them as they are.
+SurfacePiece whole_piece(const Vertices& vertices, const Triangles& triangles);
+
 struct LeftOutFace {
     Index face;       ///< names a vertex twice, or has the vertices of another face
     Index like;       ///< the face it is drawn like: with the same vertices, or a neighbour; -1: no such face

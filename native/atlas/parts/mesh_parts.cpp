@@ -1,0 +1,340 @@
+#include "parts/mesh_parts.h"
+
+#include "core/connectivity.h"
+#include "execution/side_by_side.h"
+#include "parts/carried_parts.h"
+#include "parts/even_parts.h"
+#include "parts/hard_surface.h"
+#include "parts/proxy.h"
+#include "parts/unfolding.h"
+#include "surface/importance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr Index proxy_from = 6000;       // faces: larger meshes are decided on proxies,
+constexpr Index proxy_faces = 5000;      // with about so many faces,
+constexpr Index least_proxy = 300;       // and each piece has at least so many
+constexpr double dearer_on_proxy = 2.0;  // cuts: coarse parts bend less, and so overrate them
+constexpr double few_cuts = 3.6;         // roots of a piece's area: a piece unfolded with fewer is not tried otherwise
+
+/// A piece and how far its parts are decided.
+struct MeshPiece : FlatPiece {
+    std::optional<PieceSurface> surface = {};  ///< until its parts are decided
+    std::optional<Proxy> proxy = {};           ///< on which the parts were decided
+    bool is_fine = true;                       ///< whether the parts name elements of the piece, not of the proxy
+};
+
+/// Tells faces how large they should be, and scales each part to the sum of its faces. @param importance of the
+/// vertices of all parts, or empty
+void ask_for_sizes(const std::vector<double>& importance, std::vector<FlatPart>& parts)
+{
+    if (importance.empty()) return;
+    Vertices vertices(static_cast<Eigen::Index>(importance.size()), 3);
+    Eigen::Index faces = 0, first = 0, row = 0;
+    for (const FlatPart& part : parts) faces += part.surface.triangles.rows();
+    Triangles triangles(faces, 3);
+    for (const FlatPart& part : parts) {
+        vertices.middleRows(first, part.vertices.rows()) = part.vertices;
+        triangles.middleRows(row, part.surface.triangles.rows()) =
+            part.surface.triangles.array() + static_cast<Index>(first);
+        first += part.vertices.rows();
+        row += part.surface.triangles.rows();
+    }
+    const Eigen::Map<const VectorXd> own(importance.data(), static_cast<Eigen::Index>(importance.size()));
+    const VectorXd sizes = size_factors(vertices, triangles, own);
+    if (sizes.size() == 0) return;
+    row = 0;
+    for (FlatPart& part : parts) {
+        const VectorXd areas = face_areas(part.vertices, part.surface.triangles);
+        const VectorXd wanted = sizes.segment(row, areas.size());
+        const double asked = part.sizes.empty() ? areas.dot(wanted) : 0.0;  // else its map has these sizes
+        part.sizes.assign(wanted.begin(), wanted.end());
+        if (asked > 0.0) part.points *= std::sqrt(asked / areas.sum());
+        row += areas.size();
+    }
+}
+
+/// Pieces, whose parts are decided one by one and made even together.
+class PartsOfPieces {
+public:
+    PartsOfPieces(std::vector<FlatPiece> pieces, const PartsOptions& options, bool roomy, ExecutionContext& context)
+        : options_(options), roomy_(roomy), context_(context)
+    {
+        for (FlatPiece& own : pieces) pieces_.push_back({std::move(own)});
+        for (const MeshPiece& own : pieces_)
+            if (own.parts.empty()) total_ += own.input.piece.triangles.rows();
+    }
+
+    /// Large pieces one after the other on all threads, the others side by side.
+    void decide()
+    {
+        if (total_ == 0) return;
+        std::vector<std::size_t> small, big;
+        for (std::size_t i = 0; i < pieces_.size(); ++i)
+            if (pieces_[i].parts.empty())
+                (8 * pieces_[i].input.piece.triangles.rows() > total_ ? big : small).push_back(i);
+        std::vector<SplitEffort> efforts(pieces_.size());
+        double done = 0.0;
+        const auto stage = [&](double faces) {
+            const double from = done;
+            done = std::min(1.0, done + faces / static_cast<double>(total_));
+            context_.begin_stage("split", 0.05 + 0.75 * from, 0.05 + 0.75 * done);
+        };
+        for (const std::size_t i : big) {
+            stage(static_cast<double>(pieces_[i].input.piece.triangles.rows()));
+            decide(pieces_[i], options_.threads, context_, efforts[i]);
+        }
+        stage(static_cast<double>(total_));
+        side_by_side(small.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
+            decide(pieces_[small[k]], 1, own, efforts[small[k]]);
+        });
+        for (std::size_t i = 0; i < pieces_.size(); ++i)
+            maps_ += efforts[i].maps * static_cast<double>(pieces_[i].input.piece.triangles.rows()) /
+                     static_cast<double>(total_);
+    }
+
+    /// Makes the parts even. Parts that were decided on proxies are then made of the fine surface, and relaxed.
+    /// @param importance (V) of the input, or empty @return E
+    double make_even(const std::vector<double>& importance)
+    {
+        EvenOptions evening = evening_of(options_, roomy_, options_.threads);
+        const bool by_proxy = std::ranges::any_of(pieces_, [](const MeshPiece& own) { return own.proxy.has_value(); });
+        if (by_proxy && (options_.even == 0.0 || evening.loops != LoopForm::free))
+            for (MeshPiece& own : pieces_)
+                if (own.proxy) lay_fine(own);
+        if (std::ranges::all_of(pieces_, &MeshPiece::is_fine)) return make_together_even(evening, importance);
+
+        // Decide the cuts and E on the proxies.
+        std::vector<std::vector<FlatPart>> before;
+        for (const MeshPiece& own : pieces_) before.push_back(own.parts);
+        EvenOptions dearer = evening;
+        dearer.darts /= dearer_on_proxy;
+        double even = make_together_even(dearer, importance);
+
+        // Make the same parts of the fine surface. An E that is given is kept; else angles are no worse than at 0.
+        if (even > 0.0) {
+            const double most = options_.even ? std::numeric_limits<double>::infinity() : conformal_angles(before);
+            for (std::size_t i = 0; i < pieces_.size(); ++i)
+                if (!pieces_[i].is_fine) carry(pieces_[i], before[i]);
+            std::vector<FlatPart> parts = together(importance);
+            const EvenParts relaxed = relax_carried(parts, even, most, evening, context_);
+            even = relaxed.even;
+            take_back(std::move(parts), relaxed);
+        }
+        if (even > 0.0) return even;
+        not_even_.clear();
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+            pieces_[i].parts = std::move(before[i]);
+            if (pieces_[i].proxy) lay_fine(pieces_[i]);
+        }
+        return 0.0;
+    }
+
+    /// The parts, named by the input.
+    std::vector<FlatPart> parts()
+    {
+        std::vector<FlatPart> all;
+        for (MeshPiece& own : pieces_) {
+            name_by_source(own.input.piece, own.parts);
+            std::ranges::move(own.parts, std::back_inserter(all));
+        }
+        return all;
+    }
+
+    double maps() const { return maps_; }
+
+    /// Faces of the input whose parts stayed conformal, ascending.
+    const std::vector<Index>& not_even() const { return not_even_; }
+
+private:
+    void decide(MeshPiece& own, int threads, ExecutionContext& context, SplitEffort& effort) const
+    {
+        const Index faces = static_cast<Index>(own.input.piece.triangles.rows());
+        own.surface = surface_of(own.input);
+        std::optional<UnfoldedParts> true_to_size;
+        if (may_unfold(options_)) true_to_size = unfolded(own.surface->whole, context);
+        const auto take_unfolded = [&] {
+            own.parts = std::move(true_to_size->parts);
+            note_shown(own.input.shown, own.parts);
+        };
+        if (true_to_size && true_to_size->cut_length <= few_cuts * std::sqrt(own.surface->whole.areas.sum())) {
+            take_unfolded();
+            return;
+        }
+        const Index coarse =
+            std::max(least_proxy, static_cast<Index>(proxy_faces * static_cast<double>(faces) / total_));
+        if (total_ > proxy_from && faces > coarse && options_.slits.empty()) {
+            own.proxy = proxy_of(own.input, std::move(*own.surface), coarse, context);
+            own.is_fine = false;
+            own.parts =
+                flat_piece(own.proxy->input, surface_of(own.proxy->input), options_, threads, context, effort).parts;
+            name_by_source(own.proxy->input.piece, own.parts);
+        } else {
+            own.parts = flat_piece(own.input, std::move(*own.surface), options_, threads, context, effort).parts;
+        }
+        own.surface.reset();
+        if (!true_to_size) return;
+        const EvenOptions evening = evening_of(options_, false, threads);
+        if (cost_when_even(true_to_size->parts, evening, context) > cost_when_even(own.parts, evening, context)) return;
+        take_unfolded();
+        own.proxy.reset();
+        own.is_fine = true;
+    }
+
+    /// The parts of all pieces. An element's name is its number and the number of elements in all pieces before.
+    std::vector<FlatPart> together(const std::vector<double>& importance)
+    {
+        std::vector<FlatPart> all;
+        std::vector<double> weights;  // of the vertices of all parts
+        Index vertices = 0, faces = 0;
+        for (MeshPiece& own : pieces_) {
+            if (!importance.empty())
+                for (const FlatPart& part : own.parts)
+                    for (const Index v : part.original)
+                        weights.push_back(
+                            importance[own.input.piece.source_vertex[own.is_fine ? v : own.proxy->coarse.vertex[v]]]);
+            rename_elements(
+                own.parts, [&](Index v) { return v < 0 ? v : vertices + v; }, [&](Index f) { return faces + f; });
+            std::ranges::move(own.parts, std::back_inserter(all));
+            own.parts.clear();
+            vertices += static_cast<Index>(own.input.piece.vertices.rows());
+            faces += static_cast<Index>(own.input.piece.triangles.rows());
+        }
+        ask_for_sizes(weights, all);
+        return all;
+    }
+
+    /// Gives the pieces their parts back.
+    void take_back(std::vector<FlatPart> parts, const EvenParts& even)
+    {
+        std::vector<Index> first{0};
+        for (const MeshPiece& own : pieces_)
+            first.push_back(first.back() + static_cast<Index>(own.input.piece.triangles.rows()));
+        const auto piece_of = [&](Index face) {
+            return static_cast<std::size_t>(std::ranges::upper_bound(first, face) - first.begin()) - 1;
+        };
+        not_even_.clear();
+        for (const std::size_t k : even.left)
+            for (const Index face : parts[k].faces)
+                if (const MeshPiece& own = pieces_[piece_of(face)]; own.is_fine)
+                    not_even_.push_back(own.input.piece.source_face[face - first[piece_of(face)]]);
+        std::ranges::sort(not_even_);
+        for (FlatPart& part : parts) pieces_[piece_of(part.faces.front())].parts.push_back(std::move(part));
+        Index vertices = 0;
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+            rename_elements(
+                pieces_[i].parts, [&](Index v) { return v < 0 ? v : v - vertices; },
+                [&](Index f) { return f - first[i]; });
+            vertices += static_cast<Index>(pieces_[i].input.piece.vertices.rows());
+        }
+    }
+
+    double make_together_even(const EvenOptions& evening, const std::vector<double>& importance)
+    {
+        std::vector<FlatPart> parts = together(importance);
+        const EvenParts even = make_parts_even(parts, evening, context_);
+        take_back(std::move(parts), even);
+        return even.even;
+    }
+
+    /// The piece's parts made of the fine surface, relaxed as on the proxy. @param before the parts without darts
+    void carry(MeshPiece& own, const std::vector<FlatPart>& before)
+    {
+        std::vector<FlatPart> fine = carried_parts(*own.proxy, own.parts, options_.threads, context_);
+        own.is_fine = true;
+        if (fine.empty()) {
+            own.parts = before;
+            lay_fine(own);
+        } else {
+            own.parts = std::move(fine);
+        }
+    }
+
+    /// The fine parts where the proxy's parts are. Empty if there are none.
+    std::vector<PartPointer> fine_parts(const MeshPiece& own, const std::vector<FlatPart>& before) const
+    {
+        std::vector<PartPointer> parts;
+        for (std::vector<Index>& faces : carried_faces(*own.proxy, before, context_))
+            parts.push_back(std::make_shared<Part>(Part{part_mesh(own.proxy->fine.whole, std::move(faces)), {}, {}}));
+        return parts;
+    }
+
+    FlatOptions flat_options(const MeshPiece& own) const
+    {
+        const SplitOptions prices = prices_for(own.proxy->fine.whole.areas.sum(), options_.price, options_.threads);
+        return {prices.cut_price, prices.part_price, options_.round_cuts};
+    }
+
+    /// Makes the proxy's parts of the fine surface, each mapped by itself. If they have no place there, the parts of
+    /// the fine surface are decided on itself.
+    void lay_fine(MeshPiece& own)
+    {
+        SplitEffort effort;
+        std::vector<PartPointer> parts = fine_parts(own, own.parts);
+        const CutSurface& whole = own.proxy->fine.whole;
+        own.is_fine = true;
+        if (parts.empty()) {
+            own.parts = flat_piece(own.input, own.proxy->fine, options_, options_.threads, context_, effort).parts;
+            return;
+        }
+        own.parts = flat_parts(whole, find_mirror(whole.vertices, whole.surface.triangles, whole.polygon), parts,
+                               flat_options(own), options_.threads, context_, effort)
+                        .parts;
+    }
+
+    /// The sum of the angle errors of the parts at E = 0; faces turned over do not count.
+    double conformal_angles(const std::vector<std::vector<FlatPart>>& before) const
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+            if (!pieces_[i].proxy) {
+                for (const FlatPart& part : before[i]) sum += sum_of_angle_errors(part);
+                continue;
+            }
+            std::vector<PartPointer> parts = fine_parts(pieces_[i], before[i]);
+            const FlatOptions options = flat_options(pieces_[i]);
+            std::vector<double> sums(parts.size(), 0.0);
+            side_by_side(parts.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
+                SplitEffort effort;
+                map_anew(pieces_[i].proxy->fine.whole, *parts[k], own, effort);
+                sums[k] = sum_of_angle_errors(flat_part(*parts[k], options, own));
+            });
+            sum += std::accumulate(sums.begin(), sums.end(), 0.0);
+        }
+        return sum;
+    }
+
+    std::vector<MeshPiece> pieces_;
+    const PartsOptions& options_;
+    bool roomy_;
+    ExecutionContext& context_;
+    Eigen::Index total_ = 0;       // faces
+    std::vector<Index> not_even_;  // faces of the input
+    double maps_ = 0.0;
+};
+
+}  // namespace
+
+MeshParts mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, bool roomy, ExecutionContext& context)
+{
+    PartsOfPieces parts(std::move(pieces), options, roomy, context);
+    parts.decide();
+    context.begin_stage("even", 0.8, 0.9);
+    MeshParts result;
+    result.even = parts.make_even(options.importance);
+    result.not_even = parts.not_even();
+    result.maps = parts.maps();
+    result.parts = parts.parts();
+    return result;
+}
+
+}  // namespace koebe
