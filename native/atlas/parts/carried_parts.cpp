@@ -107,28 +107,26 @@ private:
         piece.points = packed_side * uv;
     }
 
-    /// Lengths of slits and darts, as much longer than the coarse ones as the paths are; and the tips of darts, where
-    /// one path ends inside.
+    /// The length of the paths inside each piece, as slits and darts in the proportion of the part's; and the tips of
+    /// darts, where one path ends inside.
     void note_lengths(std::vector<FlatPart>& pieces, const std::vector<Index>& piece_of) const
     {
         const CutSurface& fine = proxy_.fine.whole;
         const Triangles& triangles = fine.surface.triangles;
-        std::vector<double> own(pieces.size(), 0.0), coarse(pieces.size(), 0.0);
+        std::vector<double> length(pieces.size(), 0.0);
         std::vector<char> ends = boundary_mask(fine.surface);  // (V) how many paths end there, or the boundary
         for (const auto& [chain, path] : paths_) {
             ends[origin(triangles, path.front())] += 1;
             ends[target(triangles, path.back())] += 1;
             if (net_.parts_differ(proxy_.surface, chain.front())) continue;
-            const Index k = piece_of[face_of(path.front())];
-            own[k] += path_length(fine.vertices, triangles, path);
-            coarse[k] += path_length(proxy_.coarse.vertices, proxy_.surface.triangles, chain);
+            length[piece_of[face_of(path.front())]] += path_length(fine.vertices, triangles, path);
         }
         const std::vector<char> outside = boundary_mask(fine.surface);
         for (std::size_t k = 0; k < pieces.size(); ++k) {
             const FlatPart& part = parts_[part_of_[k]];
-            const double share = coarse[k] > 0.0 ? own[k] / coarse[k] : 1.0;
-            pieces[k].slit = share * part.slit;
-            pieces[k].dart_length = share * part.dart_length;
+            const double coarse = part.slit + part.dart_length;
+            pieces[k].slit = coarse > 0.0 ? length[k] * part.slit / coarse : length[k];
+            pieces[k].dart_length = length[k] - pieces[k].slit;
             pieces[k].kind = part.kind;
             for (std::size_t v = 0; v < pieces[k].original.size(); ++v)
                 if (const Index name = pieces[k].original[v]; ends[name] == 1 && !outside[name])

@@ -4,6 +4,7 @@
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/void_mesh.h"
+#include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
@@ -113,12 +114,14 @@ private:
 bool turn_upright(const Vertices& vertices, const Triangles& triangles, const std::vector<VertexLoop>& loops,
                   const std::vector<char>& fixed, PlanarPoints& points, const ExecutionContext& context)
 {
-    FallenFaces fallen(vertices, triangles, loops, fixed, points);
-    if (fallen.faces().empty()) return true;
+    const FallenFaces first(vertices, triangles, loops, fixed, points);
+    if (first.faces().empty()) return true;
+    FallenFaces fallen = first;
     for (const LoopsMay loops_may : {LoopsMay::stay, LoopsMay::move_apart, LoopsMay::move})
         for (const int rings : reach) {
-            auto [right, after] = fallen.moved(rings, loops_may, context);
-            if (right) {
+            auto [right, after] = (loops_may == LoopsMay::move ? first : fallen).moved(rings, loops_may, context);
+            // A void face without area holds nothing apart.
+            if (right && (loops_may != LoopsMay::move_apart || crossing_boundary_edges(loops, after, 0.0).empty())) {
                 points = std::move(after);
                 return true;
             }
