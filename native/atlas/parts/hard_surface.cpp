@@ -34,7 +34,9 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
         CutSurface whole = cut_surface(scaled(piece.source_vertex, Eigen::all), std::move(surface),
                                        values_at(options.polygon, piece.source_face));
         whole.shown = values_at(options.show, piece.source_vertex);
-        if (std::optional<UnfoldedParts> hard = hard_parts(whole, context)) {
+        std::optional<UnfoldedParts> hard;
+        if (!options.no_hard) hard = hard_parts(whole, context, options.hard_angle);
+        if (hard) {
             for (const Index f : hard->rest) rest.push_back(piece.source_face[f]);
             name_by_input(piece, options.show, hard->parts);
             std::ranges::move(hard->parts, std::back_inserter(parts));

@@ -185,6 +185,8 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
     if (options.density && (!(*options.density > 0.0) || !std::isfinite(*options.density)))
         throw InputError("the density must be positive");
+    if (!(options.hard_angle >= 1.0 && options.hard_angle <= 179.0))
+        throw InputError("the hard angle must be from 1 to 179 degrees");
     const double margin = margin_in_square(options.margin, options.pixels);
     if (options.tiles < 0 || options.tiles > most_tiles) throw InputError("tiles must be from 0 to 100");
     if (options.tiles == 0 && !options.density) throw InputError("as many tiles as needed (0) needs a density");

@@ -47,6 +47,10 @@ struct PartsOptions : MapOptions {
     /// UDIM tiles: parts lie on the squares at u = k mod 10, v = k / 10 for k from 0 to tiles - 1, with one texel
     /// density. 0: as many tiles as `density` needs, at most 100.
     int tiles = 1;
+    /// Edges of hard surfaces (hard_surface.h) that are bent by more are creases, in degrees, from 1 to 179. Islands
+    /// are cut at creases, and joined along straight ones.
+    double hard_angle = 30.0;
+    bool no_hard = false;         ///< hard surfaces are mapped like all others
     bool rectify = false;         ///< parts that are grids of quadrilaterals become rectangles, whatever their stretch
     bool stack = false;           ///< parts that are copies of another part lie on it (twins.h)
     bool stack_mirrored = false;  ///< parts that are mirror images of another part lie on it

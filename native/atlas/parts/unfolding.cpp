@@ -309,17 +309,17 @@ private:
 
 std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context)
 {
-    FlatCharts charts = flat_charts(surface, most_tips);
+    FlatCharts charts = flat_charts(surface, most_tips, default_hard_angle);
     if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
     Unfolding unfolding(surface, std::move(charts));
     unfolding.join_charts(context);
     return UnfoldedParts{unfolding.parts(), {}, unfolding.cut_length()};
 }
 
-std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context)
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context, double hard_angle)
 {
     const double area = surface.areas.sum();
-    Unfolding unfolding(surface, flat_charts(surface, cone_tips));
+    Unfolding unfolding(surface, flat_charts(surface, cone_tips, hard_angle));
     if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
     unfolding.join_charts(context);
     unfolding.attach_rest(context);

@@ -9,6 +9,8 @@
 
 namespace koebe {
 
+constexpr double default_hard_angle = 30.0;  ///< degrees by which a crease is bent at least
+
 struct UnfoldedParts {
     std::vector<FlatPart> parts;
     std::vector<Index> rest;  ///< faces in no part, ascending
@@ -24,8 +26,9 @@ std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContex
 
 /// The flat and rolled regions of a hard surface, as parts that keep all lengths, and the rest: faces that are curved
 /// in both directions. Regions are cut apart and joined as above. A planar region stays whole, with its holes.
-/// @param surface of any genus, with or without boundary
+/// @param surface of any genus, with or without boundary @param hard_angle of a crease, in degrees
 /// @return no value if the surface is not hard: large flat and rolled regions hold less than half of the area
-std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context);
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
+                                        double hard_angle = default_hard_angle);
 
 }  // namespace koebe
