@@ -15,6 +15,7 @@
 #include "parts/alike_pieces.h"
 #include "parts/flat_mesh.h"
 #include "parts/grid_parts.h"
+#include "parts/hard_figures.h"
 #include "parts/pack_parts.h"
 #include "parts/tile_packing.h"
 #include "parts/upright_parts.h"
@@ -242,6 +243,10 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.tiles = packed.tiles;
     result.coverage /= packed.tiles;
     result.margin = packed.margin * options.pixels;
+    const HardFigures hard = hard_figures(layout, uv);
+    result.regions = hard.regions;
+    result.whole = hard.whole;
+    result.aligned = hard.aligned;
     result.cut_length = seam_length(layout, mapped);
     result.slit_length = layout.slit_length;
     result.dart_length = layout.dart_length;

@@ -51,10 +51,12 @@ public:
         return sum;
     }
 
-    void join_charts(ExecutionContext& context)
+    /// @param smooth_only not over creases
+    void join_charts(bool smooth_only, ExecutionContext& context)
     {
         for (const Index h : borders()) {
             context.checkpoint();
+            if (smooth_only && charts_.crease[h]) continue;
             const Index a = island_of(h), b = island_of(twin(h));
             if (a == b) continue;
             islands_[a].size() < islands_[b].size() ? join(twin(h)) : join(h);
@@ -307,21 +309,21 @@ private:
 
 }  // namespace
 
-std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context)
+std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context, const Creases& creases)
 {
-    FlatCharts charts = flat_charts(surface, most_tips, default_hard_angle);
+    FlatCharts charts = flat_charts(surface, most_tips, creases.angle);
     if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
     Unfolding unfolding(surface, std::move(charts));
-    unfolding.join_charts(context);
+    unfolding.join_charts(creases.always_cut, context);
     return UnfoldedParts{unfolding.parts(), {}, unfolding.cut_length()};
 }
 
-std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context, double hard_angle)
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context, const Creases& creases)
 {
     const double area = surface.areas.sum();
-    Unfolding unfolding(surface, flat_charts(surface, cone_tips, hard_angle));
+    Unfolding unfolding(surface, flat_charts(surface, cone_tips, creases.angle));
     if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
-    unfolding.join_charts(context);
+    unfolding.join_charts(creases.always_cut, context);
     unfolding.attach_rest(context);
     return UnfoldedParts{unfolding.parts(), unfolding.rest(), unfolding.cut_length()};
 }

@@ -9,7 +9,10 @@
 
 namespace koebe {
 
-constexpr double default_hard_angle = 30.0;  ///< degrees by which a crease is bent at least
+struct Creases {
+    double angle = 30.0;      ///< in degrees: a crease is bent by more
+    bool always_cut = false;  ///< no island goes over a crease
+};
 
 struct UnfoldedParts {
     std::vector<FlatPart> parts;
@@ -22,13 +25,14 @@ struct UnfoldedParts {
 /// joined again, the longest border first, if they do not overlap. So a cube becomes a cross of six squares.
 /// @return parts that keep all lengths, up to rounding. No value if a chart is curved in both directions, or overlaps
 /// itself
-std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context);
+std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context,
+                                      const Creases& creases = {});
 
 /// The flat and rolled regions of a hard surface, as parts that keep all lengths, and the rest: faces that are curved
 /// in both directions. Regions are cut apart and joined as above. A planar region stays whole, with its holes.
-/// @param surface of any genus, with or without boundary @param hard_angle of a crease, in degrees
+/// @param surface of any genus, with or without boundary
 /// @return no value if the surface is not hard: large flat and rolled regions hold less than half of the area
 std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
-                                        double hard_angle = default_hard_angle);
+                                        const Creases& creases = {});
 
 }  // namespace koebe
