@@ -41,7 +41,7 @@ public:
         charts_.at.resize(net_.twin.size());
         charts_.near = std::max(same_place * std::sqrt(surface.areas.sum()), 2.0 * regions_.tolerance);
         for (const Index region : regions_.of) charts_.plane.push_back(regions_.planes[region].area);
-        planar_ = group_ = regions_.of;
+        planar_ = group_ = charts_.region = regions_.of;
     }
 
     FlatCharts run()

@@ -26,6 +26,7 @@ struct FlatCharts {
     std::vector<Index> rest;                ///< faces in no chart, because they are curved in both directions
     std::vector<Index> slits, darts;        ///< half-edges of cuts inside charts, one each
     std::set<Index> tips;                   ///< vertices where darts end
+    std::vector<Index> region;              ///< (F) planar region (regions.h)
     std::vector<double> plane;              ///< (F) area of the planar region (regions.h) that a face belongs to
     double near = 0.0;                      ///< places are the same up to this distance
 };

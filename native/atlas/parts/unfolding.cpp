@@ -5,12 +5,16 @@
 #include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
 #include "parts/regions.h"
+#include "planar/planar_predicates.h"
 #include "surface/free_flattening.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -24,13 +28,22 @@ constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
 constexpr double large_chart = 0.01;      // of the area: charts from there on
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
 
+constexpr double packed_well = 1.155;   // longest island, in roots of the area of all surfaces: the side of a square
+                                        // that is covered to 75 %,
+constexpr double cross_of_cube = 1.64;  // or in roots of its own area: the cross of a cube is 4 / sqrt(6) long
+constexpr double thin = 0.2;  // area over the square of the length: longer charts that are so thin are cut across
+
 constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
 constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
 
 class Unfolding {
 public:
     explicit Unfolding(const CutSurface& surface, FlatCharts charts)
-        : surface_(surface), charts_(std::move(charts)), islands_(charts_.faces), island_(islands_.size())
+        : surface_(surface),
+          longest_(std::max(packed_well, cross_of_cube * std::sqrt(surface.areas.sum()))),
+          charts_(std::move(charts)),
+          islands_(charts_.faces),
+          island_(islands_.size())
     {
         parts_ = std::move(charts_.parts);
         std::iota(island_.begin(), island_.end(), 0);
@@ -49,6 +62,17 @@ public:
                 for (const Index f : faces)
                     if (charts_.plane[f] > alone * surface_.areas[f]) sum += surface_.areas[f];
         return sum;
+    }
+
+    /// Cuts thin charts that are too long across, between planar regions.
+    void cut_strips()
+    {
+        for (std::size_t k = 0, count = islands_.size(); k < count; ++k) {
+            Complex along;
+            const double length = extent(islands_[k], along);
+            if (length > longest_ && surface_.areas(islands_[k]).sum() < thin * length * length)
+                cut_strip(k, along, static_cast<int>(std::ceil(length / longest_)));
+        }
     }
 
     /// @param smooth_only not over creases
@@ -120,6 +144,94 @@ private:
 
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
+    /// The longer side of the box of laid faces along their longest border edge. Sets its direction.
+    double extent(const std::vector<Index>& faces, Complex& along) const
+    {
+        along = 0.0;
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h)
+                if (const Complex edge = charts_.at[next_halfedge(h)] - charts_.at[h];
+                    charts_.net.twin[h] == no_twin && std::norm(edge) > std::norm(along))
+                    along = edge;
+        along = std::abs(along) > 0.0 ? along / std::abs(along) : 1.0;
+        Complex low = Complex(1.0, 1.0) * std::numeric_limits<double>::max(), high = -low;
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                const Complex at = charts_.at[h] * std::conj(along);
+                low = {std::min(low.real(), at.real()), std::min(low.imag(), at.imag())};
+                high = {std::max(high.real(), at.real()), std::max(high.imag(), at.imag())};
+            }
+        const Complex size = high - low;
+        if (size.imag() > size.real()) along *= Complex(0.0, 1.0);
+        return std::max(size.real(), size.imag());
+    }
+
+    /// Cuts a chart into equally long pieces. Nothing changes if it falls into more pieces, or does not get shorter.
+    void cut_strip(std::size_t chart, const Complex& along, int count)
+    {
+        // The place of each planar region along the strip decides its piece.
+        const std::vector<Index> faces = islands_[chart];
+        std::map<Index, std::pair<double, double>> regions;  // area, and its first moment
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                const double place = dot(along, charts_.at[h]);
+                low = std::min(low, place);
+                high = std::max(high, place);
+                regions[charts_.region[f]].first += surface_.areas[f];
+                regions[charts_.region[f]].second += surface_.areas[f] * place;
+            }
+        const auto piece = [&](Index h) {
+            const auto& [area, moment] = regions.at(charts_.region[face_of(h)]);
+            const double place = area > 0.0 ? (moment / area - low) / (high - low) : 0.0;
+            return std::clamp(static_cast<int>(count * place), 0, count - 1);
+        };
+        std::vector<Index> cuts;
+        DisjointSets sets(faces.size());
+        const auto number = [&](Index h) {
+            return static_cast<Index>(std::ranges::lower_bound(faces, face_of(h)) - faces.begin());
+        };
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                const Index t = charts_.net.twin[h];
+                if (t == no_twin) continue;
+                if (piece(h) == piece(t)) sets.join(number(h), number(t));
+                if (piece(h) < piece(t)) cuts.push_back(h);
+            }
+        std::map<Index, std::vector<Index>> pieces;
+        for (const Index f : faces) pieces[sets.find(number(3 * f))].push_back(f);
+        if (static_cast<int>(pieces.size()) != count ||
+            std::ranges::any_of(cuts, [&](Index h) { return charts_.net.whole[h] != 0; }))
+            return;
+        for (const Index h : cuts) charts_.net.cut(h);
+        std::vector<FlatPart> parts;
+        for (const auto& [root, own] : pieces) {
+            Complex unused;
+            auto part = part_of(own);
+            if (!part || extent(own, unused) > longest_) break;
+            parts.push_back(std::move(*part));
+        }
+        if (parts.size() != pieces.size()) {
+            for (const Index h : cuts) {
+                charts_.net.twin[h] = twin(h);
+                charts_.net.twin[twin(h)] = h;
+            }
+            return;
+        }
+        auto at = parts.begin();
+        for (const auto& [root, own] : pieces) {
+            if (at == parts.begin()) {
+                islands_[chart] = own;
+                parts_[chart] = std::move(*at++);
+                continue;
+            }
+            for (const Index f : own) chart_[f] = static_cast<Index>(islands_.size());
+            island_.push_back(static_cast<Index>(islands_.size()));
+            islands_.push_back(own);
+            parts_.push_back(std::move(*at++));
+        }
+    }
+
     /// The motion that brings the face across a crease to the crease's place.
     PlaneMotion motion_to(Index h) const
     {
@@ -176,6 +288,8 @@ private:
     {
         const Index a = island_of(crease), b = island_of(twin(crease));
         const PlaneMotion motion = motion_to(crease);
+        Complex unused;
+        const double longest = std::max({longest_, extent(islands_[a], unused), extent(islands_[b], unused)});
         std::vector<Index> joined;
         std::vector<Complex> before;
         for (const Index f : islands_[b])
@@ -196,7 +310,8 @@ private:
         std::vector<Index> faces = islands_[a];
         faces.insert(faces.end(), islands_[b].begin(), islands_[b].end());
         std::ranges::sort(faces);
-        auto part = part_of(faces);
+        std::optional<FlatPart> part;
+        if (!(extent(faces, unused) > longest)) part = part_of(faces);
         if (!part) {
             auto at = before.begin();
             for (const Index f : islands_[b])
@@ -300,6 +415,7 @@ private:
     }
 
     const CutSurface& surface_;
+    const double longest_;                     // extent of an island
     FlatCharts charts_;                        // twins over creases where charts are joined
     std::vector<std::vector<Index>> islands_;  // faces of joined charts, ascending
     std::vector<Index> island_;                // (charts)
@@ -314,6 +430,7 @@ std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContex
     FlatCharts charts = flat_charts(surface, most_tips, creases.angle);
     if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
     Unfolding unfolding(surface, std::move(charts));
+    unfolding.cut_strips();
     unfolding.join_charts(creases.always_cut, context);
     return UnfoldedParts{unfolding.parts(), {}, unfolding.cut_length()};
 }
@@ -323,6 +440,7 @@ std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionCont
     const double area = surface.areas.sum();
     Unfolding unfolding(surface, flat_charts(surface, cone_tips, creases.angle));
     if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
+    unfolding.cut_strips();
     unfolding.join_charts(creases.always_cut, context);
     unfolding.attach_rest(context);
     return UnfoldedParts{unfolding.parts(), unfolding.rest(), unfolding.cut_length()};
