@@ -28,10 +28,10 @@ constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
 constexpr double large_chart = 0.01;      // of the area: charts from there on
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
 
-constexpr double packed_well = 1.155;   // longest island, in roots of the area of all surfaces: the side of a square
-                                        // that is covered to 75 %,
-constexpr double cross_of_cube = 1.64;  // or in roots of its own area: the cross of a cube is 4 / sqrt(6) long
-constexpr double thin = 0.2;  // area over the square of the length: longer charts that are so thin are cut across
+constexpr double packed_well = 1.155;  // longest island, in roots of the area of all surfaces: the side of a square
+                                       // that is covered to 75 %,
+constexpr double side_of_nut = 1.80;   // or in roots of its own area: the six sides of a nut as high as its radius;
+constexpr double thin = 0.2;           // charts whose area over the square of the length is less are cut across
 
 constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
 constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
@@ -40,7 +40,7 @@ class Unfolding {
 public:
     explicit Unfolding(const CutSurface& surface, FlatCharts charts)
         : surface_(surface),
-          longest_(std::max(packed_well, cross_of_cube * std::sqrt(surface.areas.sum()))),
+          longest_(std::max(packed_well, side_of_nut * std::sqrt(surface.areas.sum()))),
           charts_(std::move(charts)),
           islands_(charts_.faces),
           island_(islands_.size())
@@ -70,8 +70,8 @@ public:
         for (std::size_t k = 0, count = islands_.size(); k < count; ++k) {
             Complex along;
             const double length = extent(islands_[k], along);
-            if (length > longest_ && surface_.areas(islands_[k]).sum() < thin * length * length)
-                cut_strip(k, along, static_cast<int>(std::ceil(length / longest_)));
+            if (length > packed_well && surface_.areas(islands_[k]).sum() < thin * length * length)
+                cut_strip(k, along, static_cast<int>(std::ceil(length / packed_well)));
         }
     }
 
@@ -144,26 +144,25 @@ private:
 
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
-    /// The longer side of the box of laid faces along their longest border edge. Sets its direction.
+    /// The longer side of the box round laid faces, along most of their border up to quarter turns. Sets its direction.
     double extent(const std::vector<Index>& faces, Complex& along) const
     {
-        along = 0.0;
-        for (const Index f : faces)
-            for (Index h = 3 * f; h < 3 * f + 3; ++h)
-                if (const Complex edge = charts_.at[next_halfedge(h)] - charts_.at[h];
-                    charts_.net.twin[h] == no_twin && std::norm(edge) > std::norm(along))
-                    along = edge;
-        along = std::abs(along) > 0.0 ? along / std::abs(along) : 1.0;
-        Complex low = Complex(1.0, 1.0) * std::numeric_limits<double>::max(), high = -low;
+        Complex most = 0.0;
         for (const Index f : faces)
             for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                const Complex at = charts_.at[h] * std::conj(along);
-                low = {std::min(low.real(), at.real()), std::min(low.imag(), at.imag())};
-                high = {std::max(high.real(), at.real()), std::max(high.imag(), at.imag())};
+                const Complex edge = charts_.at[next_halfedge(h)] - charts_.at[h];
+                if (charts_.net.twin[h] == no_twin && std::abs(edge) > 0.0)
+                    most += std::abs(edge) * std::pow(edge / std::abs(edge), 4);
             }
-        const Complex size = high - low;
-        if (size.imag() > size.real()) along *= Complex(0.0, 1.0);
-        return std::max(size.real(), size.imag());
+        along = std::polar(1.0, 0.25 * std::arg(most));
+        PlanarPoints points(3 * static_cast<Eigen::Index>(faces.size()), 2);
+        Eigen::Index row = 0;
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h)
+                points.row(row++) << dot(along, charts_.at[h]), cross(along, charts_.at[h]);
+        const Eigen::RowVector2d size = box_size(points);
+        if (size[1] > size[0]) along *= Complex(0.0, 1.0);
+        return size.maxCoeff();
     }
 
     /// Cuts a chart into equally long pieces. Nothing changes if it falls into more pieces, or does not get shorter.
@@ -208,7 +207,7 @@ private:
         for (const auto& [root, own] : pieces) {
             Complex unused;
             auto part = part_of(own);
-            if (!part || extent(own, unused) > longest_) break;
+            if (!part || extent(own, unused) > packed_well) break;
             parts.push_back(std::move(*part));
         }
         if (parts.size() != pieces.size()) {
