@@ -94,9 +94,8 @@ struct PackedPiece {
 std::vector<VertexLoop> walks_round(const std::vector<std::array<Index, 3>>& faces, std::size_t count, bool& doubled)
 {
     std::vector<std::pair<Index, Index>> edges, left;
-    for (const auto& face : faces)
-        for (int k = 0; k < 3; ++k)
-            if (face[k] != face[(k + 1) % 3]) edges.emplace_back(face[k], face[(k + 1) % 3]);
+    for (const auto& [a, b, c] : faces)
+        if (a != b && b != c && c != a) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
     std::ranges::sort(edges);
     doubled = std::ranges::adjacent_find(edges) != edges.end();
     // Edges that faces have in both directions cancel.
