@@ -122,7 +122,8 @@ class LayerPanel(ClosedPanel):
         column.prop(settings, "texels")
         for name in {"number": ("density",), "layer": ("like",)}.get(settings.texels, ()):
             draw_option(column, settings, name, context)
-        for name in ("tiles", "no_hard", "hard_angle", "cut_hard", "cut_sharp", "rectify", "stack", "stack_mirrored", "atlas"):
+        for name in ("tiles", "no_hard", "hard_angle", "cut_hard", "cut_sharp", "rectify", "stack", "stack_mirrored",
+                     "atlas"):
             draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)

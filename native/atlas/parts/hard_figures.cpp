@@ -18,8 +18,8 @@ namespace {
 
 constexpr double bent_in_a_plane = std::numbers::pi / 360.0;  // radians
 constexpr double counted_region = 0.01;                       // of the area: smaller regions do not count
-constexpr double flat = 1e-4;               // of the region's size: distance from its plane,
-constexpr double same_shape = 2e-3;         // and of its image from a similar one
+constexpr double flat = 1e-4;                                 // of the region's size: distance from its plane,
+constexpr double same_shape = 2e-3;                           // and of its image from a similar one
 constexpr double long_outer_edge = 0.05;    // in roots of the area: such an edge is straight by itself,
 constexpr double goes_on_straight = 0.996;  // cosine of 5 degrees: others if the border goes on like that
 constexpr double off_an_axis = std::numbers::pi / 1800.0;  // radians
