@@ -31,7 +31,8 @@ constexpr double least_hard = 0.25;       // of the area: hold so much of a hard
 constexpr double packed_well = 1.155;  // longest island, in roots of the area of all surfaces: the side of a square
                                        // that is covered to 75 %,
 constexpr double side_of_nut = 1.80;   // or in roots of its own area: the six sides of a nut as high as its radius;
-constexpr double thin = 0.2;           // charts whose area over the square of the length is less are cut across
+constexpr double thin = 0.2;           // charts whose area over the square of the length is less are cut across;
+constexpr double middle = 1e-6;        // of a piece: a region so near to its end belongs to the next piece
 
 constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
 constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
@@ -150,9 +151,10 @@ private:
         Complex most = 0.0;
         for (const Index f : faces)
             for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                const Complex edge = charts_.at[next_halfedge(h)] - charts_.at[h];
-                if (charts_.net.twin[h] == no_twin && std::abs(edge) > 0.0)
-                    most += std::abs(edge) * std::pow(edge / std::abs(edge), 4);
+                const Complex edge = charts_.at[next_halfedge(h)] - charts_.at[h], square = edge * edge;
+                const double length = std::abs(edge);
+                if (charts_.net.twin[h] == no_twin && length > 0.0)
+                    most += square * square / (length * length * length);
             }
         along = std::polar(1.0, 0.25 * std::arg(most));
         PlanarPoints points(3 * static_cast<Eigen::Index>(faces.size()), 2);
@@ -183,7 +185,7 @@ private:
         const auto piece = [&](Index h) {
             const auto& [area, moment] = regions.at(charts_.region[face_of(h)]);
             const double place = area > 0.0 ? (moment / area - low) / (high - low) : 0.0;
-            return std::clamp(static_cast<int>(count * place), 0, count - 1);
+            return std::clamp(static_cast<int>(count * place + middle), 0, count - 1);
         };
         std::vector<Index> cuts;
         DisjointSets sets(faces.size());
