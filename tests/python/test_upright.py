@@ -177,5 +177,6 @@ def test_long_thin_strips_are_cut_so_that_all_islands_become_larger():
     longest = max(np.ptp(result.uv[part["faces"]].reshape(-1, 2), axis=0).max() for part in result.parts)
     assert len(result.parts) == 5 and result.whole == 1.0 and result.coverage > 0.5
     assert longest * np.sqrt(1 / result.coverage) < 1.155 + 1e-6
+    assert len(koebe.flatten(*coin).pieces) == 3  # a pattern is packed onto no square
     alone = koebe.parts(*prism(circle(64), 2.0))  # the side of a tin is not thin
     assert len(alone.parts) == 3

@@ -35,7 +35,7 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
                                        values_at(options.polygon, piece.source_face));
         whole.shown = values_at(options.show, piece.source_vertex);
         std::optional<UnfoldedParts> hard;
-        if (!options.no_hard) hard = hard_parts(whole, context, {options.hard_angle, options.cut_hard});
+        if (!options.no_hard) hard = hard_parts(whole, context, {options.hard_angle, options.cut_hard, options.roomy});
         if (hard) {
             for (const Index f : hard->rest) rest.push_back(piece.source_face[f]);
             name_by_input(piece, options.show, hard->parts);

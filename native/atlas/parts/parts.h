@@ -50,10 +50,11 @@ struct PartsOptions : MapOptions {
     /// Edges of hard surfaces (hard_surface.h) that are bent by more are creases, in degrees, from 1 to 179. They
     /// are cut, and islands are joined again along straight ones.
     double hard_angle = 30.0;
-    bool cut_hard = false;        ///< islands are not joined along creases
-    bool no_hard = false;         ///< hard surfaces are mapped like all others
-    bool rectify = false;         ///< parts that are grids of quadrilaterals become rectangles, whatever their stretch
-    bool stack = false;           ///< parts that are copies of another part lie on it (twins.h)
+    bool cut_hard = false;  ///< islands are not joined along creases
+    bool roomy = true;      ///< islands of hard surfaces are cut or left apart where they are too long to pack well
+    bool no_hard = false;   ///< hard surfaces are mapped like all others
+    bool rectify = false;   ///< parts that are grids of quadrilaterals become rectangles, whatever their stretch
+    bool stack = false;     ///< parts that are copies of another part lie on it (twins.h)
     bool stack_mirrored = false;  ///< parts that are mirror images of another part lie on it
     int threads = 0;              ///< most threads; 0: one for each core. The result is the same for any number
 };

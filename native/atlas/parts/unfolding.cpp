@@ -39,9 +39,10 @@ constexpr double most_scaled = 4.0;  // if no face's area changes by more than t
 
 class Unfolding {
 public:
-    explicit Unfolding(const CutSurface& surface, FlatCharts charts)
+    Unfolding(const CutSurface& surface, FlatCharts charts, bool roomy)
         : surface_(surface),
-          longest_(std::max(packed_well, side_of_nut * std::sqrt(surface.areas.sum()))),
+          longest_(roomy ? std::max(packed_well, side_of_nut * std::sqrt(surface.areas.sum()))
+                         : std::numeric_limits<double>::infinity()),
           charts_(std::move(charts)),
           islands_(charts_.faces),
           island_(islands_.size())
@@ -426,23 +427,25 @@ private:
 
 }  // namespace
 
-std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context, const Creases& creases)
+std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context,
+                                      const UnfoldOptions& options)
 {
-    FlatCharts charts = flat_charts(surface, most_tips, creases.angle);
+    FlatCharts charts = flat_charts(surface, most_tips, options.hard_angle);
     if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
-    Unfolding unfolding(surface, std::move(charts));
-    unfolding.cut_strips();
-    unfolding.join_charts(creases.always_cut, context);
+    Unfolding unfolding(surface, std::move(charts), options.roomy);
+    if (options.roomy) unfolding.cut_strips();
+    unfolding.join_charts(options.cut_hard, context);
     return UnfoldedParts{unfolding.parts(), {}, unfolding.cut_length()};
 }
 
-std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context, const Creases& creases)
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
+                                        const UnfoldOptions& options)
 {
     const double area = surface.areas.sum();
-    Unfolding unfolding(surface, flat_charts(surface, cone_tips, creases.angle));
+    Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options.roomy);
     if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
-    unfolding.cut_strips();
-    unfolding.join_charts(creases.always_cut, context);
+    if (options.roomy) unfolding.cut_strips();
+    unfolding.join_charts(options.cut_hard, context);
     unfolding.attach_rest(context);
     return UnfoldedParts{unfolding.parts(), unfolding.rest(), unfolding.cut_length()};
 }

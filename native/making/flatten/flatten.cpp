@@ -183,6 +183,7 @@ FlatMesh cut_and_flat(const Vertices& vertices, const Triangles& triangles, cons
     cutting.polygon = options.polygon;
     cutting.threads = options.threads;
     cutting.even = 1.0;
+    cutting.roomy = false;
     cutting.loops = LoopForm::free;
     cutting.price = options.price.value_or(price_true_to_size);
     FlatMesh mesh = flat_mesh(vertices, triangles, cutting, false, context);
