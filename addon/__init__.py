@@ -30,6 +30,7 @@ def _parts() -> tuple[ModuleType, ...]:
         moebius,
         node_groups,
         option_presets,
+        pack,
         parts,
         select_from_report,
         sequence,
@@ -52,7 +53,7 @@ def _parts() -> tuple[ModuleType, ...]:
     return (
         option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
-        compare_shapes, carry_texture, option_presets, moebius, symmetrize, flat_copy, even_slider,
+        compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, flat_copy, even_slider,
         lift, node_groups, hole_rings,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip

@@ -13,12 +13,12 @@ from . import compat
 from .mesh_object import MeshObject
 
 
-def read_surface(obj: MeshObject, selected_only: bool) -> Surface:
+def read_surface(obj: MeshObject, selected_only: bool, cut_sharp: bool = False) -> Surface:
     """The object's mesh as a `Surface`, in world space without the translation.
 
     In Edit Mode the mesh's arrays are brought up to date first. With `selected_only` it is the surface of the selected
-    faces. A mirrored object keeps its face order: lengths and angles are those of the world, and the UVs stay
-    counter-clockwise in the mesh's own order.
+    faces. With `cut_sharp` sharp edges count as seams. A mirrored object keeps its face order: lengths and angles are
+    those of the world, and the UVs stay counter-clockwise in the mesh's own order.
     """
     bring_up_to_date(obj)
     with arrays(obj) as mesh:
@@ -31,7 +31,7 @@ def read_surface(obj: MeshObject, selected_only: bool) -> Surface:
             corner_edge=edge,
             face_start=compat.read_indices(mesh.polygons, "loop_start"),
             face_size=size,
-            seam=compat.seam_edges(mesh),
+            seam=compat.seam_edges(mesh) | (cut_sharp & compat.read(mesh.edges, "use_edge_sharp", bool)),
             selected=compat.chosen_faces(mesh) if selected_only else np.ones(len(mesh.polygons), dtype=bool),
             triangle_corners=compat.read_indices(mesh.loop_triangles, "loops", 3),
             triangle_face=np.repeat(np.arange(len(size), dtype=np.int32), size - 2),  # in Blender's order

@@ -86,6 +86,11 @@ class Job:
         """The vertex group, or empty."""
         return str(self.options.importance)
 
+    @property
+    def _cut_sharp(self) -> bool:
+        """Whether sharp edges count as seams."""
+        return False
+
     def _add(self, obj: MeshObject) -> None:
         check_mesh(obj)
         surface = self._surface(obj)
@@ -97,7 +102,7 @@ class Job:
         self.tasks.append(task)
 
     def _surface(self, obj: MeshObject) -> Surface:
-        surface, self._first = mesh_reading.read_surface(obj, self.selected_only), None
+        surface, self._first = mesh_reading.read_surface(obj, self.selected_only, self._cut_sharp), None
         if not np.isfinite(surface.positions).all():  # the solver refuses them, and names them
             return surface
         if self.options.weld > 0.0:

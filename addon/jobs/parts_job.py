@@ -29,6 +29,10 @@ class PartsJob(ChoiceJob):
         if self.choice.show and all(task.show is None for task in self.tasks):
             raise TransferError(f"Avoid is the vertex group {self.choice.show!r}, but no object has this group")
 
+    @property
+    def _cut_sharp(self) -> bool:
+        return bool(self.choice.cut_sharp)
+
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
         show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None
         like = self._density_of_layer(obj, surface) if self.choice.texels == "layer" else None

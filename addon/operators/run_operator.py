@@ -36,6 +36,8 @@ NEEDS = {  # options that matter only with certain values of others
     "like": lambda options: options.texels == "layer",
     "evenness": lambda options: options.seams == "add",
     "even": lambda options: not keeps_angles(options),
+    "hard_angle": lambda options: not options.no_hard,
+    "cut_hard": lambda options: not options.no_hard,
     "loops": lambda options: keeps_angles(options) or options.even > 0.0,
     "checker_size": lambda options: options.checker,
     "checker_even": lambda options: options.checker,

@@ -153,6 +153,16 @@ def record_moved(
             loop.uv_center, loop.uv_radius = center, radius
 
 
+def forget(run: Transaction, context: bpy.types.Context, name: str, layer: str) -> None:
+    """Remove an object's entries of a layer whose UVs lie elsewhere now."""
+    report = report_of(context)
+    note_group(run, report)
+    for index in reversed(range(len(report.islands))):
+        if (report.islands[index].object_name, report.islands[index].layer) == (name, layer):
+            report.islands.remove(index)
+    report.active = min(report.active, max(len(report.islands) - 1, 0))
+
+
 def active_entry(context: bpy.types.Context) -> KoebeIslandReport | None:
     """The island of the report whose details are shown, or None."""
     report = report_of(context)

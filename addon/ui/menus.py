@@ -12,7 +12,7 @@ from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..operators.unwrap import MAPS
 from ..state.lift_properties import copy_lift_options, lift_settings_of
 from ..state.option_properties import copy_options, settings_of
-from .panel_parts import BUTTONS, draw_unwrap
+from .panel_parts import BUTTONS, draw_pack, draw_unwrap
 
 
 class KOEBE_MT_unwrap(bpy.types.Menu):
@@ -32,6 +32,7 @@ class KOEBE_MT_unwrap(bpy.types.Menu):
         sequence = layout.operator(UV_OT_koebe_sequence.bl_idname, text="Animation", icon="RENDER_ANIMATION")
         copy_options(settings, sequence, "sequence")
         layout.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
+        draw_pack(layout, settings)
 
 
 def draw_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:

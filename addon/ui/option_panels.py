@@ -24,7 +24,7 @@ from ..state.option_properties import (
     option_names,
     settings_of,
 )
-from .panel_parts import ClosedPanel, draw_map_button
+from .panel_parts import ClosedPanel, draw_map_button, draw_pack
 
 
 class DiskPanel(ClosedPanel):
@@ -122,7 +122,8 @@ class LayerPanel(ClosedPanel):
         column.prop(settings, "texels")
         for name in {"number": ("density",), "layer": ("like",)}.get(settings.texels, ()):
             draw_option(column, settings, name, context)
-        for name in ("tiles", "rectify", "stack", "stack_mirrored", "atlas"):
+        for name in ("tiles", "no_hard", "hard_angle", "cut_hard", "cut_sharp", "rectify", "stack", "stack_mirrored",
+                     "atlas"):
             draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)
@@ -140,6 +141,8 @@ class ToolsPanel(ClosedPanel):
         if context.mode == "EDIT_MESH":
             fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
         column.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
+        draw_pack(column, settings_of(context))
+        column.prop(settings_of(context), "average_scale")
         column.operator(MESH_OT_koebe_loops_around_holes.bl_idname, text="Loops Around Holes", icon="PROP_CON")
         column.operator(OBJECT_OT_koebe_flat_copy.bl_idname, text="Flat Copy", icon="MESH_PLANE")
         column.operator(UV_OT_koebe_flat_svg.bl_idname, text="Flat SVG", icon="EXPORT")

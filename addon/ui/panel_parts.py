@@ -8,6 +8,7 @@ import bpy
 
 from ..maps.domains import DOMAINS
 from ..maps.stored import SERVES
+from ..operators.pack import UV_OT_koebe_pack
 from ..operators.unwrap import SHAPE_OF, UV_OT_koebe_unwrap
 from ..state.option_properties import KoebeSettings, copy_options
 
@@ -53,6 +54,13 @@ def draw_map_button(column: bpy.types.UILayout, settings: KoebeSettings, of: str
     """The button of one kind of map, whatever shape the panel has: the operator's options."""
     text, icon = BUTTONS[of]
     return draw_unwrap(column, settings, SHAPE_OF[of], text, icon)
+
+
+def draw_pack(layout: bpy.types.UILayout, settings: KoebeSettings) -> None:
+    """The button that packs a UV layer, with the panel's options."""
+    button = layout.operator(UV_OT_koebe_pack.bl_idname, text="Pack Only", icon="PACKAGE")
+    for name in ("margin", "pixels", "average_scale"):
+        setattr(button, name, getattr(settings, name))
 
 
 def draw_unwrap(layout: bpy.types.UILayout, settings: KoebeSettings, shape: str, text: str, icon: Any) -> Any:

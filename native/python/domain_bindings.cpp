@@ -3,7 +3,9 @@
 #include "bindings.h"
 #include "map_binding.h"
 
+#include "parts/packed_layer.h"
 #include "parts/parts.h"
+#include "report/packed_json.h"
 #include "report/parts_json.h"
 #include "report/schottky_json.h"
 #include "report/sphere_json.h"
@@ -25,6 +27,12 @@ void bind_domains(py::module_& m)
         .def("report", &report_of<PartsResult>);
     bind_options<PartsOptions>(m, "PartsOptions");
     bind_map<PartsOptions, PartsResult>(m, "parts", parts_of);
+
+    bind_result<PackedLayer>(m, "PackedLayer")
+        .def_property_readonly("island", [](const PackedLayer& r) { return array_of(r.part); })
+        .def("report", &report_of<PackedLayer>);
+    bind_options<PackedLayerOptions>(m, "PackOptions");
+    bind_map<PackedLayerOptions, PackedLayer>(m, "pack", pack_layer);
 
     bind_words(m, "RingHoles", {RingHoles::circles, RingHoles::concentric, RingHoles::radial});
     bind_options<TileOptions>(m, "TileOptions");

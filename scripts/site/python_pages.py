@@ -19,6 +19,7 @@ PAGES = {
     "Maps": {
         "uniformize": ["uniformize", "UniformizeResult", "ConformalDomain", "CutResult"],
         "parts": ["parts", "PartsResult"],
+        "pack": ["pack", "PackResult"],
         "flatten": ["flatten", "FlattenResult"],
         "ring_map": ["ring_map", "torus_map", "TileMap"],
         "sphere_map": ["sphere_map", "SphereMap"],

@@ -256,6 +256,8 @@ RUNS = {
     "move circles in Edit Mode": (mapped_in_edit_mode, "uv.koebe_moebius", {"hole": 2, "rotation": 1.0}),
     "symmetrize": (symmetric, "uv.koebe_symmetrize", {}),
     "symmetrize in Edit Mode": (symmetric_in_edit_mode, "uv.koebe_symmetrize", {}),
+    "pack": (mapped, "uv.koebe_pack", {}),
+    "pack in Edit Mode": (mapped_in_edit_mode, "uv.koebe_pack", {"layer": "Koebe", "average_scale": True}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
     "lift": (panels_and_closed, "object.koebe_lift", {"size": 0.4}),
     "relief of what is worn": (mapped, "object.koebe_lift", {"size": 0.4, "way": "raise"}),

@@ -124,7 +124,7 @@ class Touched:
     def _moebius(self, owner, what):
         return (owner, what) == ("file", "report") or self._writes_uv(owner, what)
 
-    _symmetrize = _moebius
+    _symmetrize = _pack = _moebius
 
     def _flat_copy(self, owner, what):
         """New data, selected; the copy shares the materials."""

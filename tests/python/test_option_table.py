@@ -20,6 +20,7 @@ MAPS = {  # function, struct
     "sphere": (koebe.sphere_map, _koebe.SphereOptions),
     "schottky": (koebe.schottky_map, _koebe.SchottkyOptions),
     "parts": (koebe.parts, _koebe.PartsOptions),
+    "pack": (koebe.pack, _koebe.PackOptions),
     "flatten": (koebe.flatten, _koebe.FlattenOptions),
     "certified": (koebe.certified_moduli, _koebe.CapacityOptions),
     "lift": (koebe.lift, _koebe.LiftOptions),
@@ -159,7 +160,8 @@ def test_docstrings_say_what_the_table_says(of):
 
 def test_defaults_may_be_left_to_the_table():
     given = {"cut": True, "loops": "free", "darts": 0.5, "round_cuts": False, "most_lost": 0.5, "pixels": 64,
-             "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False}  # fmt: skip
+             "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False,
+             "hard_angle": 45.0, "cut_hard": True, "no_hard": True}  # fmt: skip
     _, said = _options.filled(
         "parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | given
     )
@@ -167,6 +169,7 @@ def test_defaults_may_be_left_to_the_table():
         "even": None, "loops": "free", "darts": 0.5, "price": 0.01, "cut": True, "round_cuts": False,
         "most_lost": 0.5, "density": None, "pixels": 64,
         "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False, "weld": None,
+        "hard_angle": 45.0, "cut_hard": True, "no_hard": True,
     }  # fmt: skip
     with pytest.raises(TypeError, match="most_lost"):
         koebe.parts([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], most_lost=None)

@@ -144,3 +144,40 @@ def test_equal_cubes_are_cut_alike_and_stacked_without_turning_one_over():
         turns = [one @ np.linalg.matrix_power([[0, 1], [-1, 0]], k) for k in range(4)]
         gaps = [np.linalg.norm((at - at.min(axis=0))[:, None] - first + first.min(axis=0), axis=-1) for at in turns]
         assert min(gap.min(axis=1).max() for gap in gaps) < 1e-6
+
+
+def prism(outline, height):
+    """A solid over a convex outline (n, 2)."""
+    n = len(outline)
+    vertices = np.array([[x, y, z] for z in (0.0, height) for x, y in outline])
+    k, fan = np.arange(n), np.array([[0, i, i + 1] for i in range(1, n - 1)])
+    walls = triangles_of(np.stack([k, (k + 1) % n, (k + 1) % n + n, k + n], axis=-1))
+    return vertices, np.concatenate([fan[:, ::-1], fan + n, walls])
+
+
+def circle(n):
+    return np.stack([np.cos(2 * np.pi * np.arange(n) / n), np.sin(2 * np.pi * np.arange(n) / n)], axis=-1)
+
+
+def test_hard_surfaces_are_reported_and_cut_as_asked_for():
+    vertices, triangles = cubes(1)
+    for options, parts in (({}, 1), ({"cut_hard": True}, 6), ({"cut_hard": True, "hard_angle": 91}, 1)):
+        result = koebe.parts(turned(vertices, 1), triangles, **options)
+        assert (len(result.parts), result.regions, result.whole) == (parts, 6, 1.0), options
+        assert result.aligned == 1.0 and result.angle_error_deg["max"] < 1e-3
+    bent = koebe.parts(vertices, triangles, darts=0, even=0)  # nothing is laid flat
+    assert bent.regions == 6 and bent.whole < 1.0
+    assert koebe.parts(vertices, triangles, no_hard=True).whole < 1.0
+    octagon = prism(circle(8), 2.0)  # its walls meet at 45 degrees
+    assert [len(koebe.parts(*octagon, cut_hard=True, hard_angle=angle).parts) for angle in (40, 50)] == [10, 3]
+
+
+def test_long_thin_strips_are_cut_so_that_all_islands_become_larger():
+    coin = prism(circle(64), 0.1)
+    result = koebe.parts(*coin)
+    longest = max(np.ptp(result.uv[part["faces"]].reshape(-1, 2), axis=0).max() for part in result.parts)
+    assert len(result.parts) == 5 and result.whole == 1.0 and result.coverage > 0.5
+    assert longest * np.sqrt(1 / result.coverage) < 1.155 + 1e-6
+    assert len(koebe.flatten(*coin).pieces) == 3  # a pattern is packed onto no square
+    alone = koebe.parts(*prism(circle(64), 2.0))  # the side of a tin is not thin
+    assert len(alone.parts) == 3

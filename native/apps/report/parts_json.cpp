@@ -31,6 +31,9 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                                        {"even_area", result.even_area},
                                        {"margin", result.margin},
                                        {"coverage", result.coverage},
+                                       {"regions", result.regions},
+                                       {"whole", result.whole},
+                                       {"aligned", result.aligned},
                                        {"maps", result.maps}});
     report["seconds"] = result.seconds.total;
     return report;

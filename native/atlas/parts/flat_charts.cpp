@@ -21,7 +21,6 @@
 namespace koebe {
 namespace {
 
-constexpr double least_fold = std::numbers::pi / 6;  // angle between the faces of a crease
 constexpr double flat_angle = 1e-3;     // radians by which the angles round a flat vertex may miss a full turn
 constexpr double same_place = 1e-5;     // in roots of the surface's area
 constexpr double most_single = 0.75;    // of a chart's area, in faces that are alone in their planes
@@ -32,14 +31,17 @@ constexpr double most_loose = 0.3;      // of a rolled face's outline: so much m
 
 class ChartLayer {
 public:
-    ChartLayer(const CutSurface& surface, std::size_t most_tips)
-        : surface_(surface), regions_(planar_regions(surface)), most_tips_(most_tips)
+    ChartLayer(const CutSurface& surface, std::size_t most_tips, double hard_angle)
+        : surface_(surface),
+          regions_(planar_regions(surface)),
+          most_tips_(most_tips),
+          least_fold_(hard_angle * std::numbers::pi / 180.0)
     {
         net_ = seamed(surface.vertices, surface.surface, surface.polygon, surface.shown);
         charts_.at.resize(net_.twin.size());
         charts_.near = std::max(same_place * std::sqrt(surface.areas.sum()), 2.0 * regions_.tolerance);
         for (const Index region : regions_.of) charts_.plane.push_back(regions_.planes[region].area);
-        planar_ = group_ = regions_.of;
+        planar_ = group_ = charts_.region = regions_.of;
     }
 
     FlatCharts run()
@@ -71,7 +73,7 @@ private:
     {
         if (twin(h) == no_twin || net_.whole[h]) return false;
         const Eigen::RowVector3d &a = plane(face_of(h)).normal, &b = plane(face_of(twin(h))).normal;
-        return std::atan2(a.cross(b).norm(), a.dot(b)) > least_fold;
+        return std::atan2(a.cross(b).norm(), a.dot(b)) > least_fold_;
     }
 
     /// Whether a chart is curved in both directions, so that nothing of it can be laid flat: most faces are alone in
@@ -317,6 +319,7 @@ private:
     const CutSurface& surface_;
     PlanarRegions regions_;
     std::size_t most_tips_;
+    double least_fold_;                  // radians between the faces of a crease
     std::vector<Index> planar_, group_;  // (F) of the chart at work: planar piece, and what is not cut apart
     FlatCharts charts_;
     SeamedMesh& net_ = charts_.net;
@@ -370,9 +373,9 @@ std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& c
     return part;
 }
 
-FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips)
+FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips, double hard_angle)
 {
-    return ChartLayer(surface, most_tips).run();
+    return ChartLayer(surface, most_tips, hard_angle).run();
 }
 
 }  // namespace koebe

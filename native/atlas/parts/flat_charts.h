@@ -26,16 +26,18 @@ struct FlatCharts {
     std::vector<Index> rest;                ///< faces in no chart, because they are curved in both directions
     std::vector<Index> slits, darts;        ///< half-edges of cuts inside charts, one each
     std::set<Index> tips;                   ///< vertices where darts end
+    std::vector<Index> region;              ///< (F) planar region (regions.h)
     std::vector<double> plane;              ///< (F) area of the planar region (regions.h) that a face belongs to
     double near = 0.0;                      ///< places are the same up to this distance
 };
 
-/// Cuts the surface along its creases, which are bent by more than 30 degrees, and lays the charts flat, plane by
+/// Cuts the surface along its creases, which are bent by more than an angle, and lays the charts flat, plane by
 /// plane: planar regions are similar to their image up to rounding. A chart that closes round a hole, such as the side
 /// of a cylinder, is slit, and a chart with a tip, such as a cone, gets a dart. From other charts the plates and the
 /// rolled faces between plates are cut out: a fillet, but not a belt of a ball. Their other faces are the rest.
 /// A chart that overlaps itself counts as curved. @param most_tips of one chart
-FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips);
+/// @param hard_angle in degrees
+FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips, double hard_angle);
 
 /// Some faces of charts as they lie. @return no value if they are no disk with holes, or overlap
 std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& charts, const std::vector<Index>& faces);

@@ -139,7 +139,7 @@ double root_of_area(const Vertices& vertices, const Triangles& triangles)
     return of_area_one(vertices, triangles).length_of_unit;
 }
 
-FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options, bool roomy,
+FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                    ExecutionContext& context)
 {
     context.begin_stage("topology", 0.0, 0.05);
@@ -159,7 +159,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, options);
     if (!hard.empty() && !options.importance.empty())
         pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
-    MeshParts parts = mesh_parts(std::move(pieces), options, roomy, context);
+    MeshParts parts = mesh_parts(std::move(pieces), options, context);
     layout.even = parts.even;
     layout.not_even = std::move(parts.not_even);
     layout.maps = parts.maps;

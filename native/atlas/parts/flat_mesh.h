@@ -10,8 +10,8 @@
 
 namespace koebe {
 
-/// @param roomy parts are also cut so that they can be packed more densely @throws as parts_of
-FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options, bool roomy,
+/// @throws as parts_of
+FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                    ExecutionContext& context);
 
 /// (V) for each vertex the first vertex with the same coordinates.

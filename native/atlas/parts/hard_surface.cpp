@@ -1,7 +1,5 @@
 #include "parts/hard_surface.h"
 
-#include "parts/unfolding.h"
-
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -24,7 +22,12 @@ std::vector<Value> values_at(const std::vector<Value>& values, const std::vector
 bool may_unfold(const PartsOptions& options)
 {
     return options.even != 0.0 && options.darts > 0.0 && !options.round_cuts && options.loops != LoopForm::round &&
-           options.slits.empty();
+           options.slits.empty() && !options.no_hard;
+}
+
+UnfoldOptions unfolding_of(const PartsOptions& options)
+{
+    return {options.hard_angle, options.cut_hard, options.roomy};
 }
 
 OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
@@ -40,7 +43,7 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
         CutSurface whole = cut_surface(scaled(piece.source_vertex, Eigen::all), std::move(surface),
                                        values_at(options.polygon, piece.source_face));
         whole.shown = values_at(options.show, piece.source_vertex);
-        if (std::optional<UnfoldedParts> hard = hard_parts(whole, context)) {
+        if (std::optional<UnfoldedParts> hard = hard_parts(whole, context, unfolding_of(options))) {
             for (const Index f : hard->rest) rest.push_back(piece.source_face[f]);
             note_shown(whole.shown, hard->parts);
             name_by_source(piece, hard->parts);

@@ -5,13 +5,17 @@
 #include "execution/execution.h"
 #include "parts/flat_part.h"
 #include "parts/parts.h"
+#include "parts/unfolding.h"
 
 #include <vector>
 
 namespace koebe {
 
-/// Whether pieces may be unfolded true to size: E is not 0, and neither round loops nor slits are asked for.
+/// Whether pieces may be unfolded true to size: E is not 0, and none of round loops, slits, no hard surfaces is asked
+/// for.
 bool may_unfold(const PartsOptions& options);
+
+UnfoldOptions unfolding_of(const PartsOptions& options);
 
 /// @param vertices, triangles of the input @param scaled the vertices, so that all areas sum to 1
 /// @param connected the input's surfaces, not opened (OpenOptions::open). Hard surfaces lose their parts (unfolding.h)

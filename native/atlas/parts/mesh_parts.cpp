@@ -66,8 +66,8 @@ void ask_for_sizes(const std::vector<double>& importance, std::vector<FlatPart>&
 /// Pieces, whose parts are decided one by one and made even together.
 class PartsOfPieces {
 public:
-    PartsOfPieces(std::vector<FlatPiece> pieces, const PartsOptions& options, bool roomy, ExecutionContext& context)
-        : options_(options), roomy_(roomy), context_(context)
+    PartsOfPieces(std::vector<FlatPiece> pieces, const PartsOptions& options, ExecutionContext& context)
+        : options_(options), context_(context)
     {
         for (FlatPiece& own : pieces) pieces_.push_back({std::move(own)});
         for (const MeshPiece& own : pieces_)
@@ -106,7 +106,7 @@ public:
     /// @param importance (V) of the input, or empty @return E
     double make_even(const std::vector<double>& importance)
     {
-        EvenOptions evening = evening_of(options_, roomy_, options_.threads);
+        EvenOptions evening = evening_of(options_, options_.roomy, options_.threads);
         const bool by_proxy = std::ranges::any_of(pieces_, [](const MeshPiece& own) { return own.proxy.has_value(); });
         if (by_proxy && (options_.even == 0.0 || evening.loops != LoopForm::free))
             for (MeshPiece& own : pieces_)
@@ -161,7 +161,7 @@ private:
         const Index faces = static_cast<Index>(own.input.piece.triangles.rows());
         own.surface = surface_of(own.input);
         std::optional<UnfoldedParts> true_to_size;
-        if (may_unfold(options_)) true_to_size = unfolded(own.surface->whole, context);
+        if (may_unfold(options_)) true_to_size = unfolded(own.surface->whole, context, unfolding_of(options_));
         const auto take_unfolded = [&] {
             own.parts = std::move(true_to_size->parts);
             note_shown(own.input.shown, own.parts);
@@ -315,7 +315,6 @@ private:
 
     std::vector<MeshPiece> pieces_;
     const PartsOptions& options_;
-    bool roomy_;
     ExecutionContext& context_;
     Eigen::Index total_ = 0;       // faces
     std::vector<Index> not_even_;  // faces of the input
@@ -324,9 +323,9 @@ private:
 
 }  // namespace
 
-MeshParts mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, bool roomy, ExecutionContext& context)
+MeshParts mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, ExecutionContext& context)
 {
-    PartsOfPieces parts(std::move(pieces), options, roomy, context);
+    PartsOfPieces parts(std::move(pieces), options, context);
     parts.decide();
     context.begin_stage("even", 0.8, 0.9);
     MeshParts result;

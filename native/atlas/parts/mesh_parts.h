@@ -24,7 +24,7 @@ struct MeshParts {
 };
 
 /// Decides the parts of pieces, on proxies if there are many faces, then makes all parts even.
-/// @param pieces with parts that are decided already, or without @param roomy as in flat_mesh
-MeshParts mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, bool roomy, ExecutionContext& context);
+/// @param pieces with parts that are decided already, or without
+MeshParts mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, ExecutionContext& context);
 
 }  // namespace koebe

@@ -15,6 +15,7 @@
 #include "parts/alike_pieces.h"
 #include "parts/flat_mesh.h"
 #include "parts/grid_parts.h"
+#include "parts/hard_figures.h"
 #include "parts/pack_parts.h"
 #include "parts/tile_packing.h"
 #include "parts/upright_parts.h"
@@ -185,12 +186,14 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
     if (options.density && (!(*options.density > 0.0) || !std::isfinite(*options.density)))
         throw InputError("the density must be positive");
+    if (!(options.hard_angle >= 1.0 && options.hard_angle <= 179.0))
+        throw InputError("the hard angle must be from 1 to 179 degrees");
     const double margin = margin_in_square(options.margin, options.pixels);
     if (options.tiles < 0 || options.tiles > most_tiles) throw InputError("tiles must be from 0 to 100");
     if (options.tiles == 0 && !options.density) throw InputError("as many tiles as needed (0) needs a density");
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
-    FlatMesh mesh = flat_mesh(vertices, triangles, options, true, context);
+    FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
     if (options.show.empty() && options.importance.empty() && options.slits.empty()) cut_alike(mesh);
     mend_rims(options.polygon, mesh.parts, options.threads, context);
     const double unit = length_of_unit();
@@ -240,6 +243,10 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.tiles = packed.tiles;
     result.coverage /= packed.tiles;
     result.margin = packed.margin * options.pixels;
+    const HardFigures hard = hard_figures(layout, uv);
+    result.regions = hard.regions;
+    result.whole = hard.whole;
+    result.aligned = hard.aligned;
     result.cut_length = seam_length(layout, mapped);
     result.slit_length = layout.slit_length;
     result.dart_length = layout.dart_length;

@@ -47,8 +47,14 @@ struct PartsOptions : MapOptions {
     /// UDIM tiles: parts lie on the squares at u = k mod 10, v = k / 10 for k from 0 to tiles - 1, with one texel
     /// density. 0: as many tiles as `density` needs, at most 100.
     int tiles = 1;
-    bool rectify = false;         ///< parts that are grids of quadrilaterals become rectangles, whatever their stretch
-    bool stack = false;           ///< parts that are copies of another part lie on it (twins.h)
+    /// Edges of hard surfaces (hard_surface.h) that are bent by more are creases, in degrees, from 1 to 179. They
+    /// are cut, and islands are joined again along straight ones.
+    double hard_angle = 30.0;
+    bool cut_hard = false;  ///< islands are not joined along creases
+    bool roomy = true;      ///< parts are also cut, and islands of hard surfaces left apart, so that they pack well
+    bool no_hard = false;   ///< hard surfaces are mapped like all others
+    bool rectify = false;   ///< parts that are grids of quadrilaterals become rectangles, whatever their stretch
+    bool stack = false;     ///< parts that are copies of another part lie on it (twins.h)
     bool stack_mirrored = false;  ///< parts that are mirror images of another part lie on it
     int threads = 0;              ///< most threads; 0: one for each core. The result is the same for any number
 };
@@ -87,7 +93,9 @@ struct PartsResult : CornerMapReport {
     double even_area = 0.0;           ///< share of the area within the best factor 3 of texel density
     double margin = 0.0;              ///< least distance of two parts, in pixels; many parts get less than the option
     double coverage = 0.0;            ///< share of the unit square, or of the tiles, that the faces cover, as stored
-    double maps = 0.0;                ///< number of faces mapped, over the faces of the surface
+    Index regions = 0;                ///< these three as in hard_figures.h
+    double whole = 1.0, aligned = 1.0;
+    double maps = 0.0;  ///< number of faces mapped, over the faces of the surface
 };
 
 /// Cuts a surface into parts, as long as more even texels are worth more than the part and its cuts cost.

@@ -5,12 +5,16 @@
 #include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
 #include "parts/regions.h"
+#include "planar/planar_predicates.h"
 #include "surface/free_flattening.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -24,13 +28,24 @@ constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
 constexpr double large_chart = 0.01;      // of the area: charts from there on
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
 
+constexpr double packed_well = 1.155;  // longest island, in roots of the area of all surfaces: the side of a square
+                                       // that is covered to 75 %,
+constexpr double side_of_nut = 1.80;   // or in roots of its own area: the six sides of a nut as high as its radius;
+constexpr double thin = 0.2;           // charts whose area over the square of the length is less are cut across;
+constexpr double middle = 1e-6;        // of a piece: a region so near to its end belongs to the next piece
+
 constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
 constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
 
 class Unfolding {
 public:
-    explicit Unfolding(const CutSurface& surface, FlatCharts charts)
-        : surface_(surface), charts_(std::move(charts)), islands_(charts_.faces), island_(islands_.size())
+    Unfolding(const CutSurface& surface, FlatCharts charts, bool roomy)
+        : surface_(surface),
+          longest_(roomy ? std::max(packed_well, side_of_nut * std::sqrt(surface.areas.sum()))
+                         : std::numeric_limits<double>::infinity()),
+          charts_(std::move(charts)),
+          islands_(charts_.faces),
+          island_(islands_.size())
     {
         parts_ = std::move(charts_.parts);
         std::iota(island_.begin(), island_.end(), 0);
@@ -51,10 +66,23 @@ public:
         return sum;
     }
 
-    void join_charts(ExecutionContext& context)
+    /// Cuts thin charts that are too long across, between planar regions.
+    void cut_strips()
+    {
+        for (std::size_t k = 0, count = islands_.size(); k < count; ++k) {
+            Complex along;
+            const double length = extent(islands_[k], along);
+            if (length > packed_well && surface_.areas(islands_[k]).sum() < thin * length * length)
+                cut_strip(k, along, static_cast<int>(std::ceil(length / packed_well)));
+        }
+    }
+
+    /// @param smooth_only not over creases
+    void join_charts(bool smooth_only, ExecutionContext& context)
     {
         for (const Index h : borders()) {
             context.checkpoint();
+            if (smooth_only && charts_.crease[h]) continue;
             const Index a = island_of(h), b = island_of(twin(h));
             if (a == b) continue;
             islands_[a].size() < islands_[b].size() ? join(twin(h)) : join(h);
@@ -118,6 +146,94 @@ private:
 
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
+    /// The longer side of the box round laid faces, along most of their border up to quarter turns. Sets its direction.
+    double extent(const std::vector<Index>& faces, Complex& along) const
+    {
+        Complex most = 0.0;
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                const Complex edge = charts_.at[next_halfedge(h)] - charts_.at[h], square = edge * edge;
+                const double length = std::abs(edge);
+                if (charts_.net.twin[h] == no_twin && length > 0.0)
+                    most += square * square / (length * length * length);
+            }
+        along = std::polar(1.0, 0.25 * std::arg(most));
+        PlanarPoints points(3 * static_cast<Eigen::Index>(faces.size()), 2);
+        Eigen::Index row = 0;
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h)
+                points.row(row++) << dot(along, charts_.at[h]), cross(along, charts_.at[h]);
+        const Eigen::RowVector2d size = box_size(points);
+        if (size[1] > size[0]) along *= Complex(0.0, 1.0);
+        return size.maxCoeff();
+    }
+
+    /// Cuts a chart into equally long pieces. Nothing changes if it falls into more pieces, or does not get shorter.
+    void cut_strip(std::size_t chart, const Complex& along, int count)
+    {
+        // The place of each planar region along the strip decides its piece.
+        const std::vector<Index> faces = islands_[chart];
+        std::map<Index, std::pair<double, double>> regions;  // area, and its first moment
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                const double place = dot(along, charts_.at[h]);
+                low = std::min(low, place);
+                high = std::max(high, place);
+                regions[charts_.region[f]].first += surface_.areas[f];
+                regions[charts_.region[f]].second += surface_.areas[f] * place;
+            }
+        const auto piece = [&](Index h) {
+            const auto& [area, moment] = regions.at(charts_.region[face_of(h)]);
+            const double place = area > 0.0 ? (moment / area - low) / (high - low) : 0.0;
+            return std::clamp(static_cast<int>(count * place + middle), 0, count - 1);
+        };
+        std::vector<Index> cuts;
+        DisjointSets sets(faces.size());
+        const auto number = [&](Index h) {
+            return static_cast<Index>(std::ranges::lower_bound(faces, face_of(h)) - faces.begin());
+        };
+        for (const Index f : faces)
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                const Index t = charts_.net.twin[h];
+                if (t == no_twin) continue;
+                if (piece(h) == piece(t)) sets.join(number(h), number(t));
+                if (piece(h) < piece(t)) cuts.push_back(h);
+            }
+        std::map<Index, std::vector<Index>> pieces;
+        for (const Index f : faces) pieces[sets.find(number(3 * f))].push_back(f);
+        if (static_cast<int>(pieces.size()) != count ||
+            std::ranges::any_of(cuts, [&](Index h) { return charts_.net.whole[h] != 0; }))
+            return;
+        for (const Index h : cuts) charts_.net.cut(h);
+        std::vector<FlatPart> parts;
+        for (const auto& [root, own] : pieces) {
+            Complex unused;
+            auto part = part_of(own);
+            if (!part || extent(own, unused) > packed_well) break;
+            parts.push_back(std::move(*part));
+        }
+        if (parts.size() != pieces.size()) {
+            for (const Index h : cuts) {
+                charts_.net.twin[h] = twin(h);
+                charts_.net.twin[twin(h)] = h;
+            }
+            return;
+        }
+        auto at = parts.begin();
+        for (const auto& [root, own] : pieces) {
+            if (at == parts.begin()) {
+                islands_[chart] = own;
+                parts_[chart] = std::move(*at++);
+                continue;
+            }
+            for (const Index f : own) chart_[f] = static_cast<Index>(islands_.size());
+            island_.push_back(static_cast<Index>(islands_.size()));
+            islands_.push_back(own);
+            parts_.push_back(std::move(*at++));
+        }
+    }
+
     /// The motion that brings the face across a crease to the crease's place.
     PlaneMotion motion_to(Index h) const
     {
@@ -174,6 +290,8 @@ private:
     {
         const Index a = island_of(crease), b = island_of(twin(crease));
         const PlaneMotion motion = motion_to(crease);
+        Complex unused;
+        const double longest = std::max({longest_, extent(islands_[a], unused), extent(islands_[b], unused)});
         std::vector<Index> joined;
         std::vector<Complex> before;
         for (const Index f : islands_[b])
@@ -194,7 +312,8 @@ private:
         std::vector<Index> faces = islands_[a];
         faces.insert(faces.end(), islands_[b].begin(), islands_[b].end());
         std::ranges::sort(faces);
-        auto part = part_of(faces);
+        std::optional<FlatPart> part;
+        if (!(extent(faces, unused) > longest)) part = part_of(faces);
         if (!part) {
             auto at = before.begin();
             for (const Index f : islands_[b])
@@ -298,6 +417,7 @@ private:
     }
 
     const CutSurface& surface_;
+    const double longest_;                     // extent of an island
     FlatCharts charts_;                        // twins over creases where charts are joined
     std::vector<std::vector<Index>> islands_;  // faces of joined charts, ascending
     std::vector<Index> island_;                // (charts)
@@ -307,21 +427,25 @@ private:
 
 }  // namespace
 
-std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context)
+std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context,
+                                      const UnfoldOptions& options)
 {
-    FlatCharts charts = flat_charts(surface, most_tips);
+    FlatCharts charts = flat_charts(surface, most_tips, options.hard_angle);
     if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
-    Unfolding unfolding(surface, std::move(charts));
-    unfolding.join_charts(context);
+    Unfolding unfolding(surface, std::move(charts), options.roomy);
+    if (options.roomy) unfolding.cut_strips();
+    unfolding.join_charts(options.cut_hard, context);
     return UnfoldedParts{unfolding.parts(), {}, unfolding.cut_length()};
 }
 
-std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context)
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
+                                        const UnfoldOptions& options)
 {
     const double area = surface.areas.sum();
-    Unfolding unfolding(surface, flat_charts(surface, cone_tips));
+    Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options.roomy);
     if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
-    unfolding.join_charts(context);
+    if (options.roomy) unfolding.cut_strips();
+    unfolding.join_charts(options.cut_hard, context);
     unfolding.attach_rest(context);
     return UnfoldedParts{unfolding.parts(), unfolding.rest(), unfolding.cut_length()};
 }

@@ -9,6 +9,12 @@
 
 namespace koebe {
 
+struct UnfoldOptions {
+    double hard_angle = 30.0;  ///< in degrees: a crease is bent by more
+    bool cut_hard = false;     ///< no island goes over a crease
+    bool roomy = false;        ///< no island is so long that it keeps all islands of the square small
+};
+
 struct UnfoldedParts {
     std::vector<FlatPart> parts;
     std::vector<Index> rest;  ///< faces in no part, ascending
@@ -20,12 +26,14 @@ struct UnfoldedParts {
 /// joined again, the longest border first, if they do not overlap. So a cube becomes a cross of six squares.
 /// @return parts that keep all lengths, up to rounding. No value if a chart is curved in both directions, or overlaps
 /// itself
-std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context);
+std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context,
+                                      const UnfoldOptions& options = {});
 
 /// The flat and rolled regions of a hard surface, as parts that keep all lengths, and the rest: faces that are curved
 /// in both directions. Regions are cut apart and joined as above. A planar region stays whole, with its holes.
 /// @param surface of any genus, with or without boundary
 /// @return no value if the surface is not hard: large flat and rolled regions hold less than half of the area
-std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context);
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
+                                        const UnfoldOptions& options = {});
 
 }  // namespace koebe

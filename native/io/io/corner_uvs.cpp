@@ -78,4 +78,30 @@ PlanarPoints polygon_corner_uvs(const PolygonMesh& mesh, const Triangulation& tr
     return uvs;
 }
 
+PlanarPoints triangle_corner_uvs(const PolygonMesh& mesh, const Triangulation& triangulation,
+                                 const PlanarPoints& corner_uvs)
+{
+    const Triangles& triangles = triangulation.triangles;
+    PlanarPoints uvs(triangles.size(), 2);
+    for (Index t = 0; t < static_cast<Index>(triangles.rows()); ++t)
+        for (int k = 0; k < 3; ++k) {
+            // Of a vertex that a polygon names twice, the corner beside the same neighbour.
+            const Index before = triangles(t, (k + 2) % 3), after = triangles(t, (k + 1) % 3);
+            const auto polygon = mesh.face(triangulation.face[static_cast<std::size_t>(t)]);
+            std::size_t best = 0, most = 0;
+            for (std::size_t i = 0, n = polygon.size(); i < n; ++i) {
+                if (polygon[i] != triangles(t, k)) continue;
+                const std::size_t same =
+                    1 + (polygon[(i + 1) % n] == after ? 1 : 0) + (polygon[(i + n - 1) % n] == before ? 1 : 0);
+                if (same > most) {
+                    most = same;
+                    best = i;
+                }
+            }
+            const auto begin = mesh.face_begin[triangulation.face[static_cast<std::size_t>(t)]];
+            uvs.row(3 * static_cast<Eigen::Index>(t) + k) = corner_uvs.row(begin + static_cast<Index>(best));
+        }
+    return uvs;
+}
+
 }  // namespace koebe

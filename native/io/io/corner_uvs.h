@@ -16,4 +16,8 @@ namespace koebe {
 KOEBE_API PlanarPoints polygon_corner_uvs(const PolygonMesh& mesh, const Triangulation& triangulation,
                                           const PlanarPoints& triangle_uvs);
 
+/// The reverse: (3T, 2) of the triangles' corners. @param corner_uvs (C, 2) in the order of mesh.corners
+KOEBE_API PlanarPoints triangle_corner_uvs(const PolygonMesh& mesh, const Triangulation& triangulation,
+                                           const PlanarPoints& corner_uvs);
+
 }  // namespace koebe

@@ -14,6 +14,10 @@ PolygonMesh read_off(std::string_view bytes);
 PolygonMesh read_ply(std::string_view bytes);
 PolygonMesh read_stl(std::string_view bytes);
 
+// As MeshFormat::corner_uvs (mesh_formats.h).
+PlanarPoints obj_corner_uvs(std::string_view bytes, const PolygonMesh& mesh, int set);
+PlanarPoints ply_corner_uvs(std::string_view bytes, const PolygonMesh& mesh, int set);
+
 FileLosses obj_contents(std::string_view bytes);
 FileLosses off_contents(std::string_view bytes);
 FileLosses ply_contents(std::string_view bytes);

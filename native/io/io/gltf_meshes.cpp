@@ -39,18 +39,22 @@ double component(const char* bytes, int type, bool normalized)
     }
 }
 
-/// (V, 3)
-Vertices positions_of(const tinygltf::Model& model, int number)
+/// Positions (V, 3), or UVs (V, 2).
+template <class Points>
+Points points_of(const tinygltf::Model& model, int number)
 {
+    constexpr int axes = Points::ColsAtCompileTime;
     const std::string bytes = io::accessor_elements(model, number);
     const tinygltf::Accessor& accessor = model.accessors[static_cast<std::size_t>(number)];
-    if (accessor.type != TINYGLTF_TYPE_VEC3) throw InputError("the GLB file has positions without three coordinates");
+    if (accessor.type != axes)  // TINYGLTF_TYPE_VEC3 is 3
+        throw InputError(axes == 3 ? "the GLB file has positions without three coordinates"
+                                   : "the GLB file has UVs without two coordinates");
     if (accessor.count >= io::most_elements) io::refuse_size();
-    const std::size_t size = io::accessor_element_bytes(accessor), width = size / 3;
-    Vertices points(static_cast<Eigen::Index>(accessor.count), 3);
-    for (std::size_t k = 0; k < 3 * accessor.count; ++k)
+    const std::size_t size = io::accessor_element_bytes(accessor), width = size / axes;
+    Points points(static_cast<Eigen::Index>(accessor.count), axes);
+    for (std::size_t k = 0; k < axes * accessor.count; ++k)
         points.data()[k] =
-            component(bytes.data() + k / 3 * size + k % 3 * width, accessor.componentType, accessor.normalized);
+            component(bytes.data() + k / axes * size + k % axes * width, accessor.componentType, accessor.normalized);
     return points;
 }
 
@@ -155,7 +159,7 @@ GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
     const auto& primitives = model.meshes[place].primitives;
     for (std::size_t k = 0; k < primitives.size(); ++k) {
         if (!has_triangles(primitives[k])) continue;
-        const Vertices points = positions_of(model, primitives[k].attributes.at("POSITION"));
+        const auto points = points_of<Vertices>(model, primitives[k].attributes.at("POSITION"));
         GltfPrimitive primitive{k, static_cast<Index>(points.rows()), {}};
         primitive.corner_vertex = triangle_corners(
             indices_of(model, primitives[k].indices, static_cast<std::size_t>(points.rows())), primitives[k].mode);
@@ -172,6 +176,27 @@ GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
 std::string mesh_name(const GltfMesh& mesh)
 {
     return "mesh " + std::to_string(mesh.place) + (mesh.name.empty() ? "" : " (" + mesh.name + ")");
+}
+
+std::vector<PlanarPoints> read_gltf_uvs(std::string_view glb, int set)
+{
+    const tinygltf::Model model = io::read_gltf_model(glb);
+    const std::string name = "TEXCOORD_" + std::to_string(set);
+    std::vector<PlanarPoints> all;
+    for (const GltfMesh& mesh : read_gltf_meshes(glb)) {
+        PlanarPoints& uvs = all.emplace_back(static_cast<Eigen::Index>(mesh.polygons.corners.size()), 2);
+        Eigen::Index corner = 0;
+        for (const GltfPrimitive& primitive : mesh.primitives) {
+            const auto& attributes = model.meshes[mesh.place].primitives[primitive.place].attributes;
+            const auto found = attributes.find(name);
+            if (found == attributes.end()) throw InputError(mesh_name(mesh) + " has no " + name);
+            const auto points = points_of<PlanarPoints>(model, found->second);
+            if (points.rows() != primitive.vertex_count)
+                throw InputError(mesh_name(mesh) + " has another number of UVs than of vertices");
+            for (const Index v : primitive.corner_vertex) uvs.row(corner++) << points(v, 0), 1.0 - points(v, 1);
+        }
+    }
+    return all;
 }
 
 std::vector<GltfMesh> read_gltf_meshes(std::string_view glb)

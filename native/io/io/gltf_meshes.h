@@ -33,6 +33,10 @@ struct GltfMesh {
 /// does not exist (elements: faces); a coordinate is NaN or infinite (elements: vertices)
 std::vector<GltfMesh> read_gltf_meshes(std::string_view glb);
 
+/// Reads a set of UVs (TEXCOORD_N) of the same meshes: (C, 2) of the corners of each one's faces, v from the bottom up.
+/// @throws InputError a primitive has no such set, or another number of UVs than of vertices
+std::vector<PlanarPoints> read_gltf_uvs(std::string_view glb, int set);
+
 /// Words that name a mesh: "mesh 2 (Head)".
 std::string mesh_name(const GltfMesh& mesh);
 

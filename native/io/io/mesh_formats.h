@@ -33,6 +33,10 @@ struct MeshFormat {
     PolygonMesh (*read)(std::string_view bytes);
     io::FileLosses (*contents)(std::string_view bytes);  ///< beside vertices and faces
     const MeshWriter* writer = nullptr;                  ///< null: it is only read
+    /// (C, 2) u and v of the mesh's corners; empty: the file has none. Null: the format has none.
+    /// @param mesh as it was read from these bytes @param set which UVs, where a file can have several
+    /// @throws InputError the UVs are damaged, or some faces have none (elements: faces)
+    PlanarPoints (*corner_uvs)(std::string_view bytes, const PolygonMesh& mesh, int set) = nullptr;
 };
 
 namespace io {

@@ -113,6 +113,41 @@ PolygonMesh read_ply(std::string_view bytes)
     return PlyReader(file).take();
 }
 
+PlanarPoints ply_corner_uvs(std::string_view bytes, const PolygonMesh& mesh, int)
+{
+    const PlyFile file = parse_ply(bytes);
+    PlyValues values(file);
+    PlanarPoints of_vertices(mesh.vertices.rows(), 2), of_corners(static_cast<Eigen::Index>(mesh.corners.size()), 2);
+    Eigen::Index corner = 0;
+    bool has_vertices = false, has_corners = false;
+    for (const PlyElement& element : file.elements)
+        for (std::size_t i = 0; i < element.count; ++i) {
+            Eigen::Index axis = 0;  // u comes before v under all names
+            for (const PlyProperty& property : element.properties) {
+                bool read = true;
+                if (!is_ply_uv(element, property) ||
+                    (element.is_vertex() ? property.is_list() || axis > 1 : !property.is_list())) {
+                    read = values.skip(property);
+                } else if (element.is_vertex()) {
+                    has_vertices = axis == 1;
+                    read = values.read(property.type, of_vertices(static_cast<Eigen::Index>(i), axis++));
+                } else {
+                    Index count = 0;
+                    const auto face = mesh.face(static_cast<Index>(i));
+                    read = values.read(*property.length, count) && count == 2 * static_cast<Index>(face.size());
+                    for (Index k = 0; read && k < count; ++k, has_corners = true)
+                        read = values.read(property.type, of_corners(corner + k / 2, k % 2));
+                    corner += count / 2;
+                }
+                if (!read) refuse(element.name, i, "has no texture coordinates for each corner");
+            }
+        }
+    if (has_corners && corner != of_corners.rows())
+        throw InputError("faces without texture coordinates beside faces with them");
+    if (has_corners) return of_corners;
+    return has_vertices ? PlanarPoints(of_vertices(mesh.corners, Eigen::all)) : PlanarPoints();
+}
+
 FileLosses ply_contents(std::string_view bytes)
 {
     FileLosses losses;

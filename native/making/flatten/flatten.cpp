@@ -183,9 +183,10 @@ FlatMesh cut_and_flat(const Vertices& vertices, const Triangles& triangles, cons
     cutting.polygon = options.polygon;
     cutting.threads = options.threads;
     cutting.even = 1.0;
+    cutting.roomy = false;
     cutting.loops = LoopForm::free;
     cutting.price = options.price.value_or(price_true_to_size);
-    FlatMesh mesh = flat_mesh(vertices, triangles, cutting, false, context);
+    FlatMesh mesh = flat_mesh(vertices, triangles, cutting, context);
     side_by_side(mesh.parts.size(), options.threads, context,
                  [&](std::size_t k, ExecutionContext& own) { stretch_less(mesh.parts[k], own); });
     return mesh;

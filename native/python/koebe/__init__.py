@@ -19,6 +19,7 @@ from .maps.even_dial import EvenDial
 from .maps.image import from_image, to_image
 from .maps.layout import fit_circle, mirror_image, pack_disks
 from .maps.opened import LeftOutFace, OpenedSurface, SurfaceCut, SurfacePiece, open_surface
+from .maps.pack import PackResult, pack
 from .maps.parts import PartsResult, parts
 from .maps.result import CIRCLE_TOLERANCE, UV_RESOLUTION, ConformalDomain, MapReport, UniformizeResult
 from .maps.schottky import SchottkyMap, schottky_map
@@ -51,6 +52,7 @@ __all__ = [
     "MapReport",
     "OpenedSurface",
     "OptionError",
+    "PackResult",
     "PartsResult",
     "Patch",
     "SchottkyMap",
@@ -80,6 +82,7 @@ __all__ = [
     "load",
     "mirror_image",
     "open_surface",
+    "pack",
     "pack_disks",
     "parts",
     "plot",

@@ -57,6 +57,8 @@ public:
     {
         Options options = request_.chosen;
         options.polygon = input.triangulation.face;
+        if constexpr (requires { options.uv; })
+            options.uv = triangle_corner_uvs(input.mapped_polygons(), input.triangulation, input.uvs);
         name_mapped_vertices(input, options);
         Result result = with_filed_faces(
             input, [&] { return map_(input.polygons.vertices, input.triangulation.triangles, options, context); });

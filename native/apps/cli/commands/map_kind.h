@@ -9,6 +9,7 @@
 #include "quality/distortion.h"
 #include "report/svg.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ public:
     virtual ~MapKind() = default;
 
     virtual bool any_polygon() const { return false; }  ///< see ReadOptions
+    virtual bool takes_uvs() const { return false; }    ///< whether it needs the file's own texture coordinates
     virtual bool many_pieces() const { return false; }  ///< threads work on several pieces side by side
     /// Computes the map. All numbers in the result are the file's.
     virtual Result compute(const MeshInput&, ExecutionContext&) const = 0;
@@ -46,7 +48,8 @@ ReadOptions begin_run(const MapRequest& request, const MapKind<Result>& kind)
     return {.any_polygon = kind.any_polygon(),
             .hash = !request.json.empty(),
             .weld = request.of_files.weld,
-            .threads = request.options.threads};
+            .threads = request.options.threads,
+            .uv_set = kind.takes_uvs() ? std::optional(request.of_files.uv_channel) : std::nullopt};
 }
 
 /// A map to the disk.

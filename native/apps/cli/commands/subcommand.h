@@ -34,6 +34,7 @@ struct Subcommand {
     KOEBE_OF_MAKING(X(lift))                                                                                           \
     X(ricci)                                                                                                           \
     X(parts)                                                                                                           \
+    X(pack)                                                                                                            \
     KOEBE_OF_MAKING(X(flatten))                                                                                        \
     X(torus)                                                                                                           \
     X(ring)                                                                                                            \

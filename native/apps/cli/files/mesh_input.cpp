@@ -7,6 +7,7 @@
 #include "execution/detachable_run.h"
 #include "execution/stopwatch.h"
 #include "execution/thread_share.h"
+#include "io/mesh_formats.h"
 #include "io/welding.h"
 #include "quality/take_verdict.h"
 
@@ -17,6 +18,16 @@ namespace koebe::cli {
 
 namespace {
 
+/// @throws InputError as MeshFormat::corner_uvs, or the file has none
+PlanarPoints uvs_of(const MeshFile& file, const PolygonMesh& polygons, int set)
+{
+    const MeshFormat* const format = io::mesh_format(file.extension);
+    PlanarPoints uvs;
+    if (format != nullptr && format->corner_uvs != nullptr) uvs = format->corner_uvs(file.bytes, polygons, set);
+    if (uvs.rows() == 0) throw InputError("the file has no texture coordinates");
+    return uvs;
+}
+
 MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions options)
 {
     const Stopwatch reading;
@@ -25,6 +36,7 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     if (options.hash) input.sha256 = input_hash(path);
     input.file = read_mesh_file(path);
     input.polygons = parse_mesh(input.file.bytes, input.file.extension);
+    if (options.uv_set) input.uvs = uvs_of(input.file, input.polygons, *options.uv_set);
     if (!options.keep_file) input.file = {};
     triangulate_input(input, options);
     input.seconds = reading.elapsed();

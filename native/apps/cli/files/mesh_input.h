@@ -21,6 +21,7 @@ struct MeshInput {
     std::optional<PolygonMesh> joined;  ///< with --weld: the polygons with joined corners
     Triangulation triangulation;        ///< of the joined polygons
     std::vector<Warning> warnings;
+    PlanarPoints uvs;      ///< (C, 2) the file's own, of the polygons' corners, if requested
     std::string sha256;    ///< hash of the file, if requested; empty for a pipe or a device
     double seconds = 0.0;  ///< time to read and triangulate
 
@@ -61,8 +62,9 @@ struct ReadOptions {
     bool any_polygon = false;  ///< polygons that cannot be cut into triangles are a warning, not an error
     bool hash = false;         ///< computes sha256: takes as long as reading
     std::optional<double> weld = {};
-    std::vector<Index> first = {};  ///< with weld: joins as they were found in another file of a sequence
-    int threads = 1;                ///< at most; 0: all cores
+    std::vector<Index> first = {};   ///< with weld: joins as they were found in another file of a sequence
+    int threads = 1;                 ///< at most; 0: all cores
+    std::optional<int> uv_set = {};  ///< reads the file's texture coordinates; the set where it has several
 };
 
 /// @throws FileError, InputError, Cancelled

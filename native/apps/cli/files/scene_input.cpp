@@ -15,10 +15,13 @@ SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
     if (options.hash) scene.sha256 = input_hash(path);
     scene.file = read_mesh_file(path);
     scene.meshes = read_gltf_meshes(scene.file.bytes);
+    std::vector<PlanarPoints> uvs;
+    if (options.uv_set) uvs = read_gltf_uvs(scene.file.bytes, *options.uv_set);
     for (GltfMesh& mesh : scene.meshes)
         with_mesh_name(scene, scene.inputs.size(), [&] {
             MeshInput input;
             input.polygons = std::move(mesh.polygons);
+            if (options.uv_set) input.uvs = std::move(uvs[scene.inputs.size()]);
             triangulate_input(input, options);
             scene.inputs.push_back(std::move(input));
         });

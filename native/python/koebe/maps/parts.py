@@ -36,6 +36,9 @@ class PartsResult(MapReport):
     even_area        share of the area whose texel density lies within the best factor 3
     margin           least distance of two parts, in pixels: many parts get less than the option says
     coverage         share of the unit square, or of the tiles, that the faces cover, as stored
+    regions          number of planar regions of the surface with more than 1 % of the area
+    whole            share of the area of these regions that lie in one part, similar to the region; 1 without any
+    aligned          share of the length of straight outer edges that lie within 0.1 degrees of an axis in the UVs
     seconds          in all
     maps             faces mapped in all maps, in faces of the mesh
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
@@ -56,6 +59,9 @@ class PartsResult(MapReport):
     even_area: float
     margin: float
     coverage: float
+    regions: int
+    whole: float
+    aligned: float
     seconds: float
     maps: float
 

@@ -1,0 +1,22 @@
+#include "report/packed_json.h"
+
+#include "report/json.h"
+
+namespace koebe {
+
+nlohmann::ordered_json to_json(const PackedLayer& result)
+{
+    using Json = nlohmann::ordered_json;
+    Json islands = Json::array();
+    for (const LayerIsland& island : result.islands)
+        islands.push_back({{"faces", island.faces}, {"overlaps", island.overlaps}});
+    Json report = report_json(result, {{"islands", std::move(islands)},
+                                       {"overlaps", result.overlaps},
+                                       {"tiles", result.tiles},
+                                       {"margin", result.margin},
+                                       {"coverage", result.coverage}});
+    report["seconds"] = result.seconds.total;
+    return report;
+}
+
+}  // namespace koebe

@@ -1,0 +1,357 @@
+#include "parts/packed_layer.h"
+
+#include "core/counted.h"
+#include "core/errors.h"
+#include "cut/disjoint_sets.h"
+#include "execution/detachable_run.h"
+#include "execution/memory_limit.h"
+#include "execution/peak_memory.h"
+#include "execution/stopwatch.h"
+#include "opened/disk_packing.h"
+#include "part_maps/part_mesh.h"
+#include "parts/tile_packing.h"
+#include "planar/boundary_crossings.h"
+#include "planar/planar_predicates.h"
+#include "quality/stored_uv.h"
+#include "quality/take_verdict.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace koebe {
+namespace {
+
+constexpr double along_an_axis = 1e-3;   // slope of an edge that lies along an axis
+constexpr double worth_quarters = 0.3;   // of the outline's length, along the axes: the island is turned by quarters
+constexpr double least_fullness = 1e-6;  // area over the square of the extent: a thinner island has no area
+
+/// The vertices of the UV layer: corners of one vertex of the mesh at one place, as stored.
+struct LayerVertices {
+    Triangles faces;      ///< (F, 3) of these vertices
+    PlanarPoints points;  ///< (V', 2) as given, in a unit in which no number is over 1
+};
+
+LayerVertices layer_vertices(const Triangles& triangles, const PlanarPoints& uv)
+{
+    using Corner = std::tuple<Index, double, double, Index>;
+    int exponent = 0;
+    std::frexp(uv.cwiseAbs().maxCoeff(), &exponent);
+    const PlanarPoints points = uv.unaryExpr([&](double x) { return std::ldexp(x, -exponent); });
+    std::vector<Corner> corners;
+    for (Index c = 0; c < static_cast<Index>(uv.rows()); ++c)
+        corners.emplace_back(triangles.data()[c], as_stored(points(c, 0)), as_stored(points(c, 1)), c);
+    std::ranges::sort(corners);
+    LayerVertices layer{triangles, PlanarPoints(uv.rows(), 2)};
+    Index count = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto& [vertex, u, v, c] = corners[i];
+        const bool is_new =
+            i == 0 || std::tie(vertex, u, v) != std::tie(std::get<0>(corners[i - 1]), std::get<1>(corners[i - 1]),
+                                                         std::get<2>(corners[i - 1]));
+        if (is_new) layer.points.row(count++) = points.row(c);
+        layer.faces.data()[c] = count - 1;
+    }
+    layer.points.conservativeResize(count, 2);
+    return layer;
+}
+
+/// (F) islands, numbered by their first faces.
+std::vector<Index> islands_of(const LayerVertices& layer, const std::vector<Index>& polygon, Index& count)
+{
+    const Index vertices = static_cast<Index>(layer.points.rows()), faces = static_cast<Index>(layer.faces.rows());
+    const Index polygons = polygon.empty() ? 0 : *std::ranges::max_element(polygon) + 1;
+    DisjointSets sets(static_cast<std::size_t>(vertices) + static_cast<std::size_t>(polygons));
+    for (Index f = 0; f < faces; ++f) {
+        for (int k = 1; k < 3; ++k) sets.join(layer.faces(f, 0), layer.faces(f, k));
+        if (!polygon.empty()) sets.join(layer.faces(f, 0), vertices + polygon[f]);
+    }
+    std::vector<Index> number(static_cast<std::size_t>(vertices + polygons), -1), island;
+    count = 0;
+    for (Index f = 0; f < faces; ++f) {
+        Index& own = number[sets.find(layer.faces(f, 0))];
+        if (own < 0) own = count++;
+        island.push_back(own);
+    }
+    return island;
+}
+
+/// An island by itself: its lower left corner lies at 0.
+struct PackedPiece {
+    std::vector<Index> faces, vertices;  ///< of the layer
+    PlanarPoints points;
+    bool is_mirrored = false;
+    bool overlaps = false;
+    double area = 0.0;  ///< of its faces, each counted as positive
+    Outline outline = {};
+};
+
+/// The closed walks round the faces of an island, each face counter-clockwise: their winding number at a point is the
+/// number of faces there. Sets whether two faces lie on the same side of an edge. @param count of vertices
+std::vector<VertexLoop> walks_round(const std::vector<std::array<Index, 3>>& faces, std::size_t count, bool& doubled)
+{
+    std::vector<std::pair<Index, Index>> edges, left;
+    for (const auto& [a, b, c] : faces)
+        if (a != b && b != c && c != a) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
+    std::ranges::sort(edges);
+    doubled = std::ranges::adjacent_find(edges) != edges.end();
+    // Edges that faces have in both directions cancel.
+    for (auto edge = edges.begin(); edge != edges.end();) {
+        const auto same = std::equal_range(edge, edges.end(), *edge);
+        const auto back = std::equal_range(edges.begin(), edges.end(), std::pair(edge->second, edge->first));
+        left.insert(left.end(), std::max<std::ptrdiff_t>(0, same.second - edge - (back.second - back.first)), *edge);
+        edge = same.second;
+    }
+    // As many edges enter a vertex as leave it: a walk along unused edges ends where it began.
+    std::vector<std::size_t> next(count + 1, 0);
+    for (const auto& edge : left) ++next[edge.first + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<VertexLoop> walks;
+    const std::vector<std::size_t> begin = next;
+    for (Index first = 0; first < static_cast<Index>(count); ++first)
+        while (next[first] < begin[first + 1]) {
+            VertexLoop& walk = walks.emplace_back();
+            Index v = first;
+            do {
+                walk.push_back(v);
+                v = left[next[v]++].second;
+            } while (v != first);
+        }
+    return walks;
+}
+
+/// How often loops run round a point that is on none of them.
+int winding_at(const std::vector<VertexLoop>& loops, const PlanarPoints& points, const Eigen::RowVector2d& at)
+{
+    int turns = 0;
+    for (const VertexLoop& loop : loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Eigen::RowVector2d a = points.row(loop[i]) - at, b = points.row(loop[(i + 1) % loop.size()]) - at;
+            if ((a[1] > 0.0) == (b[1] > 0.0)) continue;
+            if ((a[0] * b[1] - a[1] * b[0] > 0.0) == (b[1] > a[1])) turns += b[1] > a[1] ? 1 : -1;
+        }
+    return turns;
+}
+
+/// Whether loops without doubled edges meet, or run round a part of the plane twice.
+bool run_over_each_other(const std::vector<VertexLoop>& loops, const PlanarPoints& points)
+{
+    if (!crossing_boundary_edges(loops, points, 0.0).empty()) return true;
+    std::vector<std::size_t> outer;
+    for (std::size_t k = 0; k < loops.size(); ++k)
+        if (enclosed_area(loops[k], points) > 0.0) outer.push_back(k);
+    if (outer.size() < 2) return false;
+    return std::ranges::any_of(outer, [&](std::size_t k) {
+        std::vector<VertexLoop> others = loops;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+        return winding_at(others, points, 0.5 * (points.row(loops[k][0]) + points.row(loops[k][1]))) != 0;
+    });
+}
+
+/// Whether much of the outline lies along the axes.
+bool lies_straight(const Outline& outline)
+{
+    double all = 0.0, along = 0.0;
+    for (const VertexLoop& loop : outline.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const auto edge = outline.points.row(loop[(i + 1) % loop.size()]) - outline.points.row(loop[i]);
+            all += edge.norm();
+            if (edge.cwiseAbs().minCoeff() <= along_an_axis * edge.cwiseAbs().maxCoeff()) along += edge.norm();
+        }
+    return along > worth_quarters * all;
+}
+
+/// @param faces of the island
+PackedPiece island_alone(const LayerVertices& layer, std::vector<Index> faces)
+{
+    PackedPiece island{std::move(faces), {}, {}};
+    for (const Index f : island.faces)
+        for (int k = 0; k < 3; ++k) island.vertices.push_back(layer.faces(f, k));
+    std::ranges::sort(island.vertices);
+    island.vertices.erase(std::unique(island.vertices.begin(), island.vertices.end()), island.vertices.end());
+    island.points = layer.points(island.vertices, Eigen::all);
+    island.points.rowwise() -= island.points.colwise().minCoeff().eval();
+    // Areas in the unit of the extent: they neither overflow nor vanish.
+    const double extent = std::max(island.points.maxCoeff(), 1e-300);
+    const PlanarPoints unit = island.points / extent;
+    std::vector<std::array<Index, 3>> own;
+    std::vector<double> areas;
+    for (const Index f : island.faces) {
+        auto& face = own.emplace_back();
+        for (int k = 0; k < 3; ++k)
+            face[k] = static_cast<Index>(std::ranges::lower_bound(island.vertices, layer.faces(f, k)) -
+                                         island.vertices.begin());
+        const Eigen::RowVector2d a = unit.row(face[1]) - unit.row(face[0]), b = unit.row(face[2]) - unit.row(face[0]);
+        areas.push_back(0.5 * (a[0] * b[1] - a[1] * b[0]));
+    }
+    island.is_mirrored = std::accumulate(areas.begin(), areas.end(), 0.0) < 0.0;
+    for (std::size_t f = 0; f < own.size(); ++f)
+        if (areas[f] < 0.0 || (areas[f] == 0.0 && island.is_mirrored)) std::swap(own[f][1], own[f][2]);
+    for (const double area : areas) island.area += std::abs(area) * extent * extent;
+    bool doubled = false;
+    island.outline = {unit, walks_round(own, island.vertices.size(), doubled)};
+    island.outline.along_axes = lies_straight(island.outline);
+    island.overlaps = doubled || run_over_each_other(island.outline.loops, unit);
+    island.outline.points = island.points;
+    // Faces on a line have no walk where they cancel.
+    for (std::size_t f = 0; f < own.size(); ++f)
+        if (areas[f] == 0.0) island.outline.loops.emplace_back(own[f].begin(), own[f].end());
+    return island;
+}
+
+/// Scales islands so that each has the area of its faces on the surface. Islands without area get the mean scale.
+/// @param areas (F) on the surface
+void scale_to_areas(std::vector<PackedPiece>& islands, const VectorXd& areas)
+{
+    double on_surface = 0.0, in_layer = 0.0;
+    std::vector<double> factor;
+    for (const PackedPiece& island : islands) {
+        const double own = areas(island.faces).sum(), extent = island.points.maxCoeff();
+        const bool has_area = own > 0.0 && island.area > least_fullness * extent * extent;
+        factor.push_back(has_area ? std::sqrt(own / island.area) : 0.0);
+        if (!has_area) continue;
+        on_surface += own;
+        in_layer += island.area;
+    }
+    const double mean = in_layer > 0.0 ? std::sqrt(on_surface / in_layer) : 1.0;
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        const double own = factor[k] > 0.0 ? factor[k] : mean;
+        islands[k].points *= own;
+        islands[k].area *= own * own;
+    }
+}
+
+/// The surface's vertices, scaled so that no square overflows.
+Vertices of_size_one(const Vertices& vertices)
+{
+    const double most = vertices.size() > 0 ? vertices.cwiseAbs().maxCoeff() : 0.0;
+    return most > 0.0 ? Vertices(vertices / most) : vertices;
+}
+
+std::vector<Outline> outlines_in_unit(const std::vector<PackedPiece>& islands)
+{
+    double most = 0.0;
+    for (const PackedPiece& island : islands) most = std::max(most, island.points.maxCoeff());
+    std::vector<Outline> outlines;
+    for (const PackedPiece& island : islands) {
+        outlines.push_back(island.outline);
+        outlines.back().points = most > 0.0 ? PlanarPoints(island.points / most) : island.points;
+    }
+    return outlines;
+}
+
+void check_layer(const Triangles& triangles, const PackedLayerOptions& options)
+{
+    if (options.tiles < 1 || options.tiles > most_tiles) throw InputError("tiles must be from 1 to 100");
+    if (triangles.rows() == 0) throw InputError("there is no face to pack");
+    if (options.uv.rows() != 3 * triangles.rows()) throw InputError("each corner of a face needs u and v");
+    std::vector<Index> not_finite;
+    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
+        if (!options.uv.middleRows<3>(3 * static_cast<Eigen::Index>(f)).allFinite()) not_finite.push_back(f);
+    if (!not_finite.empty()) throw InputError("UVs are NaN or infinite (faces listed)", ElementKind::faces, not_finite);
+}
+
+/// Distortion is measured on faces that are turned like their images.
+void report_layer_distortion(const Vertices& vertices, Triangles triangles, const PackedLayerOptions& options,
+                             PackedLayer& result)
+{
+    const double lost_before = judge_corners(vertices, triangles, options.uv, result.turned).lost_area;
+    const Verdict verdict = judge_corners(vertices, triangles, result.uv, result.turned);
+    PlanarPoints points = 2.0 * result.uv.unaryExpr(&as_stored).array() - 1.0;
+    for (const Index f : result.turned) {
+        std::swap(triangles(f, 1), triangles(f, 2));
+        points.row(3 * static_cast<Eigen::Index>(f) + 1).swap(points.row(3 * static_cast<Eigen::Index>(f) + 2));
+    }
+    result.distortion = {measure_corner_distortion(vertices, triangles, points), verdict};
+    result.converged = true;
+    if (verdict.lost_area - lost_before > options.most_lost)
+        take_verdict(
+            {.most_lost = options.most_lost, .advice = "Islands are too small beside the largest: average their scale"},
+            result);
+}
+
+PackedLayer packed(const Vertices& given, const Triangles& triangles, const PackedLayerOptions& options,
+                   ExecutionContext& context)
+{
+    const Stopwatch run;
+    check_layer(triangles, options);
+    require_memory_for_faces(triangles.rows());
+    const double margin = margin_in_square(options.margin, options.pixels);
+    const Vertices vertices = of_size_one(given);
+    // The islands as they are.
+    context.begin_stage("topology", 0.0, 0.2);
+    const LayerVertices layer = layer_vertices(triangles, options.uv);
+    Index count = 0;
+    PackedLayer result;
+    result.part = islands_of(layer, options.polygon, count);
+    std::vector<std::vector<Index>> faces(static_cast<std::size_t>(count));
+    for (std::size_t f = 0; f < result.part.size(); ++f) faces[result.part[f]].push_back(static_cast<Index>(f));
+    std::vector<PackedPiece> islands;
+    for (std::vector<Index>& own : faces) {
+        context.checkpoint();
+        islands.push_back(island_alone(layer, std::move(own)));
+    }
+    if (options.average_scale) scale_to_areas(islands, face_areas(vertices, triangles));
+    // Their places.
+    context.begin_stage("pack", 0.2, 1.0);
+    const std::vector<Outline> outlines = outlines_in_unit(islands);
+    const TilePacking packing = pack_on_tiles(outlines, margin, options.tiles);
+    result.uv.resize(options.uv.rows(), 2);
+    double area = 0.0;
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        PackedPiece& island = islands[k];
+        const Eigen::RowVector2d corner = tile_corner(packing.tile[k]);
+        PlanarPoints places = place_island(outlines[k].points, packing.places[k], packing.scale);
+        places = places.cwiseMax(0.0).cwiseMin(1.0).rowwise() + corner;
+        for (const Index f : island.faces)
+            for (int c = 0; c < 3; ++c) {
+                const auto at = std::ranges::lower_bound(island.vertices, layer.faces(f, c)) - island.vertices.begin();
+                result.uv.row(3 * static_cast<Eigen::Index>(f) + c) = places.row(at);
+            }
+        if (island.is_mirrored) result.turned.insert(result.turned.end(), island.faces.begin(), island.faces.end());
+        result.overlaps += island.overlaps ? 1 : 0;
+        result.tiles = std::max(result.tiles, packing.tile[k] + 1);
+        result.islands.push_back({std::move(island.faces), island.overlaps});
+    }
+    std::ranges::sort(result.turned);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        const PlanarPoints own = result.uv.middleRows<3>(3 * f).unaryExpr(&as_stored);
+        area += std::abs(cross(Complex(own(1, 0) - own(0, 0), own(1, 1) - own(0, 1)),
+                               Complex(own(2, 0) - own(0, 0), own(2, 1) - own(0, 1)))) /
+                2.0;
+    }
+    // The report.
+    result.coverage = area / result.tiles;
+    result.margin = std::min(options.margin, packing.margin * options.pixels);
+    result.vertex_count = static_cast<Index>(vertices.rows());
+    result.face_count = static_cast<Index>(triangles.rows());
+    report_layer_distortion(vertices, triangles, options, result);
+    if (result.overlaps > 0) {
+        std::vector<Index> overlapping;
+        for (const LayerIsland& island : result.islands)
+            if (island.overlaps) overlapping.insert(overlapping.end(), island.faces.begin(), island.faces.end());
+        std::ranges::sort(overlapping);
+        result.warnings.push_back({WarningKind::not_one_to_one,
+                                   counted(static_cast<std::size_t>(result.overlaps), "island") +
+                                       " that overlap or touch themselves, as before",
+                                   overlapping});
+    }
+    result.peak_memory_mb = peak_memory_mb();
+    result.seconds.total = run.elapsed();
+    return result;
+}
+
+}  // namespace
+
+PackedLayer pack_layer(const Vertices& vertices, const Triangles& triangles, const PackedLayerOptions& options,
+                       ExecutionContext& context)
+{
+    return run_detachable<PackedLayer>(context, [vertices, triangles, options](ExecutionContext& own) {
+        return packed(vertices, triangles, options, own);
+    });
+}
+
+}  // namespace koebe

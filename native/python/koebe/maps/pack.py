@@ -1,0 +1,100 @@
+"""Packs the islands of any UV layer."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._native import _koebe
+from .._options import callback, filled, takes, token
+from .._signatures import PackOptions
+from ..errors import InputError
+from .domain_map import DomainMap
+from .input import polygons_of, surface_of
+from .result import Source
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+
+
+class PackResult(DomainMap):
+    """The result of `pack`.
+
+    uv               (F, 3, 2) float64 in [0, 1]^2, or on tiles: of each corner of each triangle, read-only
+    island           (F,) int32: the island of each triangle
+    islands          for each island a dict: faces, overlaps (it lies on itself, or its border touches itself)
+    overlaps         number of such islands. They are moved as they are
+    tiles            number of tiles with islands
+    margin           least distance of two islands, in pixels: many islands get less than the option says
+    coverage         area of the triangles over the area of the unit square, or of the tiles, as stored. Triangles that
+                     lie on each other all count
+    turned           triangles of islands that lie with their back to the front: no island is turned over
+    converged        False: packing lost too much of the surface's area
+    angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version    as in MapReport. flipped counts
+                     triangles that are turned over within their island, or have no area, too
+    """
+
+    island: np.ndarray
+    islands: list[dict[str, Any]]
+    overlaps: int
+    tiles: int
+    margin: float
+    coverage: float
+
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        super().__init__(report, native, source)
+        self._set_arrays(island=np.array(native.island))
+
+    def _drawn(self) -> np.ndarray:
+        return np.ones(len(self.uv), dtype=bool)
+
+    def _arrays(self) -> dict[str, Any]:
+        return {**super()._arrays(), "island": self.island}
+
+    def _counts(self) -> list[str]:
+        return [f"{len(self.islands)} islands", f"coverage {self.coverage:.3g}"]
+
+
+@takes("pack", uv=None, polygon=None, progress=None, cancel=None)
+def pack(vertices: Any, triangles: Any = None, **given: "Unpack[PackOptions]") -> PackResult:
+    """Pack the islands of UVs into the unit square, or onto tiles, as large as they have room.
+
+    Triangles that share a vertex with the same UVs are one island. Islands are moved, turned and scaled, all by one
+    factor: none is cut, turned over or bent. Islands with much of their outline along the axes are turned by quarter
+    turns only.
+
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
+    uv           (F, 3, 2) of the corners of the triangles, or (V, 2) of the vertices: finite numbers, anywhere
+    {options}
+    polygon      (F,) integers: triangles of one number are one polygon, and in one island
+    mask, progress, cancel    as for `uniformize`
+    Raises InputError (OptionError for an option), SolverError, Cancelled, or MemoryError.
+
+    >>> import koebe
+    >>> square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+    >>> result = koebe.pack(*square, uv=[[4, 4], [5, 4], [5, 5], [4, 5]], margin=0)
+    >>> len(result.islands), round(result.coverage, 2)
+    (1, 1.0)
+    """
+    options, said = filled("pack", _koebe.PackOptions(), given)
+    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
+    source = surface_of(vertices, triangles, degenerate=True, mask=given["mask"])
+    options.polygon = polygons_of(given["polygon"], source)
+    options.uv = _corner_uv(given["uv"], source).reshape(-1, 2)
+    native = source.call(_koebe.pack, options, progress, cancel)
+    return PackResult({**native.report(), "options": said}, native, source)
+
+
+def _corner_uv(given: Any, source: Source) -> np.ndarray:
+    """(F, 3, 2) float64 of the source's triangles."""
+    uv = np.asarray([] if given is None else given)
+    if uv.dtype.kind in "fiu" and uv.shape == source.vertices.shape[:1] + (2,):
+        uv = uv[source.triangles]
+    elif source.kept is not None and len(uv) > source.kept[-1]:  # of all triangles
+        uv = uv[source.kept]
+    if uv.shape != (len(source.triangles), 3, 2) or uv.dtype.kind not in "fiu":
+        raise InputError(
+            f"uv must be (F, 3, 2) real numbers, of the {len(source.triangles)} triangles' corners, or (V, 2), of the "
+            f"{len(source.vertices)} vertices, not {uv.shape} {uv.dtype}"
+        )
+    return uv.astype(np.float64)
