@@ -10,7 +10,7 @@ from markup import escaped, indented, sentence, title, toctree
 ROOT = Path(__file__).resolve().parents[2]
 COMMAND = ROOT / "build" / "koebe"
 COLUMN = 30  # where the help's texts begin
-EXAMPLE = re.compile(r"^build/koebe (\S+) .*$", re.MULTILINE)
+EXAMPLE = re.compile(r"^(?:build/koebe .* && )?build/koebe (\S+) .*$", re.MULTILINE)
 
 
 @dataclass

@@ -10,6 +10,8 @@
 #include "planar/planar_predicates.h"
 #include "surface/laplacian.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +29,8 @@ constexpr double hold = 1e6;  // weight with which held vertices stay, over a co
 /// An attempt to hold crossing loops at the part's loops.
 struct Attempt {
     double share;  ///< how near to them
-    double bulge;  ///< of a coarse edge: how far its fine vertices lie outside, so that no face is flat
+    double bulge;  ///< of a coarse edge: how far its fine vertices lie outside, so
+                   ///< that no face is flat
 };
 constexpr std::array attempts{Attempt{0.0, 0.0}, Attempt{0.9, 1e-3}, Attempt{1.0, 1e-3}, Attempt{1.0, 1e-4},
                               Attempt{1.0, 1e-5}};
@@ -35,7 +38,7 @@ constexpr double ear_height = 0.01;  // of a face at a corner that the part roun
 
 using HeldVertex = std::pair<Index, Complex>;  // and where it stays
 
-Eigen::RowVector3d normal_of(const Corners& at) { return (at[1] - at[0]).cross(at[2] - at[0]); }
+Eigen::RowVector3d normal_of(const CornersInSpace& at) { return (at[1] - at[0]).cross(at[2] - at[0]); }
 
 /// Turns vectors of one plane into another one, the shortest way.
 Eigen::Matrix3d turn_between(const Eigen::RowVector3d& from, const Eigen::RowVector3d& to)
@@ -44,16 +47,19 @@ Eigen::Matrix3d turn_between(const Eigen::RowVector3d& from, const Eigen::RowVec
 }
 
 /// Half of the cotangent at a corner, for the edge opposite to it.
-double half_cotangent(const Corners& at, int k)
+double half_cotangent(const CornersInSpace& at, int k)
 {
     const Eigen::RowVector3d a = at[(k + 1) % 3] - at[k], b = at[(k + 2) % 3] - at[k];
     return 0.5 * std::max(a.dot(b) / std::max(a.cross(b).norm(), 1e-300), least_cotangent);
 }
 
-/// Places in the plane whose edges have, in the mean over their faces, the courses that the part's map gives them:
-/// minimizes sum cot |u_j - u_i - J (x_j - x_i)|^2 / 2. J is the map of the nearest face of the part, turned into the
-/// plane of the fine face (Sumner and Popovic 2004 give a mesh its gradients so).
-/// @param face_near (F) of the piece: the coarse face @param held vertices and where they stay
+/// Places in the plane whose edges have, in the mean over their faces, the
+/// courses that the part's map gives them: minimizes sum cot |u_j - u_i - J
+/// (x_j - x_i)|^2 / 2. J is the map of the nearest face of the part, turned
+/// into the plane of the fine face (Sumner and Popovic 2004 give a mesh its
+/// gradients so).
+/// @param face_near (F) of the piece: the coarse face @param held vertices and
+/// where they stay
 PlanarPoints places_of(const FlatPart& piece, const FlatPart& part, const Proxy& proxy, const CoarseNet& net,
                        const std::vector<Index>& face_near, const std::vector<HeldVertex>& held)
 {
@@ -63,8 +69,8 @@ PlanarPoints places_of(const FlatPart& piece, const FlatPart& part, const Proxy&
     std::vector<Eigen::Triplet<double>> entries;
     MatrixXd load = MatrixXd::Zero(count, 2);
     for (Index f = 0; f < static_cast<Index>(face_near.size()); ++f) {
-        const Corners at = corners_of(piece.vertices, piece.surface.triangles, f);
-        const Corners there = corners_of(proxy.coarse.vertices, proxy.surface.triangles, face_near[f]);
+        const CornersInSpace at = corners_of(piece.vertices, piece.surface.triangles, f);
+        const CornersInSpace there = corners_of(proxy.coarse.vertices, proxy.surface.triangles, face_near[f]);
         const auto row = part.surface.triangles.row(net.place[face_near[f]].face);
         Eigen::Matrix<double, 3, 2> edges;
         edges << (there[1] - there[0]).transpose(), (there[2] - there[0]).transpose();
@@ -119,26 +125,38 @@ public:
                 piece.points = courses(piece, held_between(piece, freely, by_rims, is_held, share));
             }
             if (!piece.points.allFinite()) return false;
-            const bool is_upright =
-                turn_upright(piece.vertices, piece.surface.triangles, piece.surface.loops, none, piece.points, context);
-            if (is_upright && lies_one_to_one(piece, piece.points) && survives_storing(piece)) return true;
-            hold_crossing_loops(piece, is_held);
+            if (hold_crossing_loops(piece, is_held)) continue;
+            if (turn_upright(piece.vertices, piece.surface.triangles, piece.surface.loops, none, piece.points,
+                             context) &&
+                lies_one_to_one(piece, piece.points) && survives_storing(piece))
+                return true;
+            is_held.assign(is_held.size(), 1);
         }
         return false;
     }
 
 private:
-    /// Loops that cross themselves or another one, or are turned over, or all but.
-    static void hold_crossing_loops(const FlatPart& piece, std::vector<char>& is_held)
+    /// Holds loops that cross themselves or another one, or are turned over; all
+    /// loops, if these are held already.
+    /// @return whether there are such loops
+    static bool hold_crossing_loops(const FlatPart& piece, std::vector<char>& is_held)
     {
         std::vector<int> loop_of(piece.original.size(), -1);
         for (std::size_t k = 0; k < piece.surface.loops.size(); ++k)
             for (const Index v : piece.surface.loops[k]) loop_of[v] = static_cast<int>(k);
-        const auto before = std::ranges::count(is_held, 1);
-        for (const auto& [a, b] : crossing_boundary_edges(piece.surface.loops, piece.points, 0.0))
-            is_held[loop_of[a]] = is_held[loop_of[b]] = 1;
-        for (const int k : turned_loops(piece.surface.loops, piece.points, 0.0)) is_held[k] = 1;
-        if (std::ranges::count(is_held, 1) == before) is_held.assign(is_held.size(), 1);
+        const std::vector<char> before = is_held;
+        bool crosses = false;
+        const auto hold = [&](int loop) {
+            crosses = true;
+            is_held[loop] = 1;
+        };
+        for (const auto& [a, b] : crossing_boundary_edges(piece.surface.loops, piece.points, 0.0)) {
+            hold(loop_of[a]);
+            hold(loop_of[b]);
+        }
+        for (const int k : turned_loops(piece.surface.loops, piece.points, 0.0)) hold(k);
+        if (crosses && is_held == before) is_held.assign(is_held.size(), 1);
+        return crosses;
     }
 
     /// As places_of; not finite where that fails.
@@ -151,7 +169,8 @@ private:
         }
     }
 
-    /// The vertices of held loops, between the free places, moved as a whole, and those on the part's boundary.
+    /// The vertices of held loops, between the free places, moved as a whole, and
+    /// those on the part's boundary.
     static std::vector<HeldVertex> held_between(const FlatPart& piece, const PlanarPoints& freely,
                                                 const std::vector<HeldVertex>& by_rims,
                                                 const std::vector<char>& is_held, double share)
@@ -170,8 +189,9 @@ private:
         return held;
     }
 
-    /// Moves the tip of a face with two edges on the boundary inwards, if the face would not be upright: at such a
-    /// corner the part has more than one face.
+    /// Moves the tip of a face with two edges on the boundary inwards, if the
+    /// face would not be upright: at such a corner the part has more than one
+    /// face.
     static void turn_ears_upright(const FlatPart& piece, std::vector<HeldVertex>& held)
     {
         const Triangles& triangles = piece.surface.triangles;
@@ -182,7 +202,8 @@ private:
             points.row(v) << at.real(), at.imag();
             is_held[v] = 1;
         }
-        std::vector<Index> ear(piece.original.size(), no_twin);  // the half-edge that leaves its tip
+        std::vector<Index> ear(piece.original.size(),
+                               no_twin);  // the half-edge that leaves its tip
         for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
             if (twin[h] == no_twin && twin[previous_halfedge(h)] == no_twin &&
                 std::ranges::all_of(triangles.row(face_of(h)), [&](Index v) { return is_held[v] != 0; }) &&
@@ -195,8 +216,9 @@ private:
             }
     }
 
-    /// The boundary's vertices on the boundary of the relaxed part, at the same share of its length from one common
-    /// vertex to the next. Empty if the loops do not correspond.
+    /// The boundary's vertices on the boundary of the relaxed part, at the same
+    /// share of its length from one common vertex to the next. Empty if the loops
+    /// do not correspond.
     std::vector<HeldVertex> rims_of(const FlatPart& piece, double bulge) const
     {
         std::vector<Index> coarse_of(static_cast<std::size_t>(proxy_.fine.whole.vertices.rows()), -1);
@@ -205,7 +227,8 @@ private:
         std::vector<HeldVertex> held;
         std::vector<char> taken(part_.surface.loops.size(), 0);
         for (const VertexLoop& loop : piece.surface.loops) {
-            std::vector<std::size_t> anchors;  // places in the loop of vertices that the part's boundary has
+            std::vector<std::size_t> anchors;  // places in the loop of vertices that
+                                               // the part's boundary has
             std::vector<Index> names;
             for (std::size_t i = 0; i < loop.size(); ++i)
                 if (const Index name = coarse_of[piece.original[loop[i]]]; name >= 0) {
@@ -226,7 +249,8 @@ private:
         return held;
     }
 
-    /// Spreads the vertices of a loop from one place in it up to the next along a course in the plane.
+    /// Spreads the vertices of a loop from one place in it up to the next along a
+    /// course in the plane.
     static void hold_along(const std::vector<Complex>& course, const FlatPart& piece, const VertexLoop& loop,
                            std::size_t from, std::size_t to, double bulge, std::vector<HeldVertex>& held)
     {
@@ -249,8 +273,9 @@ private:
         }
     }
 
-    /// The part's loop that has these names one after the other, from the first of them; empty if there is none. It may
-    /// have others between them: short darts may have no path, and a path may end elsewhere on a loop.
+    /// The part's loop that has these names one after the other, from the first
+    /// of them; empty if there is none. It may have others between them: short
+    /// darts may have no path, and a path may end elsewhere on a loop.
     VertexLoop rim_of(const std::vector<Index>& names, std::vector<char>& taken) const
     {
         for (std::size_t k = 0; k < part_.surface.loops.size(); ++k) {

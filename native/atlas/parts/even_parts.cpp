@@ -20,18 +20,18 @@ namespace koebe {
 namespace {
 
 constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: vertices farther off are free
-constexpr double first_even = 0.02, least_even = 0.005;           // start and end of the search for E
-constexpr EvenEffort search{.most_steps = 12, .most_rounds = 5};  // for an E of the search, and before it for
-constexpr EvenEffort look{4, 1, 8};                               // a first look, which ends the trial if
-constexpr double clearly_worse = 1.02;                            // angles are worse by this factor
-constexpr double most_worse = 1.1;                                // the same, of parts that start from coarse ones
-constexpr double roomy_piece = 0.1;                               // price of one more part, if that saves room
-constexpr double step = 1.5;                                      // factor from one E to the next
-constexpr double even_with_darts = 0.1;                           // E with darts, if no E is given,
-constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};      // and if angles are then worse
-constexpr double tolerant = 1.2;                                  // of an E at which angles may be no worse
-constexpr EvenEffort carried_effort{12, 3, 24};                   // for parts that were relaxed on a coarse surface, or
-constexpr EvenEffort own_effort{12, 6, 60};                       // for those of them that start from their own map
+constexpr double first_even = 0.02, least_even = 0.005;       // start and end of the search for E
+constexpr int search_steps = 12;                              // for an E of the search, and before it for
+constexpr EvenEffort look{4, 1, 8};                           // a first look, which ends the trial if
+constexpr double clearly_worse = 1.02;                        // angles are worse by this factor
+constexpr double most_worse = 1.1;                            // the same, of parts that start from coarse ones
+constexpr double roomy_piece = 0.1;                           // price of one more part, if that saves room
+constexpr double step = 1.5;                                  // factor from one E to the next
+constexpr double even_with_darts = 0.1;                       // E with darts, if no E is given,
+constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // and if angles are then worse
+constexpr double tolerant = 1.2;                              // of an E at which angles may be no worse
+constexpr EvenEffort carried_effort{12, 3, 24};               // for parts that were relaxed on a coarse surface, or
+constexpr EvenEffort own_effort{12, 6, 60};                   // for those of them that start from their own map
 
 /// The circle of a rim's held vertices, or the straight end of a tube.
 Track track_of(PartKind kind, const PlanarPoints& at)
@@ -120,28 +120,33 @@ public:
     /// The parts that could not be moved.
     const std::vector<std::size_t>& left() const { return left_; }
 
-    void relax_with_darts(double even, const EvenEffort& effort)
+    /// @return whether anything was cut
+    bool relax_with_darts(double even, const EvenEffort& effort)
     {
         relax(even, effort);
-        if (!(options_.darts > 0.0)) return;
+        if (!(options_.darts > 0.0)) return false;
         const bool joined = cut_through(even, {});
-        cut_darts(parts_, even, dart_price(options_.darts), options_.threads, context_);
-        if (joined || std::ranges::any_of(parts_, has_darts)) relax_cut(even, effort);
-        const bool is_split = cut_through(even, options_.piece * dart_price(options_.darts));
-        if (cut_for_room() || is_split) relax_cut(even, effort);
+        cut_darts(parts_, even, cut_price(), options_.threads, context_);
+        const bool is_cut = joined || std::ranges::any_of(parts_, has_darts);
+        if (is_cut) relax_cut(even, effort);
+        const bool is_split = cut_through(even, options_.piece * cut_price());
+        const bool is_roomy = cut_for_room();
+        if (is_roomy || is_split) relax_cut(even, effort);
+        return is_cut || is_split || is_roomy;
     }
 
-    /// Tries darts first. If they do not help, goes from one E to the next, as long as angles are no worse than at 0.
+    /// Tries darts first. If they do not help, goes from one E to the next, as
+    /// long as angles are no worse than at 0.
     double relax_freely()
     {
         const double conformal = angles();
         const std::vector<HeldPart> before = parts_;
         if (options_.darts > 0.0) {
-            relax_with_darts(even_with_darts, search);
+            const bool is_cut = relax_with_darts(even_with_darts, search());
             if (angles() <= conformal) return even_with_darts;
-            if (std::ranges::any_of(parts_, has_darts))
+            if (is_cut)
                 for (const double less : less_even_with_darts) {
-                    relax_cut(less, search);
+                    relax_cut(less, search());
                     if (angles() <= conformal) return less;
                 }
             parts_ = before;
@@ -150,7 +155,7 @@ public:
         for (double next = first_even; next >= least_even && next <= 1.0;) {
             const std::vector<HeldPart> last = parts_;
             relax(next, look);
-            if (angles() <= clearly_worse * conformal) relax(next, search);
+            if (angles() <= clearly_worse * conformal) relax(next, search());
             if (angles() <= conformal) {
                 even = next;
                 next *= step;
@@ -163,8 +168,9 @@ public:
         return even;
     }
 
-    /// Relaxes parts with their cuts, at first only a little. If their angles are worse than `most`, goes on with an E
-    /// at which they may be no worse: angles go about with the third root of E. @return E; 0: no E is small enough
+    /// Relaxes parts with their cuts, at first only a little. If their angles are
+    /// worse than `most`, goes on with an E at which they may be no worse: angles
+    /// go about with the third root of E. @return E; 0: no E is small enough
     double relax_carried(double even, double most)
     {
         for (auto next = less_even_with_darts.begin();;) {
@@ -183,12 +189,16 @@ public:
     }
 
 private:
-    /// @param piece price of one more part, in energy; without a value no part is split @return whether any part was
-    /// cut
+    EvenEffort search() const { return {.most_steps = search_steps, .most_rounds = options_.rounds}; }
+
+    double cut_price() const { return options_.dearer * dart_price(options_.darts); }
+
+    /// @param piece price of one more part, in energy; without a value no part is
+    /// split @return whether any part was cut
     bool cut_through(double even, std::optional<double> piece)
     {
         if (options_.loops != LoopForm::free) return false;
-        const ThroughPrice price{dart_price(options_.darts), piece};
+        const ThroughPrice price{cut_price(), piece};
         return cut_parts_through(parts_, even, price, options_.threads, context_);
     }
 

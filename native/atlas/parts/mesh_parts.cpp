@@ -24,6 +24,7 @@ constexpr Index proxy_from = 6000;       // faces: larger meshes are decided on 
 constexpr Index proxy_faces = 5000;      // with about so many faces,
 constexpr Index least_proxy = 300;       // and each piece has at least so many
 constexpr double dearer_on_proxy = 2.0;  // cuts: coarse parts bend less, and so overrate them
+constexpr int rounds_on_proxy = 5;       // of relaxing with the void
 constexpr double few_cuts = 3.6;         // roots of a piece's area: a piece unfolded with fewer is not tried otherwise
 
 /// A piece and how far its parts are decided.
@@ -116,9 +117,10 @@ public:
         // Decide the cuts and E on the proxies.
         std::vector<std::vector<FlatPart>> before;
         for (const MeshPiece& own : pieces_) before.push_back(own.parts);
-        EvenOptions dearer = evening;
-        dearer.darts /= dearer_on_proxy;
-        double even = make_together_even(dearer, importance);
+        EvenOptions on_proxy = evening;
+        on_proxy.dearer = dearer_on_proxy;
+        on_proxy.rounds = rounds_on_proxy;
+        double even = make_together_even(on_proxy, importance);
 
         // Make the same parts of the fine surface. An E that is given is kept; else angles are no worse than at 0.
         if (even > 0.0) {

@@ -2,6 +2,8 @@
 
 #include "core/connectivity.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,11 +12,11 @@
 namespace koebe {
 namespace {
 
-Eigen::RowVector3d middle_of(const Corners& at) { return (at[0] + at[1] + at[2]) / 3.0; }
+Eigen::RowVector3d middle_of(const CornersInSpace& at) { return (at[0] + at[1] + at[2]) / 3.0; }
 
 }  // namespace
 
-Corners corners_of(const Vertices& vertices, const Triangles& triangles, Index f)
+CornersInSpace corners_of(const Vertices& vertices, const Triangles& triangles, Index f)
 {
     return {vertices.row(triangles(f, 0)), vertices.row(triangles(f, 1)), vertices.row(triangles(f, 2))};
 }
@@ -56,7 +58,7 @@ std::vector<Index> NearFaces::of_piece(const FlatPart& piece, const CoarseNet& n
     for (std::size_t i = 0; i < queue.size(); ++i)
         for (Index h = 3 * queue[i]; h < 3 * queue[i] + 3; ++h)
             if (const Index t = piece.surface.twin[h]; t != no_twin && near[face_of(t)] < 0) {
-                const Corners at = corners_of(piece.vertices, piece.surface.triangles, face_of(t));
+                const CornersInSpace at = corners_of(piece.vertices, piece.surface.triangles, face_of(t));
                 take(face_of(t), walk(middle_of(at), net, part, near[queue[i]]));
             }
     return near;
@@ -65,7 +67,7 @@ std::vector<Index> NearFaces::of_piece(const FlatPart& piece, const CoarseNet& n
 /// Squared distance of a place from a coarse face.
 double NearFaces::squared_distance(const Eigen::RowVector3d& place, Index coarse) const
 {
-    const Corners at = corners_of(proxy_.coarse.vertices, proxy_.surface.triangles, coarse);
+    const CornersInSpace at = corners_of(proxy_.coarse.vertices, proxy_.surface.triangles, coarse);
     const Eigen::RowVector3d normal = (at[1] - at[0]).cross(at[2] - at[0]);
     double least = std::numeric_limits<double>::infinity();
     bool is_inside = normal.squaredNorm() > 0.0;

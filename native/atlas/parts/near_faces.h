@@ -3,15 +3,13 @@
 
 #include "parts/carried_net.h"
 
-#include <Eigen/Geometry>
-
 #include <array>
 #include <vector>
 
 namespace koebe {
 
-using Corners = std::array<Eigen::RowVector3d, 3>;
-Corners corners_of(const Vertices& vertices, const Triangles& triangles, Index f);
+using CornersInSpace = std::array<Eigen::RowVector3d, 3>;
+CornersInSpace corners_of(const Vertices& vertices, const Triangles& triangles, Index f);
 
 /// Coarse faces round the coarse vertices to which a fine face's corners went.
 class NearFaces {
