@@ -183,9 +183,11 @@ public:
                 return less < even && less * std::pow(worse, 3) < tolerant * even;
             });
             if (next == less_even_with_darts.end()) next = std::prev(next);
-            if (*next >= even) return 0.0;
+            if (*next >= even) break;
             even = *next;
         }
+        relax_cut(even, EvenEffort{});  // parts that are far from their minimum
+        return angles() <= most ? even : 0.0;
     }
 
 private:

@@ -21,7 +21,7 @@ namespace koebe {
 namespace {
 
 constexpr Index proxy_from = 6000;       // faces: larger meshes are decided on proxies,
-constexpr Index proxy_faces = 5000;      // with about so many faces,
+constexpr Index proxy_faces = 5500;      // with about so many faces,
 constexpr Index least_proxy = 300;       // and each piece has at least so many
 constexpr double dearer_on_proxy = 2.0;  // cuts: coarse parts bend less, and so overrate them
 constexpr int rounds_on_proxy = 5;       // of relaxing with the void
