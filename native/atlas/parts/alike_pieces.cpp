@@ -70,7 +70,7 @@ std::vector<Piece> pieces_in(const FlatMesh& mesh)
         for (const auto& [face, corners] : faces)
             whole.original.insert(whole.original.end(), corners.begin(), corners.end());
         std::ranges::sort(whole.original);
-        whole.original.erase(std::ranges::unique(whole.original).begin(), whole.original.end());
+        whole.original.erase(std::unique(whole.original.begin(), whole.original.end()), whole.original.end());
         whole.vertices = mesh.layout.vertices(whole.original, Eigen::all);
         whole.surface.triangles.resize(static_cast<Index>(faces.size()), 3);
         for (std::size_t i = 0; i < faces.size(); ++i) {

@@ -238,8 +238,8 @@ std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net,
     PathFinder finder(proxy, net);
     std::vector<CarriedPath> all;
     std::vector<Path> chains = finder.chains();
-    std::ranges::stable_partition(chains,
-                                  [&](const Path& own) { return net.parts_differ(proxy.surface, own.front()); });
+    std::stable_partition(chains.begin(), chains.end(),
+                          [&](const Path& own) { return net.parts_differ(proxy.surface, own.front()); });
     for (const Path& chain : chains) {
         context.checkpoint();
         if (auto path = finder.carried(chain)) all.push_back(std::move(*path));
