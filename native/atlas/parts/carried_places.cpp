@@ -281,7 +281,8 @@ private:
         for (std::size_t k = 0; k < part_.surface.loops.size(); ++k) {
             VertexLoop rim = part_.surface.loops[k];
             if (taken[k] || names.empty()) continue;
-            for (std::size_t turn = 0; turn < rim.size(); ++turn, std::ranges::rotate(rim, rim.begin() + 1)) {
+            for (std::size_t turn = 0; turn < rim.size();
+                 ++turn, std::rotate(rim.begin(), rim.begin() + 1, rim.end())) {
                 if (part_.original[rim.front()] != names.front()) continue;
                 std::size_t found = 0;
                 for (const Index v : rim) found += found < names.size() && part_.original[v] == names[found];
