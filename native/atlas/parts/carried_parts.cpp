@@ -1,5 +1,6 @@
 #include "parts/carried_parts.h"
 
+#include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "execution/side_by_side.h"
 #include "mesh/connected_pieces.h"
@@ -98,9 +99,7 @@ private:
         mesh.area = mesh.areas.sum();
         mesh.border.assign(piece.original.size(), 0);
         const PartMap map = map_part(mesh, context);
-        PlanarPoints points(map.positions.size(), 2);
-        points << map.positions.real(), map.positions.imag();
-        piece.points = flat_as_mapped(mesh, points).points;
+        piece.points = flat_as_mapped(mesh, planar_points(map.positions)).points;
         PlanarPoints uv = (piece.points.rowwise() - piece.points.colwise().minCoeff()) / packed_side;
         repair_flips(piece, uv, context);
         embed_safely(piece, uv, context);
@@ -114,14 +113,14 @@ private:
         const CutSurface& fine = proxy_.fine.whole;
         const Triangles& triangles = fine.surface.triangles;
         std::vector<double> length(pieces.size(), 0.0);
-        std::vector<char> ends = boundary_mask(fine.surface);  // (V) how many paths end there, or the boundary
+        const std::vector<char> outside = boundary_mask(fine.surface);
+        std::vector<char> ends = outside;  // (V) how many paths end there, or the boundary
         for (const auto& [chain, path] : paths_) {
             ends[origin(triangles, path.front())] += 1;
             ends[target(triangles, path.back())] += 1;
             if (net_.parts_differ(proxy_.surface, chain.front())) continue;
             length[piece_of[face_of(path.front())]] += path_length(fine.vertices, triangles, path);
         }
-        const std::vector<char> outside = boundary_mask(fine.surface);
         for (std::size_t k = 0; k < pieces.size(); ++k) {
             const FlatPart& part = parts_[part_of_[k]];
             const double coarse = part.slit + part.dart_length;

@@ -23,14 +23,12 @@ namespace koebe {
 namespace {
 
 constexpr double least_cotangent = 0.05;  // of a face's weight in the courses of its edges: needles count, too
-
-constexpr double hold = 1e6;  // weight with which held vertices stay, over a cotangent
+constexpr double hold = 1e6;              // weight with which held vertices stay, over a cotangent
 
 /// An attempt to hold crossing loops at the part's loops.
 struct Attempt {
     double share;  ///< how near to them
-    double bulge;  ///< of a coarse edge: how far its fine vertices lie outside, so
-                   ///< that no face is flat
+    double bulge;  ///< of a coarse edge: how far its fine vertices lie outside, so that no face is flat
 };
 constexpr std::array attempts{Attempt{0.0, 0.0}, Attempt{0.9, 1e-3}, Attempt{1.0, 1e-3}, Attempt{1.0, 1e-4},
                               Attempt{1.0, 1e-5}};
@@ -53,13 +51,10 @@ double half_cotangent(const CornersInSpace& at, int k)
     return 0.5 * std::max(a.dot(b) / std::max(a.cross(b).norm(), 1e-300), least_cotangent);
 }
 
-/// Places in the plane whose edges have, in the mean over their faces, the
-/// courses that the part's map gives them: minimizes sum cot |u_j - u_i - J
-/// (x_j - x_i)|^2 / 2. J is the map of the nearest face of the part, turned
-/// into the plane of the fine face (Sumner and Popovic 2004 give a mesh its
-/// gradients so).
-/// @param face_near (F) of the piece: the coarse face @param held vertices and
-/// where they stay
+/// Places in the plane whose edges have, in the mean over their faces, the courses that the part's map gives them:
+/// minimizes sum cot |u_j - u_i - J (x_j - x_i)|^2 / 2. J is the map of the nearest face of the part, turned into the
+/// plane of the fine face (Sumner and Popovic 2004 give a mesh its gradients so).
+/// @param face_near (F) of the piece: the coarse face @param held vertices and where they stay
 PlanarPoints places_of(const FlatPart& piece, const FlatPart& part, const Proxy& proxy, const CoarseNet& net,
                        const std::vector<Index>& face_near, const std::vector<HeldVertex>& held)
 {
@@ -136,8 +131,7 @@ public:
     }
 
 private:
-    /// Holds loops that cross themselves or another one, or are turned over; all
-    /// loops, if these are held already.
+    /// Holds loops that cross themselves or another one, or are turned over; all loops, if these are held already.
     /// @return whether there are such loops
     static bool hold_crossing_loops(const FlatPart& piece, std::vector<char>& is_held)
     {
@@ -169,8 +163,7 @@ private:
         }
     }
 
-    /// The vertices of held loops, between the free places, moved as a whole, and
-    /// those on the part's boundary.
+    /// The vertices of held loops, between the free places, moved as a whole, and those on the part's boundary.
     static std::vector<HeldVertex> held_between(const FlatPart& piece, const PlanarPoints& freely,
                                                 const std::vector<HeldVertex>& by_rims,
                                                 const std::vector<char>& is_held, double share)
@@ -189,9 +182,8 @@ private:
         return held;
     }
 
-    /// Moves the tip of a face with two edges on the boundary inwards, if the
-    /// face would not be upright: at such a corner the part has more than one
-    /// face.
+    /// Moves the tip of a face with two edges on the boundary inwards, if the face would not be upright: at such a
+    /// corner the part has more than one face.
     static void turn_ears_upright(const FlatPart& piece, std::vector<HeldVertex>& held)
     {
         const Triangles& triangles = piece.surface.triangles;
@@ -199,11 +191,10 @@ private:
         PlanarPoints points = piece.points;
         std::vector<char> is_held(piece.original.size(), 0);
         for (const auto& [v, at] : held) {
-            points.row(v) << at.real(), at.imag();
+            put_complex(points, v, at);
             is_held[v] = 1;
         }
-        std::vector<Index> ear(piece.original.size(),
-                               no_twin);  // the half-edge that leaves its tip
+        std::vector<Index> ear(piece.original.size(), no_twin);  // the half-edge that leaves its tip
         for (Index h = 0; h < static_cast<Index>(twin.size()); ++h)
             if (twin[h] == no_twin && twin[previous_halfedge(h)] == no_twin &&
                 std::ranges::all_of(triangles.row(face_of(h)), [&](Index v) { return is_held[v] != 0; }) &&
@@ -216,9 +207,8 @@ private:
             }
     }
 
-    /// The boundary's vertices on the boundary of the relaxed part, at the same
-    /// share of its length from one common vertex to the next. Empty if the loops
-    /// do not correspond.
+    /// The boundary's vertices on the boundary of the relaxed part, at the same share of its length from one common
+    /// vertex to the next. Empty if the loops do not correspond.
     std::vector<HeldVertex> rims_of(const FlatPart& piece, double bulge) const
     {
         std::vector<Index> coarse_of(static_cast<std::size_t>(proxy_.fine.whole.vertices.rows()), -1);
@@ -227,8 +217,7 @@ private:
         std::vector<HeldVertex> held;
         std::vector<char> taken(part_.surface.loops.size(), 0);
         for (const VertexLoop& loop : piece.surface.loops) {
-            std::vector<std::size_t> anchors;  // places in the loop of vertices that
-                                               // the part's boundary has
+            std::vector<std::size_t> anchors;  // places in the loop of vertices that the part's boundary has
             std::vector<Index> names;
             for (std::size_t i = 0; i < loop.size(); ++i)
                 if (const Index name = coarse_of[piece.original[loop[i]]]; name >= 0) {
@@ -249,8 +238,7 @@ private:
         return held;
     }
 
-    /// Spreads the vertices of a loop from one place in it up to the next along a
-    /// course in the plane.
+    /// Spreads the vertices of a loop from one place in it up to the next along a course in the plane.
     static void hold_along(const std::vector<Complex>& course, const FlatPart& piece, const VertexLoop& loop,
                            std::size_t from, std::size_t to, double bulge, std::vector<HeldVertex>& held)
     {
@@ -273,9 +261,8 @@ private:
         }
     }
 
-    /// The part's loop that has these names one after the other, from the first
-    /// of them; empty if there is none. It may have others between them: short
-    /// darts may have no path, and a path may end elsewhere on a loop.
+    /// The part's loop that has these names one after the other, from the first of them; empty if there is none. It may
+    /// have others between them: short darts may have no path, and a path may end elsewhere on a loop.
     VertexLoop rim_of(const std::vector<Index>& names, std::vector<char>& taken) const
     {
         for (std::size_t k = 0; k < part_.surface.loops.size(); ++k) {

@@ -135,8 +135,7 @@ public:
         return is_cut || is_split || is_roomy;
     }
 
-    /// Tries darts first. If they do not help, goes from one E to the next, as
-    /// long as angles are no worse than at 0.
+    /// Tries darts first. If they do not help, goes from one E to the next, as long as angles are no worse than at 0.
     double relax_freely()
     {
         const double conformal = angles();
@@ -168,9 +167,8 @@ public:
         return even;
     }
 
-    /// Relaxes parts with their cuts, at first only a little. If their angles are
-    /// worse than `most`, goes on with an E at which they may be no worse: angles
-    /// go about with the third root of E. @return E; 0: no E is small enough
+    /// Relaxes parts with their cuts, at first only a little. If their angles are worse than `most`, goes on with an E
+    /// at which they may be no worse: angles go about with the third root of E. @return E; 0: no E is small enough
     double relax_carried(double even, double most)
     {
         for (auto next = less_even_with_darts.begin();;) {
@@ -195,8 +193,8 @@ private:
 
     double cut_price() const { return options_.dearer * dart_price(options_.darts); }
 
-    /// @param piece price of one more part, in energy; without a value no part is
-    /// split @return whether any part was cut
+    /// @param piece price of one more part, in energy; without a value no part is split @return whether any part was
+    /// cut
     bool cut_through(double even, std::optional<double> piece)
     {
         if (options_.loops != LoopForm::free) return false;

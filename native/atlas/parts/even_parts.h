@@ -1,5 +1,4 @@
-// Makes flat parts more even, each by itself, between conformal and true to
-// size.
+// Makes flat parts more even, each by itself, between conformal and true to size.
 #pragma once
 
 #include "core/map_options.h"
@@ -13,10 +12,8 @@
 namespace koebe {
 
 struct EvenOptions {
-    std::optional<double> even;        ///< E; without a value: an E that does not raise
-                                       ///< the mean angle error
-    LoopForm loops = LoopForm::round;  ///< round: held vertices stay on the
-                                       ///< circles and lines of their rims
+    std::optional<double> even;        ///< E; without a value: an E that does not raise the mean angle error
+    LoopForm loops = LoopForm::round;  ///< round: held vertices stay on the circles and lines of their rims
     double darts = 0.0;                ///< from 0 (no darts) to 1 (many)
     double piece = 1.0;                ///< price of one more part, as the length of a cut
     bool roomy = true;                 ///< parts are also cut so that they can be packed more densely
@@ -30,22 +27,19 @@ struct EvenParts {
     std::vector<std::size_t> left;  ///< parts that stay as they were, although E is not 0
 };
 
-/// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h),
-/// unless E is 0. If loops are free, it also cuts parts through
-/// (through_rounds.h): first it joins loops, then it splits parts that darts
-/// did not help, and last it cuts for room (roomy_cuts.h). The pieces of a part
-/// come last, or after it. A part that is not one to one is not changed.
+/// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, it also
+/// cuts parts through (through_rounds.h): first it joins loops, then it splits parts that darts did not help, and last
+/// it cuts for room (roomy_cuts.h). The pieces of a part come last, or after it. A part that is not one to one is not
+/// changed.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
 
-/// Relaxes parts that were decided on a coarse surface. @param even their E
-/// there: if angles are worse than `most`, a smaller E @param most sum of angle
-/// errors @return E = 0 if no E is small enough
+/// Relaxes parts that were decided on a coarse surface. @param even their E there: if angles are worse than `most`, a
+/// smaller E @param most sum of angle errors @return E = 0 if no E is small enough
 EvenParts relax_carried(std::vector<FlatPart>& flats, double even, double most, const EvenOptions& options,
                         ExecutionContext& context);
 
-/// The cost of parts once they are even: their energy at this E, or at the E of
-/// parts with darts if none is given. To it come their boundary, half of which
-/// is a cut's or the surface's own, and one more part each, at the price of
+/// The cost of parts once they are even: their energy at this E, or at the E of parts with darts if none is given. To
+/// it come their boundary, half of which is a cut's or the surface's own, and one more part each, at the price of
 /// darts.
 double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, ExecutionContext& context);
 

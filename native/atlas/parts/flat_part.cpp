@@ -1,6 +1,7 @@
 #include "parts/flat_part.h"
 
 #include "circles/circle_fit.h"
+#include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "embedding/embedded_map.h"
@@ -95,14 +96,11 @@ PlanarPoints harmonic_again(const PartMesh& mesh, const VectorXcd& positions)
     std::vector<Index> boundary;
     for (const VertexLoop& loop : surface.loops) boundary.insert(boundary.end(), loop.begin(), loop.end());
     const VectorXcd values = positions(boundary);
-    PlanarPoints points(surface.vertex_count, 2);
     try {
-        const VectorXcd z = harmonic_map(metric.triangles, metric.lengths, surface.vertex_count, boundary, values);
-        points << z.real(), z.imag();
+        return planar_points(harmonic_map(metric.triangles, metric.lengths, surface.vertex_count, boundary, values));
     } catch (const SolverError&) {
-        points.setConstant(std::numeric_limits<double>::quiet_NaN());
+        return PlanarPoints::Constant(surface.vertex_count, 2, std::numeric_limits<double>::quiet_NaN());
     }
-    return points;
 }
 
 /// The map's places, or harmonic places: whichever has fewer faces turned over, then less angle error.
@@ -111,9 +109,7 @@ public:
     explicit DiskPoints(const PartMesh& mesh) : mesh_(mesh) {}
     void consider(const VectorXcd& positions)
     {
-        PlanarPoints as_mapped(positions.size(), 2);
-        as_mapped << positions.real(), positions.imag();
-        take(as_mapped);
+        take(planar_points(positions));
         take(harmonic_again(mesh_, positions));
     }
     const PlanarPoints& best() const { return best_; }
@@ -256,6 +252,15 @@ void take_vertices(const FlatPart& part, const std::vector<Index>& vertices, Fla
     take(part.shown, vertices, piece.shown);
     piece.vertices = part.vertices(vertices, Eigen::all);
     piece.points = part.points(vertices, Eigen::all);
+}
+
+void note_shown(const std::vector<double>& shown, std::vector<FlatPart>& parts)
+{
+    for (FlatPart& part : parts) {
+        part.shown.clear();
+        if (!shown.empty())
+            for (const Index v : part.original) part.shown.push_back(shown[v]);
+    }
 }
 
 double sum_of_angle_errors(const FlatPart& part)

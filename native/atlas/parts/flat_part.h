@@ -62,6 +62,9 @@ void rename_elements(std::vector<FlatPart>& parts, const OfVertex& vertex, const
     }
 }
 
+/// Gives parts their vertices' values. @param shown as in CutSurface, of the surface whose vertices the parts name
+void note_shown(const std::vector<double>& shown, std::vector<FlatPart>& parts);
+
 constexpr double packed_side = 1.25;  ///< about the side of a square that holds parts of total area 1
 
 /// Gives a piece what the part knows of these faces, and of these vertices. Its surface must be set by the caller.

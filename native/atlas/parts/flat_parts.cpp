@@ -1,5 +1,6 @@
 #include "parts/flat_parts.h"
 
+#include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "execution/side_by_side.h"
@@ -185,13 +186,6 @@ FlatParts laid_in_two(const CutSurface& whole, const PartPointer& part, const Fl
     return in_two;
 }
 
-PlanarPoints points_of(const PartMap& map)
-{
-    PlanarPoints points(map.positions.size(), 2);
-    points << map.positions.real(), map.positions.imag();
-    return points;
-}
-
 /// What a flat part costs: its overflow, its angle error in the same unit, and the price of a part.
 double cost_of(const FlatPart& part, double part_price)
 {
@@ -205,7 +199,8 @@ bool hopeless_as_one(const Part& root, double error)
 {
     const PartMap& map = root.map;
     if (map.lost_area > most_lost * root.mesh.area || map.disk_overflow > most_uneven * root.mesh.area) return true;
-    const double own = summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, points_of(map));
+    const double own =
+        summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, planar_points(map.positions));
     return own > worth_repairing * error * static_cast<double>(root.mesh.faces.size());
 }
 
@@ -214,7 +209,7 @@ bool hopeless_as_one(const Part& root, double error)
 std::optional<FlatPart> as_one_map(const CutSurface& whole, const Part* root, bool broken, ExecutionContext& context)
 {
     if (root != nullptr && root->map.positions.size() > 0) {
-        FlatPart one = flat_as_mapped(root->mesh, points_of(root->map));
+        FlatPart one = flat_as_mapped(root->mesh, planar_points(root->map.positions));
         if (!flaws_of(one, Frame(one.points).uv(one.points), whole.areas).any()) return one;
     }
     if (!broken) return {};

@@ -1,6 +1,5 @@
 #include "parts/flat_piece.h"
 
-#include "parts/hard_surface.h"
 #include "splitting/closed_surface.h"
 #include "splitting/hidden_cuts.h"
 #include "splitting/mirror_symmetry.h"

@@ -69,9 +69,4 @@ void name_by_source(const SurfacePiece& piece, std::vector<FlatPart>& parts)
         parts, [&](Index v) { return piece.source_vertex[v]; }, [&](Index f) { return piece.source_face[f]; });
 }
 
-void note_shown(const std::vector<double>& shown, std::vector<FlatPart>& parts)
-{
-    for (FlatPart& part : parts) part.shown = values_at(shown, part.original);
-}
-
 }  // namespace koebe

@@ -28,7 +28,4 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
 /// Names elements by those from which the piece's came. @param parts by numbers of the piece
 void name_by_source(const SurfacePiece& piece, std::vector<FlatPart>& parts);
 
-/// Gives parts their vertices' values. @param shown as in CutSurface @param parts by the same numbers
-void note_shown(const std::vector<double>& shown, std::vector<FlatPart>& parts);
-
 }  // namespace koebe

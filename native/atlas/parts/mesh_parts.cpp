@@ -29,9 +29,9 @@ constexpr double few_cuts = 3.6;         // roots of a piece's area: a piece unf
 
 /// A piece and how far its parts are decided.
 struct MeshPiece : FlatPiece {
-    std::optional<PieceSurface> surface = {};  ///< until its parts are decided
-    std::optional<Proxy> proxy = {};           ///< on which the parts were decided
-    bool is_fine = true;                       ///< whether the parts name elements of the piece, not of the proxy
+    std::optional<Proxy> proxy = {};      ///< on which the parts were decided
+    std::vector<PartPointer> uncut = {};  ///< fine parts where the proxy's uncut parts are, once they are needed
+    bool is_fine = true;                  ///< whether the parts name elements of the piece, not of the proxy
 };
 
 /// Tells faces how large they should be, and scales each part to the sum of its faces. @param importance of the
@@ -99,20 +99,33 @@ public:
             decide(pieces_[small[k]], 1, own, efforts[small[k]]);
         });
         for (std::size_t i = 0; i < pieces_.size(); ++i)
-            maps_ += efforts[i].maps * static_cast<double>(pieces_[i].input.piece.triangles.rows()) /
-                     static_cast<double>(total_);
+            result_.maps += efforts[i].maps * static_cast<double>(pieces_[i].input.piece.triangles.rows()) /
+                            static_cast<double>(total_);
     }
 
     /// Makes the parts even. Parts that were decided on proxies are then made of the fine surface, and relaxed.
-    /// @param importance (V) of the input, or empty @return E
-    double make_even(const std::vector<double>& importance)
+    void make_even() { result_.even = make_all_even(); }
+
+    /// With parts named by the input.
+    MeshParts take()
+    {
+        for (MeshPiece& own : pieces_) {
+            name_by_source(own.input.piece, own.parts);
+            std::ranges::move(own.parts, std::back_inserter(result_.parts));
+        }
+        return std::move(result_);
+    }
+
+private:
+    /// @return E
+    double make_all_even()
     {
         EvenOptions evening = evening_of(options_, options_.roomy, options_.threads);
         const bool by_proxy = std::ranges::any_of(pieces_, [](const MeshPiece& own) { return own.proxy.has_value(); });
         if (by_proxy && (options_.even == 0.0 || evening.loops != LoopForm::free))
             for (MeshPiece& own : pieces_)
                 if (own.proxy) lay_fine(own);
-        if (std::ranges::all_of(pieces_, &MeshPiece::is_fine)) return make_together_even(evening, importance);
+        if (std::ranges::all_of(pieces_, &MeshPiece::is_fine)) return make_together_even(evening);
 
         // Decide the cuts and E on the proxies.
         std::vector<std::vector<FlatPart>> before;
@@ -120,20 +133,20 @@ public:
         EvenOptions on_proxy = evening;
         on_proxy.dearer = dearer_on_proxy;
         on_proxy.rounds = rounds_on_proxy;
-        double even = make_together_even(on_proxy, importance);
+        double even = make_together_even(on_proxy);
 
         // Make the same parts of the fine surface. An E that is given is kept; else angles are no worse than at 0.
         if (even > 0.0) {
             const double most = options_.even ? std::numeric_limits<double>::infinity() : conformal_angles(before);
             for (std::size_t i = 0; i < pieces_.size(); ++i)
                 if (!pieces_[i].is_fine) carry(pieces_[i], before[i]);
-            std::vector<FlatPart> parts = together(importance);
+            std::vector<FlatPart> parts = together();
             const EvenParts relaxed = relax_carried(parts, even, most, evening, context_);
             even = relaxed.even;
             take_back(std::move(parts), relaxed);
         }
         if (even > 0.0) return even;
-        not_even_.clear();
+        result_.not_even.clear();
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
             pieces_[i].parts = std::move(before[i]);
             if (pieces_[i].proxy) lay_fine(pieces_[i]);
@@ -141,49 +154,31 @@ public:
         return 0.0;
     }
 
-    /// The parts, named by the input.
-    std::vector<FlatPart> parts()
-    {
-        std::vector<FlatPart> all;
-        for (MeshPiece& own : pieces_) {
-            name_by_source(own.input.piece, own.parts);
-            std::ranges::move(own.parts, std::back_inserter(all));
-        }
-        return all;
-    }
-
-    double maps() const { return maps_; }
-
-    /// Faces of the input whose parts stayed conformal, ascending.
-    const std::vector<Index>& not_even() const { return not_even_; }
-
-private:
     void decide(MeshPiece& own, int threads, ExecutionContext& context, SplitEffort& effort) const
     {
         const Index faces = static_cast<Index>(own.input.piece.triangles.rows());
-        own.surface = surface_of(own.input);
+        PieceSurface surface = surface_of(own.input);
         std::optional<UnfoldedParts> true_to_size;
-        if (may_unfold(options_)) true_to_size = unfolded(own.surface->whole, context, unfolding_of(options_));
+        if (may_unfold(options_)) true_to_size = unfolded(surface.whole, context, unfolding_of(options_));
         const auto take_unfolded = [&] {
             own.parts = std::move(true_to_size->parts);
             note_shown(own.input.shown, own.parts);
         };
-        if (true_to_size && true_to_size->cut_length <= few_cuts * std::sqrt(own.surface->whole.areas.sum())) {
+        if (true_to_size && true_to_size->cut_length <= few_cuts * std::sqrt(surface.whole.areas.sum())) {
             take_unfolded();
             return;
         }
         const Index coarse =
             std::max(least_proxy, static_cast<Index>(proxy_faces * static_cast<double>(faces) / total_));
         if (total_ > proxy_from && faces > coarse && options_.slits.empty()) {
-            own.proxy = proxy_of(own.input, std::move(*own.surface), coarse, context);
+            own.proxy = proxy_of(own.input, std::move(surface), coarse, context);
             own.is_fine = false;
             own.parts =
                 flat_piece(own.proxy->input, surface_of(own.proxy->input), options_, threads, context, effort).parts;
             name_by_source(own.proxy->input.piece, own.parts);
         } else {
-            own.parts = flat_piece(own.input, std::move(*own.surface), options_, threads, context, effort).parts;
+            own.parts = flat_piece(own.input, std::move(surface), options_, threads, context, effort).parts;
         }
-        own.surface.reset();
         if (!true_to_size) return;
         const EvenOptions evening = evening_of(options_, false, threads);
         if (cost_when_even(true_to_size->parts, evening, context) > cost_when_even(own.parts, evening, context)) return;
@@ -193,8 +188,9 @@ private:
     }
 
     /// The parts of all pieces. An element's name is its number and the number of elements in all pieces before.
-    std::vector<FlatPart> together(const std::vector<double>& importance)
+    std::vector<FlatPart> together()
     {
+        const std::vector<double>& importance = options_.importance;  // (V) of the input, or empty
         std::vector<FlatPart> all;
         std::vector<double> weights;  // of the vertices of all parts
         Index vertices = 0, faces = 0;
@@ -224,12 +220,12 @@ private:
         const auto piece_of = [&](Index face) {
             return static_cast<std::size_t>(std::ranges::upper_bound(first, face) - first.begin()) - 1;
         };
-        not_even_.clear();
+        result_.not_even.clear();
         for (const std::size_t k : even.left)
             for (const Index face : parts[k].faces)
                 if (const MeshPiece& own = pieces_[piece_of(face)]; own.is_fine)
-                    not_even_.push_back(own.input.piece.source_face[face - first[piece_of(face)]]);
-        std::ranges::sort(not_even_);
+                    result_.not_even.push_back(own.input.piece.source_face[face - first[piece_of(face)]]);
+        std::ranges::sort(result_.not_even);
         for (FlatPart& part : parts) pieces_[piece_of(part.faces.front())].parts.push_back(std::move(part));
         Index vertices = 0;
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -240,9 +236,9 @@ private:
         }
     }
 
-    double make_together_even(const EvenOptions& evening, const std::vector<double>& importance)
+    double make_together_even(const EvenOptions& evening)
     {
-        std::vector<FlatPart> parts = together(importance);
+        std::vector<FlatPart> parts = together();
         const EvenParts even = make_parts_even(parts, evening, context_);
         take_back(std::move(parts), even);
         return even.even;
@@ -261,13 +257,14 @@ private:
         }
     }
 
-    /// The fine parts where the proxy's parts are. Empty if there are none.
-    std::vector<PartPointer> fine_parts(const MeshPiece& own, const std::vector<FlatPart>& before) const
+    /// Makes the fine parts where the proxy's parts are, if they are not there. None are made if they have no place.
+    /// @param parts of the proxy, without darts
+    void make_uncut(MeshPiece& own, const std::vector<FlatPart>& parts) const
     {
-        std::vector<PartPointer> parts;
-        for (std::vector<Index>& faces : carried_faces(*own.proxy, before, context_))
-            parts.push_back(std::make_shared<Part>(Part{part_mesh(own.proxy->fine.whole, std::move(faces)), {}, {}}));
-        return parts;
+        if (!own.uncut.empty()) return;
+        for (std::vector<Index>& faces : carried_faces(*own.proxy, parts, context_))
+            own.uncut.push_back(
+                std::make_shared<Part>(Part{part_mesh(own.proxy->fine.whole, std::move(faces)), {}, {}}));
     }
 
     FlatOptions flat_options(const MeshPiece& own) const
@@ -281,7 +278,8 @@ private:
     void lay_fine(MeshPiece& own)
     {
         SplitEffort effort;
-        std::vector<PartPointer> parts = fine_parts(own, own.parts);
+        make_uncut(own, own.parts);
+        std::vector<PartPointer> parts = std::exchange(own.uncut, {});
         const CutSurface& whole = own.proxy->fine.whole;
         own.is_fine = true;
         if (parts.empty()) {
@@ -294,7 +292,7 @@ private:
     }
 
     /// The sum of the angle errors of the parts at E = 0; faces turned over do not count.
-    double conformal_angles(const std::vector<std::vector<FlatPart>>& before) const
+    double conformal_angles(const std::vector<std::vector<FlatPart>>& before)
     {
         double sum = 0.0;
         for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -302,7 +300,8 @@ private:
                 for (const FlatPart& part : before[i]) sum += sum_of_angle_errors(part);
                 continue;
             }
-            std::vector<PartPointer> parts = fine_parts(pieces_[i], before[i]);
+            make_uncut(pieces_[i], before[i]);
+            const std::vector<PartPointer>& parts = pieces_[i].uncut;
             const FlatOptions options = flat_options(pieces_[i]);
             std::vector<double> sums(parts.size(), 0.0);
             side_by_side(parts.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
@@ -318,9 +317,8 @@ private:
     std::vector<MeshPiece> pieces_;
     const PartsOptions& options_;
     ExecutionContext& context_;
-    Eigen::Index total_ = 0;       // faces
-    std::vector<Index> not_even_;  // faces of the input
-    double maps_ = 0.0;
+    Eigen::Index total_ = 0;  // faces
+    MeshParts result_;
 };
 
 }  // namespace
@@ -330,12 +328,8 @@ MeshParts mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options,
     PartsOfPieces parts(std::move(pieces), options, context);
     parts.decide();
     context.begin_stage("even", 0.8, 0.9);
-    MeshParts result;
-    result.even = parts.make_even(options.importance);
-    result.not_even = parts.not_even();
-    result.maps = parts.maps();
-    result.parts = parts.parts();
-    return result;
+    parts.make_even();
+    return parts.take();
 }
 
 }  // namespace koebe

@@ -317,12 +317,8 @@ PackedLayer packed(const Vertices& given, const Triangles& triangles, const Pack
         result.islands.push_back({std::move(island.faces), island.overlaps});
     }
     std::ranges::sort(result.turned);
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const PlanarPoints own = result.uv.middleRows<3>(3 * f).unaryExpr(&as_stored);
-        area += std::abs(cross(Complex(own(1, 0) - own(0, 0), own(1, 1) - own(0, 1)),
-                               Complex(own(2, 0) - own(0, 0), own(2, 1) - own(0, 1)))) /
-                2.0;
-    }
+    const PlanarPoints stored = result.uv.unaryExpr(&as_stored);
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) area += std::abs(signed_corner_area(stored, f));
     // The report.
     result.coverage = area / result.tiles;
     result.margin = std::min(options.margin, packing.margin * options.pixels);

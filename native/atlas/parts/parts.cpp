@@ -19,6 +19,7 @@
 #include "parts/pack_parts.h"
 #include "parts/tile_packing.h"
 #include "parts/upright_parts.h"
+#include "planar/planar_predicates.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
@@ -34,12 +35,6 @@ namespace koebe {
 namespace {
 
 constexpr const char* lower_price = "A lower price makes more parts, and more even ones";
-
-double uv_area(const PlanarPoints& uv, Eigen::Index f)
-{
-    const Eigen::RowVector2d a = uv.row(3 * f + 1) - uv.row(3 * f), b = uv.row(3 * f + 2) - uv.row(3 * f);
-    return 0.5 * (a[0] * b[1] - a[1] * b[0]);
-}
 
 /// The value below which a share of the weight lies. @param values (value, weight), rising; not empty
 double quantile(const std::vector<std::pair<double, double>>& values, double share)
@@ -87,7 +82,7 @@ void report_density(const PartsLayout& layout, const PlanarPoints& uv, const std
     double total = 0.0;
     for (const Index f : faces) {
         if (!(areas[f] > 0.0)) continue;
-        const double area = uv_area(uv, f);
+        const double area = signed_corner_area(uv, f);
         density.emplace_back(area > 0.0 ? 0.5 * std::log(area / areas[f]) : none, areas[f]);
         total += areas[f];
     }
@@ -239,7 +234,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
         part.angle_error_deg = distortion_of_parts(layout, uv, part.faces).angle_error_deg.mean;
     report_density(layout, uv, mapped, options.pixels / unit, result);
     for (const Index f : mapped)
-        if (!packed.twins[static_cast<std::size_t>(layout.part[f])]) result.coverage += uv_area(uv, f);
+        if (!packed.twins[static_cast<std::size_t>(layout.part[f])]) result.coverage += signed_corner_area(uv, f);
     result.tiles = packed.tiles;
     result.coverage /= packed.tiles;
     result.margin = packed.margin * options.pixels;

@@ -37,6 +37,14 @@ inline double signed_area(const PlanarPoints& points, const Triangles& triangles
     return 0.5 * (a[0] * b[1] - a[1] * b[0]);
 }
 
+/// The same for a face whose corners are rows 3 f to 3 f + 2. @param corners (3F, 2)
+inline double signed_corner_area(const PlanarPoints& corners, Eigen::Index f)
+{
+    const Eigen::RowVector2d a = corners.row(3 * f + 1) - corners.row(3 * f);
+    const Eigen::RowVector2d b = corners.row(3 * f + 2) - corners.row(3 * f);
+    return 0.5 * (a[0] * b[1] - a[1] * b[0]);
+}
+
 /// Width and height of the smallest rectangle along the axes round the points (V, 2).
 inline Eigen::RowVector2d box_size(const PlanarPoints& points)
 {
