@@ -12,6 +12,7 @@ namespace koebe {
 namespace {
 
 constexpr double far_off = 4.0;         // price of an edge as far from a coarse edge as that is long, beside its length
+constexpr int most_orders = 6;          // of chains, until all borders of parts have paths
 constexpr double longest_detour = 3.0;  // length of a path over the length of its chain
 
 class PathFinder {
@@ -235,16 +236,29 @@ std::optional<CoarseNet> coarse_net(const Proxy& proxy, const std::vector<FlatPa
 
 std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net, const ExecutionContext& context)
 {
-    PathFinder finder(proxy, net);
-    std::vector<CarriedPath> all;
-    std::vector<Path> chains = finder.chains();
+    std::vector<Path> chains = PathFinder(proxy, net).chains();
     std::stable_partition(chains.begin(), chains.end(),
                           [&](const Path& own) { return net.parts_differ(proxy.surface, own.front()); });
-    for (const Path& chain : chains) {
-        context.checkpoint();
-        if (auto path = finder.carried(chain)) all.push_back(std::move(*path));
+    std::vector<CarriedPath> best;
+    std::size_t fewest = chains.size() + 1;
+    for (int order = 0; order < most_orders && fewest > 0; ++order) {
+        PathFinder finder(proxy, net);
+        std::vector<CarriedPath> all;
+        std::vector<Path> blocked, others;  // borders of parts first, and of those the ones that had no path
+        for (const Path& chain : chains) {
+            context.checkpoint();
+            auto path = finder.carried(chain);
+            (path || !net.parts_differ(proxy.surface, chain.front()) ? others : blocked).push_back(chain);
+            if (path) all.push_back(std::move(*path));
+        }
+        if (blocked.size() < fewest) {
+            fewest = blocked.size();
+            best = std::move(all);
+        }
+        chains = std::move(blocked);
+        std::ranges::move(others, std::back_inserter(chains));
     }
-    return all;
+    return best;
 }
 
 double path_length(const Vertices& vertices, const Triangles& triangles, const Path& path)

@@ -5,6 +5,7 @@
 #include "execution/side_by_side.h"
 #include "mesh/connected_pieces.h"
 #include "parts/carried_places.h"
+#include "parts/dart_rounds.h"
 #include "parts/tension.h"
 #include "parts/through_cuts.h"
 
@@ -52,6 +53,24 @@ FlatPart whole_part(const CutSurface& whole)
     return flat;
 }
 
+void map_by_itself(FlatPart& piece, ExecutionContext& context)
+{
+    PartMesh mesh;
+    mesh.faces = piece.faces;
+    mesh.original = piece.original;
+    mesh.vertices = piece.vertices;
+    mesh.surface = piece.surface;
+    mesh.areas = face_areas(piece.vertices, piece.surface.triangles);
+    mesh.area = mesh.areas.sum();
+    mesh.border.assign(piece.original.size(), 0);
+    const PartMap map = map_part(mesh, context);
+    piece.points = flat_as_mapped(mesh, planar_points(map.positions)).points;
+    PlanarPoints uv = (piece.points.rowwise() - piece.points.colwise().minCoeff()) / packed_side;
+    repair_flips(piece, uv, context);
+    embed_safely(piece, uv, context);
+    piece.points = packed_side * uv;
+}
+
 /// A piece of the fine surface for each part.
 class Carrying {
 public:
@@ -82,30 +101,13 @@ public:
         note_lengths(pieces, piece_of);
         side_by_side(pieces.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
             pieces[k].is_near = take_places(proxy_, net_, near_, parts_[part_of_[k]], part_of_[k], pieces[k], own);
-            if (!pieces[k].is_near) map_by_itself(pieces[k], own);
         });
-        return pieces;
+        std::vector<FlatPart> sorted(pieces.size());
+        for (std::size_t k = 0; k < pieces.size(); ++k) sorted[part_of_[k]] = std::move(pieces[k]);
+        return sorted;
     }
 
 private:
-    void map_by_itself(FlatPart& piece, ExecutionContext& context) const
-    {
-        PartMesh mesh;
-        mesh.faces = piece.faces;
-        mesh.original = piece.original;
-        mesh.vertices = piece.vertices;
-        mesh.surface = piece.surface;
-        mesh.areas = face_areas(piece.vertices, piece.surface.triangles);
-        mesh.area = mesh.areas.sum();
-        mesh.border.assign(piece.original.size(), 0);
-        const PartMap map = map_part(mesh, context);
-        piece.points = flat_as_mapped(mesh, planar_points(map.positions)).points;
-        PlanarPoints uv = (piece.points.rowwise() - piece.points.colwise().minCoeff()) / packed_side;
-        repair_flips(piece, uv, context);
-        embed_safely(piece, uv, context);
-        piece.points = packed_side * uv;
-    }
-
     /// The length of the paths inside each piece, as slits and darts in the proportion of the part's; and the tips of
     /// darts, where one path ends inside.
     void note_lengths(std::vector<FlatPart>& pieces, const std::vector<Index>& piece_of) const
@@ -169,6 +171,21 @@ std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPa
     const auto net = coarse_net(proxy, parts);
     if (!net) return {};
     return Carrying(proxy, parts, *net, carried_paths(proxy, *net, context)).pieces(threads, context);
+}
+
+void start_conformal(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context)
+{
+    const auto own = std::ranges::find_if(
+        uncut, [&](const FlatPart& part) { return std::ranges::binary_search(part.faces, piece.faces.front()); });
+    if (own == uncut.end()) return map_by_itself(piece, context);
+    for (std::size_t f = 0; f < piece.faces.size(); ++f) {
+        const auto found = std::ranges::lower_bound(own->faces, piece.faces[f]);
+        if (found == own->faces.end() || *found != piece.faces[f]) return map_by_itself(piece, context);
+        for (int k = 0; k < 3; ++k)
+            piece.points.row(piece.surface.triangles(static_cast<Index>(f), k)) =
+                own->points.row(own->surface.triangles(found - own->faces.begin(), k));
+    }
+    if (!lies_one_to_one(piece, piece.points) || !survives_storing(piece)) map_by_itself(piece, context);
 }
 
 }  // namespace koebe

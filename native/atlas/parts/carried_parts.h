@@ -15,11 +15,15 @@ std::vector<std::vector<Index>> carried_faces(const Proxy& proxy, const std::vec
                                               const ExecutionContext& context);
 
 /// Cuts the fine surface along the net of the parts, with their darts and slits. Each piece takes its place in the
-/// plane from its relaxed part: its edges have, in the mean, the courses that the part's map would give them. A piece
-/// that is not one to one there, also as stored, is mapped by itself.
+/// plane from its relaxed part: its edges have, in the mean, the courses that the part's map would give them. If it is
+/// not one to one there, also as stored, it has no places (is_near is false).
 /// @param parts they name faces and vertices of the coarse surface
-/// @return pieces with numbers of the fine surface; empty if they do not correspond to the parts
+/// @return for each part its piece, with numbers of the fine surface; empty if they do not correspond
 std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPart>& parts, int threads,
                                     ExecutionContext& context);
+
+/// Gives a piece the places that it has in an uncut part of the same surface. If it is not one to one there, it is
+/// mapped by itself.
+void start_conformal(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context);
 
 }  // namespace koebe

@@ -14,6 +14,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -29,6 +30,7 @@ constexpr double roomy_piece = 0.1;                           // price of one mo
 constexpr double step = 1.5;                                  // factor from one E to the next
 constexpr double even_with_darts = 0.1;                       // E with darts, if no E is given,
 constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // and if angles are then worse
+constexpr double few_worse = 0.1;                             // share of the faces that may go back to E = 0
 constexpr double tolerant = 1.2;                              // of an E at which angles may be no worse
 constexpr EvenEffort carried_effort{12, 3, 24};               // for parts that were relaxed on a coarse surface, or
 constexpr EvenEffort own_effort{12, 6, 60};                   // for those of them that start from their own map
@@ -167,25 +169,31 @@ public:
         return even;
     }
 
-    /// Relaxes parts with their cuts, at first only a little. If their angles are worse than `most`, goes on with an E
-    /// at which they may be no worse: angles go about with the third root of E. @return E; 0: no E is small enough
-    double relax_carried(double even, double most)
+    /// Relaxes parts with their cuts, at first only a little. If their angles are worse than the bounds allow, goes on
+    /// with an E at which they may be no worse: angles go about with the third root of E.
+    EvenParts relax_carried(double even, const AngleBounds& bounds)
     {
+        const double most = std::accumulate(bounds.most.begin(), bounds.most.end(), 0.0);
+        const auto done = [&](std::vector<std::size_t> worse) {
+            return EvenParts{worse.size() < bounds.most.size() ? even : 0.0, left_, std::move(worse)};
+        };
         for (auto next = less_even_with_darts.begin();;) {
             relax_cut(even, look);
-            if (angles() <= most_worse * most)
+            if (bounds.most.empty() || angles() <= most_worse * most)
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
-            const double worse = angles() / most;
-            if (worse <= 1.0) return even;
+            if (bounds.most.empty()) return {even, left_};
+            std::vector<std::size_t> worse = worst_groups(bounds);
+            if (share_of(worse, bounds) <= few_worse) return done(std::move(worse));
+            const double times = angles() / most;
             next = std::find_if(next, less_even_with_darts.end(), [&](double less) {
-                return less < even && less * std::pow(worse, 3) < tolerant * even;
+                return less < even && less * std::pow(times, 3) < tolerant * even;
             });
             if (next == less_even_with_darts.end()) next = std::prev(next);
             if (*next >= even) break;
             even = *next;
         }
         relax_cut(even, EvenEffort{});  // parts that are far from their minimum
-        return angles() <= most ? even : 0.0;
+        return done(worst_groups(bounds));
     }
 
 private:
@@ -223,6 +231,36 @@ private:
             if (!survives_storing(parts_[k].flat)) parts_[k] = before[k];
     }
 
+    /// The groups that must go back to E = 0, so that angles are no worse than there: those that gain most.
+    std::vector<std::size_t> worst_groups(const AngleBounds& bounds) const
+    {
+        std::vector<double> excess(bounds.most.size(), 0.0);
+        for (std::size_t k = 0; k < parts_.size(); ++k) excess[bounds.group[k]] += sum_of_angle_errors(parts_[k].flat);
+        std::ranges::transform(excess, bounds.most, excess.begin(), std::minus<>());
+        double sum = std::accumulate(excess.begin(), excess.end(), 0.0);
+        std::vector<std::size_t> groups(excess.size()), worse;
+        std::iota(groups.begin(), groups.end(), 0);
+        std::ranges::stable_sort(groups, std::ranges::greater(), [&](std::size_t group) { return excess[group]; });
+        for (const std::size_t group : groups) {
+            if (!(sum > 0.0)) break;
+            sum -= excess[group];
+            worse.push_back(group);
+        }
+        return worse;
+    }
+
+    /// The share of the faces in some groups.
+    double share_of(const std::vector<std::size_t>& groups, const AngleBounds& bounds) const
+    {
+        double own = 0.0, all = 0.0;
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            const auto faces = static_cast<double>(parts_[k].flat.faces.size());
+            all += faces;
+            if (std::ranges::count(groups, bounds.group[k]) > 0) own += faces;
+        }
+        return own / all;
+    }
+
     double angles() const
     {
         double sum = 0.0;
@@ -248,12 +286,10 @@ EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& optio
     return {even, even > 0.0 ? parts.left() : std::vector<std::size_t>{}};
 }
 
-EvenParts relax_carried(std::vector<FlatPart>& flats, double even, double most, const EvenOptions& options,
-                        ExecutionContext& context)
+EvenParts relax_carried(std::vector<FlatPart>& flats, double even, const AngleBounds& bounds,
+                        const EvenOptions& options, ExecutionContext& context)
 {
-    PartRelaxation parts(flats, options, context);
-    const double own = parts.relax_carried(even, most);
-    return {own, parts.left()};
+    return PartRelaxation(flats, options, context).relax_carried(even, bounds);
 }
 
 double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, ExecutionContext& context)

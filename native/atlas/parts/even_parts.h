@@ -23,8 +23,15 @@ struct EvenOptions {
 };
 
 struct EvenParts {
-    double even = 0.0;              ///< the E of the parts
-    std::vector<std::size_t> left;  ///< parts that stay as they were, although E is not 0
+    double even = 0.0;                    ///< the E of the parts
+    std::vector<std::size_t> left;        ///< parts that stay as they were, although E is not 0
+    std::vector<std::size_t> worse = {};  ///< groups whose angles are too much worse than at E = 0
+};
+
+/// How large the angle errors of parts may be, together.
+struct AngleBounds {
+    std::vector<std::size_t> group;  ///< (parts) of parts that were one part before they were cut
+    std::vector<double> most;        ///< (groups) sum of angle errors at E = 0; empty: no bounds
 };
 
 /// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, it also
@@ -33,10 +40,11 @@ struct EvenParts {
 /// changed.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
 
-/// Relaxes parts that were decided on a coarse surface. @param even their E there: if angles are worse than `most`, a
-/// smaller E @param most sum of angle errors @return E = 0 if no E is small enough
-EvenParts relax_carried(std::vector<FlatPart>& flats, double even, double most, const EvenOptions& options,
-                        ExecutionContext& context);
+/// Relaxes parts that were decided on a coarse surface. Takes a smaller E if angles are worse than the bounds allow, as
+/// a sum, unless few groups make them so: these are named, to be replaced by what they are at E = 0.
+/// @param even their E on the coarse surface @return E; 0: all groups are worse
+EvenParts relax_carried(std::vector<FlatPart>& flats, double even, const AngleBounds& bounds,
+                        const EvenOptions& options, ExecutionContext& context);
 
 /// The cost of parts once they are even: their energy at this E, or at the E of parts with darts if none is given. To
 /// it come their boundary, half of which is a cut's or the surface's own, and one more part each, at the price of

@@ -29,10 +29,23 @@ constexpr double few_cuts = 3.6;         // roots of a piece's area: a piece unf
 
 /// A piece and how far its parts are decided.
 struct MeshPiece : FlatPiece {
-    std::optional<Proxy> proxy = {};      ///< on which the parts were decided
-    std::vector<PartPointer> uncut = {};  ///< fine parts where the proxy's uncut parts are, once they are needed
-    bool is_fine = true;                  ///< whether the parts name elements of the piece, not of the proxy
+    std::optional<Proxy> proxy = {};            ///< on which the parts were decided
+    bool is_fine = true;                        ///< whether the parts name elements of the piece, not of the proxy
+    std::vector<FlatPart> conformal = {};       ///< fine parts at E = 0, without darts, to compare with
+    std::vector<std::size_t> group = {};        ///< (parts) parts of one group were one part before they were cut
+    std::vector<std::size_t> uncut_group = {};  ///< (conformal)
 };
+
+/// For each part the number of the other part with its first face. @param faces of the surface
+std::vector<std::size_t> owners(const std::vector<FlatPart>& parts, const std::vector<FlatPart>& others,
+                                Eigen::Index faces)
+{
+    std::vector<std::size_t> other(static_cast<std::size_t>(faces), 0), owner;
+    for (std::size_t k = 0; k < others.size(); ++k)
+        for (const Index f : others[k].faces) other[f] = k;
+    for (const FlatPart& part : parts) owner.push_back(other[part.faces.front()]);
+    return owner;
+}
 
 /// Tells faces how large they should be, and scales each part to the sum of its faces. @param importance of the
 /// vertices of all parts, or empty
@@ -135,23 +148,24 @@ private:
         on_proxy.rounds = rounds_on_proxy;
         double even = make_together_even(on_proxy);
 
-        // Make the same parts of the fine surface. An E that is given is kept; else angles are no worse than at 0.
+        // Make the same parts of the fine surface. Where angles are worse than at 0, go back.
         if (even > 0.0) {
-            const double most = options_.even ? std::numeric_limits<double>::infinity() : conformal_angles(before);
-            for (std::size_t i = 0; i < pieces_.size(); ++i)
-                if (!pieces_[i].is_fine) carry(pieces_[i], before[i]);
+            for (std::size_t i = 0; i < pieces_.size(); ++i) note_uncut(pieces_[i], std::move(before[i]));
+            const AngleBounds bounds = angle_bounds();
             std::vector<FlatPart> parts = together();
-            const EvenParts relaxed = relax_carried(parts, even, most, evening, context_);
-            even = relaxed.even;
+            const EvenParts relaxed = relax_carried(parts, even, bounds, evening, context_);
             take_back(std::move(parts), relaxed);
+            go_back(relaxed.worse);
+            if (relaxed.even > 0.0) return relaxed.even;
+        } else {
+            for (std::size_t i = 0; i < pieces_.size(); ++i) {
+                pieces_[i].parts = std::move(before[i]);
+                if (pieces_[i].proxy) lay_fine(pieces_[i]);
+            }
         }
-        if (even > 0.0) return even;
         result_.not_even.clear();
-        for (std::size_t i = 0; i < pieces_.size(); ++i) {
-            pieces_[i].parts = std::move(before[i]);
-            if (pieces_[i].proxy) lay_fine(pieces_[i]);
-        }
-        return 0.0;
+        evening.darts = 0.0;
+        return make_together_even(evening);
     }
 
     void decide(MeshPiece& own, int threads, ExecutionContext& context, SplitEffort& effort) const
@@ -244,27 +258,88 @@ private:
         return even.even;
     }
 
-    /// The piece's parts made of the fine surface, relaxed as on the proxy. @param before the parts without darts
-    void carry(MeshPiece& own, const std::vector<FlatPart>& before)
+    /// Notes what the parts of a piece are at E = 0, and makes them of the fine surface. @param before without darts
+    void note_uncut(MeshPiece& own, std::vector<FlatPart> before)
     {
-        std::vector<FlatPart> fine = carried_parts(*own.proxy, own.parts, options_.threads, context_);
-        own.is_fine = true;
-        if (fine.empty()) {
-            own.parts = before;
-            lay_fine(own);
-        } else {
-            own.parts = std::move(fine);
+        if (own.is_fine) {
+            own.group = owners(own.parts, before, own.input.piece.triangles.rows());
+            own.conformal = std::move(before);
+            own.uncut_group.resize(own.conformal.size());
+            std::iota(own.uncut_group.begin(), own.uncut_group.end(), 0);
+            return;
         }
+        std::vector<FlatPart> fine = carried_parts(*own.proxy, own.parts, options_.threads, context_);
+        if (fine.empty()) {
+            own.parts = std::move(before);
+            lay_fine(own);
+            note_uncut(own, own.parts);
+            return;
+        }
+        own.group = owners(own.parts, before, own.proxy->surface.triangles.rows());
+        std::vector<std::vector<Index>> faces(before.size());
+        for (std::size_t k = 0; k < fine.size(); ++k)
+            faces[own.group[k]].insert(faces[own.group[k]].end(), fine[k].faces.begin(), fine[k].faces.end());
+        own.conformal = laid(own, std::move(faces));
+        own.uncut_group = owners(own.conformal, fine, own.proxy->fine.whole.areas.size());
+        for (std::size_t& group : own.uncut_group) group = own.group[group];
+        side_by_side(fine.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& context) {
+            if (!fine[k].is_near) start_conformal(own.conformal, fine[k], context);
+        });
+        own.parts = std::move(fine);
+        own.is_fine = true;
     }
 
-    /// Makes the fine parts where the proxy's parts are, if they are not there. None are made if they have no place.
-    /// @param parts of the proxy, without darts
-    void make_uncut(MeshPiece& own, const std::vector<FlatPart>& parts) const
+    /// The angles of all groups at E = 0; no bounds, if E is given.
+    AngleBounds angle_bounds() const
     {
-        if (!own.uncut.empty()) return;
-        for (std::vector<Index>& faces : carried_faces(*own.proxy, parts, context_))
-            own.uncut.push_back(
-                std::make_shared<Part>(Part{part_mesh(own.proxy->fine.whole, std::move(faces)), {}, {}}));
+        AngleBounds bounds;
+        if (options_.even) return bounds;
+        for (const MeshPiece& own : pieces_) {
+            const std::size_t first = bounds.most.size();
+            for (const std::size_t group : own.group) bounds.group.push_back(first + group);
+            bounds.most.resize(first + *std::ranges::max_element(own.uncut_group) + 1, 0.0);
+            for (std::size_t k = 0; k < own.conformal.size(); ++k)
+                bounds.most[first + own.uncut_group[k]] += sum_of_angle_errors(own.conformal[k]);
+        }
+        return bounds;
+    }
+
+    /// Puts conformal parts in the place of groups. @param groups numbers as in angle_bounds
+    void go_back(const std::vector<std::size_t>& groups)
+    {
+        std::size_t first = 0;
+        for (MeshPiece& own : pieces_) {
+            const std::size_t end = first + *std::ranges::max_element(own.uncut_group) + 1;
+            std::vector<FlatPart> parts;
+            const auto goes_back = [&](std::size_t group) { return std::ranges::count(groups, first + group) > 0; };
+            for (std::size_t k = 0; k < own.parts.size(); ++k)
+                if (!goes_back(own.group[k])) parts.push_back(std::move(own.parts[k]));
+            for (std::size_t k = 0; k < own.conformal.size(); ++k) {
+                if (!goes_back(own.uncut_group[k])) continue;
+                for (const Index f : own.conformal[k].faces) result_.not_even.push_back(own.input.piece.source_face[f]);
+                parts.push_back(std::move(own.conformal[k]));
+            }
+            own.parts = std::move(parts);
+            own.conformal.clear();
+            first = end;
+        }
+        std::ranges::sort(result_.not_even);
+        result_.not_even.erase(std::unique(result_.not_even.begin(), result_.not_even.end()), result_.not_even.end());
+    }
+
+    /// Parts of the fine surface, each mapped by itself. @param faces of each part
+    std::vector<FlatPart> laid(const MeshPiece& own, std::vector<std::vector<Index>> faces) const
+    {
+        SplitEffort effort;
+        const CutSurface& whole = own.proxy->fine.whole;
+        std::vector<PartPointer> parts;
+        for (std::vector<Index>& of_part : faces) {
+            std::ranges::sort(of_part);
+            parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(of_part)), {}, {}}));
+        }
+        return flat_parts(whole, find_mirror(whole.vertices, whole.surface.triangles, whole.polygon), parts,
+                          flat_options(own), options_.threads, context_, effort)
+            .parts;
     }
 
     FlatOptions flat_options(const MeshPiece& own) const
@@ -278,40 +353,11 @@ private:
     void lay_fine(MeshPiece& own)
     {
         SplitEffort effort;
-        make_uncut(own, own.parts);
-        std::vector<PartPointer> parts = std::exchange(own.uncut, {});
-        const CutSurface& whole = own.proxy->fine.whole;
+        std::vector<std::vector<Index>> faces = carried_faces(*own.proxy, own.parts, context_);
         own.is_fine = true;
-        if (parts.empty()) {
-            own.parts = flat_piece(own.input, own.proxy->fine, options_, options_.threads, context_, effort).parts;
-            return;
-        }
-        own.parts = flat_parts(whole, find_mirror(whole.vertices, whole.surface.triangles, whole.polygon), parts,
-                               flat_options(own), options_.threads, context_, effort)
-                        .parts;
-    }
-
-    /// The sum of the angle errors of the parts at E = 0; faces turned over do not count.
-    double conformal_angles(const std::vector<std::vector<FlatPart>>& before)
-    {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < pieces_.size(); ++i) {
-            if (!pieces_[i].proxy) {
-                for (const FlatPart& part : before[i]) sum += sum_of_angle_errors(part);
-                continue;
-            }
-            make_uncut(pieces_[i], before[i]);
-            const std::vector<PartPointer>& parts = pieces_[i].uncut;
-            const FlatOptions options = flat_options(pieces_[i]);
-            std::vector<double> sums(parts.size(), 0.0);
-            side_by_side(parts.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
-                SplitEffort effort;
-                map_anew(pieces_[i].proxy->fine.whole, *parts[k], own, effort);
-                sums[k] = sum_of_angle_errors(flat_part(*parts[k], options, own));
-            });
-            sum += std::accumulate(sums.begin(), sums.end(), 0.0);
-        }
-        return sum;
+        own.parts = faces.empty()
+                        ? flat_piece(own.input, own.proxy->fine, options_, options_.threads, context_, effort).parts
+                        : laid(own, std::move(faces));
     }
 
     std::vector<MeshPiece> pieces_;
