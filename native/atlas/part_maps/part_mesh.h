@@ -18,10 +18,12 @@ struct CutSurface {
     std::vector<Index> polygon;  ///< (F) faces with the same number are not cut apart; empty: all may be
     std::vector<char> slit;      ///< (3F) 1 where tubes should be opened; empty: no wish
     std::vector<char> seam;      ///< (3F) 1 on a boundary that is a cut; empty: no boundary is
-    std::vector<double> shown;   ///< (V) from 0 to 1: how much cuts are to keep away; empty: nowhere
+    std::vector<double> shown;   ///< (V) factor on the length of cuts, as they are seen there; empty: 1
 };
 
-constexpr double price_if_shown = 8.0;  ///< a cut where `shown` is 1 counts as this many times as long
+/// The factors on the length of cuts at some vertices. @param show (V) from 0 to 1: how much cuts are to keep away;
+/// where it is 1, a cut counts as 8 times as long. Empty: 0 @return as `shown` in CutSurface
+std::vector<double> cut_prices(const std::vector<double>& show, const std::vector<Index>& vertices);
 
 /// The factor on the length of an edge in the cost of cuts. @param shown (V) as in CutSurface
 double price_of_edge(const std::vector<double>& shown, Index a, Index b);

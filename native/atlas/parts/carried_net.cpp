@@ -12,7 +12,7 @@ namespace koebe {
 namespace {
 
 constexpr double far_off = 4.0;         // price of an edge as far from a coarse edge as that is long, beside its length
-constexpr int most_orders = 6;          // of chains, until all borders of parts have paths
+constexpr int most_orders = 6;          // of chains, until all have paths that are no darts
 constexpr double longest_detour = 3.0;  // length of a path over the length of its chain
 
 class PathFinder {
@@ -26,8 +26,12 @@ public:
         loop_of_.assign(taken_.size(), -1);
         for (std::size_t k = 0; k < fine_.surface.loops.size(); ++k)
             for (const Index v : fine_.surface.loops[k]) loop_of_[v] = static_cast<int>(k);
-        for (Index h = 0; h < static_cast<Index>(net.open.size()); ++h)  // paths go through no vertex of another chain
-            if (net.open[h]) taken_[fine_origin(h)] = taken_[fine_target(h)] = 1;
+        open_edges_.assign(vertex_.size(), 0);
+        for (Index h = 0; h < static_cast<Index>(net.open.size()); ++h) {
+            if (!net.open[h]) continue;
+            taken_[fine_origin(h)] = taken_[fine_target(h)] = 1;  // paths go through no vertex of another chain
+            ++open_edges_[origin(coarse_.triangles, h)];
+        }
         const auto may_cut = [&](Index h) { return mesh_.twin[h] != no_twin && !mesh_.whole[h]; };
         begin_.assign(taken_.size() + 1, 0);
         for (Index h = 0; h < mesh_.halfedge_count(); ++h)
@@ -71,13 +75,20 @@ public:
     std::optional<CarriedPath> carried(const Path& chain)
     {
         auto path = path_along(chain);
-        if (!path || (!net_.parts_differ(coarse_, chain.front()) && is_detour(*path, chain))) return {};
+        if (!path || (is_dart(chain) && is_detour(*path, chain))) return {};
         for (const Index h : *path)
             for (const Index v : {origin(fine_.surface.triangles, h), target(fine_.surface.triangles, h)})
                 taken_[v] = on_path_[v] = 1;
         note(chain.front(), path->front());
         note(coarse_.twin[chain.back()], fine_.surface.twin[path->back()]);
         return CarriedPath{chain, std::move(*path)};
+    }
+
+    /// Whether a chain ends inside: without it the part has the same loops. Others divide parts, or join loops.
+    bool is_dart(const Path& chain) const
+    {
+        const auto is_tip = [&](Index v) { return open_edges_[v] == 1; };
+        return is_tip(origin(coarse_.triangles, chain.front())) || is_tip(target(coarse_.triangles, chain.back()));
     }
 
 private:
@@ -202,6 +213,7 @@ private:
     SeamedMesh mesh_;
     std::vector<char> taken_, on_path_;  // (V) fine: on the boundary or on a path
     std::vector<int> loop_of_;           // (V) fine; -1 inside
+    std::vector<int> open_edges_;        // (V) coarse: how many half-edges on boundaries leave it
     std::vector<std::size_t> begin_;
     std::unordered_map<Index, std::vector<std::pair<Index, Index>>> placed_;  // by the fine vertex: as they leave it
     std::vector<Index> leaving_;  // half-edges that may be cut, by the vertex that they leave
@@ -236,19 +248,20 @@ std::optional<CoarseNet> coarse_net(const Proxy& proxy, const std::vector<FlatPa
 
 std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net, const ExecutionContext& context)
 {
-    std::vector<Path> chains = PathFinder(proxy, net).chains();
-    std::stable_partition(chains.begin(), chains.end(),
-                          [&](const Path& own) { return net.parts_differ(proxy.surface, own.front()); });
+    const PathFinder first(proxy, net);
+    const auto is_needed = [&](const Path& chain) { return !first.is_dart(chain); };
+    std::vector<Path> chains = first.chains();
+    std::stable_partition(chains.begin(), chains.end(), is_needed);
     std::vector<CarriedPath> best;
     std::size_t fewest = chains.size() + 1;
     for (int order = 0; order < most_orders && fewest > 0; ++order) {
         PathFinder finder(proxy, net);
         std::vector<CarriedPath> all;
-        std::vector<Path> blocked, others;  // borders of parts first, and of those the ones that had no path
+        std::vector<Path> blocked, others;
         for (const Path& chain : chains) {
             context.checkpoint();
             auto path = finder.carried(chain);
-            (path || !net.parts_differ(proxy.surface, chain.front()) ? others : blocked).push_back(chain);
+            (path || !is_needed(chain) ? others : blocked).push_back(chain);
             if (path) all.push_back(std::move(*path));
         }
         if (blocked.size() < fewest) {

@@ -10,12 +10,15 @@
 #include "parts/through_cuts.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 namespace koebe {
 namespace {
+
+constexpr double usual_even = 0.1;  // E at which maps are compared
 
 /// For each piece of the fine surface the part to which it corresponds; empty if that is not one piece for each part.
 /// @param piece (F) of the fine surface, from 0
@@ -69,6 +72,22 @@ void map_by_itself(FlatPart& piece, ExecutionContext& context)
     repair_flips(piece, uv, context);
     embed_safely(piece, uv, context);
     piece.points = packed_side * uv;
+}
+
+/// Gives a piece the places that its faces have in one part of the same surface. @return whether there is such a part
+bool take_places_in(const std::vector<FlatPart>& uncut, FlatPart& piece)
+{
+    const auto own = std::ranges::find_if(
+        uncut, [&](const FlatPart& part) { return std::ranges::binary_search(part.faces, piece.faces.front()); });
+    if (own == uncut.end()) return false;
+    for (std::size_t f = 0; f < piece.faces.size(); ++f) {
+        const auto found = std::ranges::lower_bound(own->faces, piece.faces[f]);
+        if (found == own->faces.end() || *found != piece.faces[f]) return false;
+        for (int k = 0; k < 3; ++k)
+            piece.points.row(piece.surface.triangles(static_cast<Index>(f), k)) =
+                own->points.row(own->surface.triangles(found - own->faces.begin(), k));
+    }
+    return true;
 }
 
 /// A piece of the fine surface for each part.
@@ -173,19 +192,15 @@ std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPa
     return Carrying(proxy, parts, *net, carried_paths(proxy, *net, context)).pieces(threads, context);
 }
 
-void start_conformal(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context)
+void start_by_itself(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context)
 {
-    const auto own = std::ranges::find_if(
-        uncut, [&](const FlatPart& part) { return std::ranges::binary_search(part.faces, piece.faces.front()); });
-    if (own == uncut.end()) return map_by_itself(piece, context);
-    for (std::size_t f = 0; f < piece.faces.size(); ++f) {
-        const auto found = std::ranges::lower_bound(own->faces, piece.faces[f]);
-        if (found == own->faces.end() || *found != piece.faces[f]) return map_by_itself(piece, context);
-        for (int k = 0; k < 3; ++k)
-            piece.points.row(piece.surface.triangles(static_cast<Index>(f), k)) =
-                own->points.row(own->surface.triangles(found - own->faces.begin(), k));
-    }
-    if (!lies_one_to_one(piece, piece.points) || !survives_storing(piece)) map_by_itself(piece, context);
+    const auto energy = [](const FlatPart& part) {
+        return lies_one_to_one(part, part.points) && survives_storing(part) ? forces_in(part, usual_even).energy.sum()
+                                                                            : std::numeric_limits<double>::infinity();
+    };
+    FlatPart by_itself = piece;
+    map_by_itself(by_itself, context);
+    if (!take_places_in(uncut, piece) || !(energy(piece) < energy(by_itself))) piece = std::move(by_itself);
 }
 
 }  // namespace koebe

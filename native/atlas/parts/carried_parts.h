@@ -22,8 +22,8 @@ std::vector<std::vector<Index>> carried_faces(const Proxy& proxy, const std::vec
 std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPart>& parts, int threads,
                                     ExecutionContext& context);
 
-/// Gives a piece the places that it has in an uncut part of the same surface. If it is not one to one there, it is
-/// mapped by itself.
-void start_conformal(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context);
+/// Gives a piece without places those that it has in an uncut part of the same surface, or those of a map of its own,
+/// whichever are more even.
+void start_by_itself(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context);
 
 }  // namespace koebe

@@ -32,7 +32,8 @@ struct Attempt {
 };
 constexpr std::array attempts{Attempt{0.0, 0.0}, Attempt{0.9, 1e-3}, Attempt{1.0, 1e-3}, Attempt{1.0, 1e-4},
                               Attempt{1.0, 1e-5}};
-constexpr double ear_height = 0.01;  // of a face at a corner that the part rounds, over its base
+constexpr std::size_t most_starts = 6;  // of a common sequence of names
+constexpr double ear_height = 0.01;     // of a face at a corner that the part rounds, over its base
 
 using HeldVertex = std::pair<Index, Complex>;  // and where it stays
 
@@ -224,15 +225,16 @@ private:
                     anchors.push_back(i);
                     names.push_back(name);
                 }
-            const VertexLoop rim = rim_of(names, taken);
-            if (rim.empty()) return {};
-            std::size_t next = 0;
-            for (std::size_t k = 0; k < anchors.size(); ++k) {
-                std::vector<Complex> course{complex_at(part_.points, rim[next])};
-                const Index to_name = names[(k + 1) % names.size()];
-                do course.push_back(complex_at(part_.points, rim[++next % rim.size()]));
-                while (next % rim.size() != 0 && (k + 1 == anchors.size() || part_.original[rim[next]] != to_name));
-                hold_along(course, piece, loop, anchors[k], anchors[(k + 1) % anchors.size()], bulge, held);
+            const RimMatch match = match_of(names, taken);
+            if (match.pairs.empty()) return {};
+            const VertexLoop& rim = part_.surface.loops[match.loop];
+            for (std::size_t k = 0; k < match.pairs.size(); ++k) {
+                const auto [from, start] = match.pairs[k];
+                const auto [to, end] = match.pairs[(k + 1) % match.pairs.size()];
+                std::vector<Complex> course{complex_at(part_.points, rim[start])};
+                for (std::size_t i = start; i == start || i != end;)
+                    course.push_back(complex_at(part_.points, rim[i = (i + 1) % rim.size()]));
+                hold_along(course, piece, loop, anchors[from], anchors[to], bulge, held);
             }
         }
         return held;
@@ -261,24 +263,63 @@ private:
         }
     }
 
-    /// The part's loop that has these names one after the other, from the first of them; empty if there is none. It may
-    /// have others between them: short darts may have no path, and a path may end elsewhere on a loop.
-    VertexLoop rim_of(const std::vector<Index>& names, std::vector<char>& taken) const
+    /// Names of a piece's loop and the places where the part's loop has them, in the same order round both.
+    struct RimMatch {
+        std::size_t loop = 0;                                    ///< of the part
+        std::vector<std::pair<std::size_t, std::size_t>> pairs;  ///< number of the name, place in the loop
+    };
+
+    /// The part's loop that has most of these names one after the other; no pairs if none has half of them. It may have
+    /// others between them: short darts may have no path. Names are left out where a path ends elsewhere on a loop.
+    RimMatch match_of(const std::vector<Index>& names, std::vector<char>& taken) const
     {
-        for (std::size_t k = 0; k < part_.surface.loops.size(); ++k) {
-            VertexLoop rim = part_.surface.loops[k];
-            if (taken[k] || names.empty()) continue;
-            for (std::size_t turn = 0; turn < rim.size();
-                 ++turn, std::rotate(rim.begin(), rim.begin() + 1, rim.end())) {
-                if (part_.original[rim.front()] != names.front()) continue;
-                std::size_t found = 0;
-                for (const Index v : rim) found += found < names.size() && part_.original[v] == names[found];
-                if (found < names.size()) continue;
-                taken[k] = 1;
-                return rim;
+        RimMatch best;
+        for (std::size_t k = 0; k < part_.surface.loops.size() && best.pairs.size() < names.size(); ++k) {
+            if (taken[k]) continue;
+            std::vector<Index> rim;
+            for (const Index v : part_.surface.loops[k]) rim.push_back(part_.original[v]);
+            for (const std::size_t first : starts(names, rim)) {
+                auto pairs = common_sequence(names, first, rim, std::ranges::find(rim, names[first]) - rim.begin());
+                if (pairs.size() > best.pairs.size()) best = {k, std::move(pairs)};
             }
         }
-        return {};
+        if (2 * best.pairs.size() < names.size()) return {};
+        if (!best.pairs.empty()) taken[best.loop] = 1;
+        return best;
+    }
+
+    /// Some names that stand once in both lists, spread over the names; else the first one in both.
+    static std::vector<std::size_t> starts(const std::vector<Index>& names, const std::vector<Index>& rim)
+    {
+        std::vector<std::size_t> all, some;
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (std::ranges::count(names, names[i]) == 1 && std::ranges::count(rim, names[i]) == 1) all.push_back(i);
+        for (std::size_t i = 0; i < names.size() && all.empty(); ++i)
+            if (std::ranges::count(rim, names[i]) > 0) all.push_back(i);
+        for (std::size_t i = 0; i < std::min(most_starts, all.size()); ++i)
+            some.push_back(all[i * all.size() / std::min(most_starts, all.size())]);
+        return some;
+    }
+
+    /// The longest sequence that both lists have in this order, from a common start on round each of them.
+    static std::vector<std::pair<std::size_t, std::size_t>>
+    common_sequence(const std::vector<Index>& a, std::size_t start_a, const std::vector<Index>& b, std::size_t start_b)
+    {
+        const std::size_t m = a.size(), n = b.size();
+        const auto same = [&](std::size_t i, std::size_t j) { return a[(start_a + i) % m] == b[(start_b + j) % n]; };
+        Eigen::MatrixXi longest =
+            Eigen::MatrixXi::Zero(static_cast<Index>(m + 1), static_cast<Index>(n + 1));  // from i and j on
+        for (std::size_t i = m; i-- > 0;)
+            for (std::size_t j = n; j-- > 0;)
+                longest(i, j) = same(i, j) ? longest(i + 1, j + 1) + 1 : std::max(longest(i + 1, j), longest(i, j + 1));
+        std::vector<std::pair<std::size_t, std::size_t>> pairs;
+        for (std::size_t i = 0, j = 0; i < m && j < n;) {
+            if (same(i, j) && longest(i, j) == longest(i + 1, j + 1) + 1)
+                pairs.emplace_back((start_a + i++) % m, (start_b + j++) % n);
+            else
+                (longest(i + 1, j) >= longest(i, j + 1) ? i : j) += 1;
+        }
+        return pairs;
     }
 
     const Proxy& proxy_;

@@ -114,8 +114,7 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
         input.piece.vertices = vertices(input.piece.source_vertex, Eigen::all);
         if (!options.polygon.empty())
             for (const Index f : input.piece.source_face) input.polygon.push_back(options.polygon[f]);
-        if (!options.show.empty())
-            for (const Index v : input.piece.source_vertex) input.shown.push_back(options.show[v]);
+        input.shown = cut_prices(options.show, input.piece.source_vertex);
         pieces.push_back({std::move(input)});
     }
     return pieces;

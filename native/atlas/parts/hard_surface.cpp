@@ -42,7 +42,7 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
         handles += surface.genus;
         CutSurface whole = cut_surface(scaled(piece.source_vertex, Eigen::all), std::move(surface),
                                        values_at(options.polygon, piece.source_face));
-        whole.shown = values_at(options.show, piece.source_vertex);
+        whole.shown = cut_prices(options.show, piece.source_vertex);
         if (std::optional<UnfoldedParts> hard = hard_parts(whole, context, unfolding_of(options))) {
             for (const Index f : hard->rest) rest.push_back(piece.source_face[f]);
             note_shown(whole.shown, hard->parts);

@@ -7,6 +7,7 @@
 #include "parts/hard_surface.h"
 #include "parts/proxy.h"
 #include "parts/unfolding.h"
+#include "surface/ambient_visibility.h"
 #include "surface/importance.h"
 
 #include <algorithm>
@@ -25,6 +26,7 @@ constexpr Index proxy_faces = 5500;      // with about so many faces,
 constexpr Index least_proxy = 300;       // and each piece has at least so many
 constexpr double dearer_on_proxy = 2.0;  // cuts: coarse parts bend less, and so overrate them
 constexpr int rounds_on_proxy = 5;       // of relaxing with the void
+constexpr double seen_at_least = 0.05;   // added to the share that is seen of a vertex: what a hidden cut costs
 constexpr double few_cuts = 3.6;         // roots of a piece's area: a piece unfolded with fewer is not tried otherwise
 
 /// A piece and how far its parts are decided.
@@ -75,6 +77,23 @@ void ask_for_sizes(const std::vector<double>& importance, std::vector<FlatPart>&
         if (asked > 0.0) part.points *= std::sqrt(asked / areas.sum());
         row += areas.size();
     }
+}
+
+/// Makes cuts dearer where they are seen from more directions, and cheaper where from fewer: in the mean as dear.
+void price_by_visibility(PieceInput& input)
+{
+    const SurfacePiece& piece = input.piece;
+    const VectorXd own = ambient_visibility(piece.vertices, piece.triangles);
+    VectorXd seen = own;
+    const std::vector<Index> image = find_mirror(piece.vertices, piece.triangles, input.polygon).vertex;
+    for (std::size_t v = 0; v < image.size(); ++v)
+        if (image[v] >= 0) seen[v] = 0.5 * (own[v] + own[image[v]]);
+    VectorXd areas = VectorXd::Zero(seen.size());
+    const VectorXd faces = face_areas(piece.vertices, piece.triangles);
+    for (Eigen::Index c = 0; c < piece.triangles.size(); ++c) areas[piece.triangles.data()[c]] += faces[c / 3];
+    const double mean = seen_at_least + seen.dot(areas) / areas.sum();
+    if (input.shown.empty()) input.shown.assign(static_cast<std::size_t>(seen.size()), 1.0);
+    for (Eigen::Index v = 0; v < seen.size(); ++v) input.shown[v] *= (seen_at_least + seen[v]) / mean;
 }
 
 /// Pieces, whose parts are decided one by one and made even together.
@@ -171,6 +190,10 @@ private:
     void decide(MeshPiece& own, int threads, ExecutionContext& context, SplitEffort& effort) const
     {
         const Index faces = static_cast<Index>(own.input.piece.triangles.rows());
+        const Index coarse =
+            std::max(least_proxy, static_cast<Index>(proxy_faces * static_cast<double>(faces) / total_));
+        const bool by_proxy = total_ > proxy_from && faces > coarse && options_.slits.empty();
+        if (!by_proxy && faces <= proxy_from) price_by_visibility(own.input);
         PieceSurface surface = surface_of(own.input);
         std::optional<UnfoldedParts> true_to_size;
         if (may_unfold(options_)) true_to_size = unfolded(surface.whole, context, unfolding_of(options_));
@@ -182,10 +205,9 @@ private:
             take_unfolded();
             return;
         }
-        const Index coarse =
-            std::max(least_proxy, static_cast<Index>(proxy_faces * static_cast<double>(faces) / total_));
-        if (total_ > proxy_from && faces > coarse && options_.slits.empty()) {
+        if (by_proxy) {
             own.proxy = proxy_of(own.input, std::move(surface), coarse, context);
+            price_by_visibility(own.proxy->input);
             own.is_fine = false;
             own.parts =
                 flat_piece(own.proxy->input, surface_of(own.proxy->input), options_, threads, context, effort).parts;
@@ -283,7 +305,7 @@ private:
         own.uncut_group = owners(own.conformal, fine, own.proxy->fine.whole.areas.size());
         for (std::size_t& group : own.uncut_group) group = own.group[group];
         side_by_side(fine.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& context) {
-            if (!fine[k].is_near) start_conformal(own.conformal, fine[k], context);
+            if (!fine[k].is_near) start_by_itself(own.conformal, fine[k], context);
         });
         own.parts = std::move(fine);
         own.is_fine = true;

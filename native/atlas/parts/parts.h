@@ -24,8 +24,8 @@ struct PartsOptions : MapOptions {
     std::vector<Index> polygon = {};  ///< (F) faces with the same number are not cut apart; empty: all may be
     /// Edges, as pairs of vertices. A tube is opened along them if they lead from one of its loops to the other.
     std::vector<std::array<Index, 2>> slits = {};
-    /// (V) from 0 to 1: cuts and darts keep away from vertices of weight 1, where they count as price_if_shown times as
-    /// long. Borders (hidden_cuts.h), slits and darts obey. Cuts through handles do not obey. Empty: 0 at all vertices.
+    /// (V) from 0 to 1: cuts and darts keep away from vertices of weight 1, where they count as 8 times as long.
+    /// Borders (hidden_cuts.h), slits and darts obey. Cuts through handles do not obey. Empty: 0 at all vertices.
     std::vector<double> show = {};
     /// true: rims at cuts lie on circles, and on the straight ends of tubes. false: they follow the surface's edges,
     /// and angles are better.

@@ -1,12 +1,9 @@
 #include "surface/nearest_triangles.h"
 
 #include "core/silent_cgal.h"
+#include "surface/triangle_tree.h"
 
 #include <Eigen/Geometry>
-
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,36 +13,6 @@
 
 namespace koebe {
 namespace {
-
-using Kernel = CGAL::Simple_cartesian<double>;
-using Point = Kernel::Point_3;
-
-/// A triangle of the mesh with its number; planar triangles have z = 0.
-struct NumberedTriangle {
-    using Id = Index;
-    using Point = Kernel::Point_3;
-    using Datum = Kernel::Triangle_3;
-
-    NumberedTriangle(std::vector<Index>::const_iterator number, const Vertices& of_corners, const Triangles& of_faces)
-        : face(*number), corners(&of_corners), triangles(&of_faces)
-    {
-    }
-
-    Id id() const { return face; }
-    Point reference_point() const { return corner(0); }
-    Datum datum() const { return {corner(0), corner(1), corner(2)}; }
-    Point corner(int k) const
-    {
-        const Index v = (*triangles)(face, k);
-        return {(*corners)(v, 0), (*corners)(v, 1), (*corners)(v, 2)};
-    }
-
-    Index face;
-    const Vertices* corners;
-    const Triangles* triangles;
-};
-
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, NumberedTriangle>>;
 
 Vertices in_space(const PlanarPoints& points)
 {
@@ -113,14 +80,14 @@ PlacesInTriangles nearest(const Vertices& corners, const Triangles& triangles, c
     const SilentCgal silent;
     std::vector<Index> faces(triangles.rows());
     std::iota(faces.begin(), faces.end(), 0);
-    Tree tree(faces.cbegin(), faces.cend(), corners, triangles);
+    TriangleTree tree(faces.cbegin(), faces.cend(), corners, triangles);
     tree.accelerate_distance_queries();
 
     const Eigen::Index count = points.rows();
     PlacesInTriangles places{Eigen::VectorX<Index>(count), Vertices(count, 3), VectorXd(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const Eigen::RowVector3d p = points.row(i);
-        const Index face = tree.closest_point_and_primitive(Point(p[0], p[1], p[2])).second;
+        const Index face = tree.closest_point_and_primitive(TreeKernel::Point_3(p[0], p[1], p[2])).second;
         Eigen::Matrix3d corner;
         for (int k = 0; k < 3; ++k) corner.row(k) = corners.row(triangles(face, k));
         const Eigen::RowVector3d weights = nearest_weights(p, corner, inner_weights(p, corner));

@@ -1,0 +1,74 @@
+#include "surface/ambient_visibility.h"
+
+#include "core/silent_cgal.h"
+#include "surface/triangle_tree.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace koebe {
+namespace {
+
+constexpr int directions = 32;
+constexpr double golden_angle = 2.399963229728653;  // the turn from one direction to the next: they spread evenly
+constexpr double off_surface = 1e-3;                // start of a ray, over the extent
+
+/// Normals of vertices, weighted by area, towards the outer side. Each has the length of twice the area round it.
+Vertices outward_normals(const Vertices& vertices, const Triangles& triangles)
+{
+    Vertices normals = Vertices::Zero(vertices.rows(), 3);
+    const Eigen::RowVector3d center = vertices.colwise().mean();
+    double outward = 0.0;
+    for (const auto row : triangles.rowwise()) {
+        const Eigen::RowVector3d a = vertices.row(row[0]), b = vertices.row(row[1]), c = vertices.row(row[2]);
+        const Eigen::RowVector3d normal = (b - a).cross(c - a);
+        outward += normal.dot((a + b + c) / 3.0 - center);
+        for (const Index v : row) normals.row(v) += normal;
+    }
+    return outward < 0.0 ? -normals : normals;
+}
+
+/// The first neighbour that a face gives a vertex: with the normal it makes a frame that turns with the surface.
+std::vector<Index> first_neighbours(const Vertices& vertices, const Triangles& triangles)
+{
+    std::vector<Index> neighbour(static_cast<std::size_t>(vertices.rows()), -1);
+    for (const auto row : triangles.rowwise())
+        for (int k = 0; k < 3; ++k)
+            if (neighbour[row[k]] < 0) neighbour[row[k]] = row[(k + 1) % 3];
+    return neighbour;
+}
+
+}  // namespace
+
+VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles)
+{
+    const SilentCgal silent;
+    std::vector<Index> faces(static_cast<std::size_t>(triangles.rows()));
+    std::iota(faces.begin(), faces.end(), 0);
+    const TriangleTree tree(faces.cbegin(), faces.cend(), vertices, triangles);
+    const Vertices normals = outward_normals(vertices, triangles);
+    const std::vector<Index> neighbour = first_neighbours(vertices, triangles);
+    const double extent = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
+    VectorXd seen = VectorXd::Ones(vertices.rows());
+    for (Index v = 0; v < static_cast<Index>(vertices.rows()); ++v) {
+        if (!(normals.row(v).norm() > 0.0)) continue;
+        const Eigen::RowVector3d up = normals.row(v).normalized();
+        const Eigen::RowVector3d across = up.cross(vertices.row(neighbour[v]) - vertices.row(v)).normalized();
+        const Eigen::RowVector3d along = across.cross(up), start = vertices.row(v) + off_surface * extent * up;
+        int free = 0;
+        for (int i = 0; i < directions; ++i) {
+            const double share = (i + 0.5) / directions, angle = golden_angle * i;
+            const Eigen::RowVector3d to =
+                std::sqrt(share) * (std::cos(angle) * along + std::sin(angle) * across) + std::sqrt(1.0 - share) * up;
+            const TreeKernel::Ray_3 ray({start[0], start[1], start[2]}, TreeKernel::Vector_3(to[0], to[1], to[2]));
+            free += !tree.do_intersect(ray);
+        }
+        seen[v] = static_cast<double>(free) / directions;
+    }
+    return seen;
+}
+
+}  // namespace koebe
