@@ -134,14 +134,16 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
         request->show.check(*request);
         request->importance.check(*request);
     });
-    return {options, [request, run] {
+    return {options,
+            [request, run] {
                 if (request->ends_with_input) end_with_input();
                 if constexpr (requires { request->chosen.show; })
                     request->chosen.show = request->show.read("a weight to show");
                 if constexpr (requires { request->chosen.importance; })
                     request->chosen.importance = request->importance.read("an importance");
                 return run(*request);
-            }};
+            },
+            &request->entries};
 }
 
 }  // namespace koebe::cli
