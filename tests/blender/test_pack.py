@@ -60,7 +60,7 @@ def test_hard_and_sharp_edges_are_cut():
     obj = scenes.add_cube()
     scenes.select(obj)
     parts = []
-    for options in ({}, {"cut_hard": True}, {"cut_sharp": True}):
+    for options in ({}, {"cut_hard": True}, {"cut_at": "sharp"}):
         for edge in obj.data.edges:  # round one face
             edge.use_edge_sharp = set(edge.vertices) <= set(obj.data.polygons[0].vertices)
         assert bpy.ops.uv.koebe_parts(checker=False, **options) == {"FINISHED"}
