@@ -19,8 +19,8 @@ def read_surface(obj: MeshObject, selected_only: bool, cut_at: str = "nothing") 
     """The object's mesh as a `Surface`, in world space without the translation.
 
     In Edit Mode the mesh's arrays are brought up to date first. With `selected_only` it is the surface of the selected
-    faces. With `cut_at` sharp edges, borders of materials or split normals count as seams. A mirrored object keeps its face order: lengths and angles are
-    those of the world, and the UVs stay counter-clockwise in the mesh's own order.
+    faces. With `cut_at` sharp edges, borders of materials or split normals count as seams. A mirrored object keeps its
+    face order: lengths and angles are those of the world, and the UVs stay counter-clockwise in the mesh's own order.
     """
     bring_up_to_date(obj)
     with arrays(obj) as mesh:

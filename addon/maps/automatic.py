@@ -83,7 +83,7 @@ def map_automatically(
             disk.chosen = "Automatic took Disk, because the surface could not be cut into parts"
             return disk
         ours, theirs = worth_of_disk(disk).order, worth_of_parts(parts).order
-        if (ours[0] < theirs[0]) if reason == NO_HOLES else (ours < theirs):
+        if ours < theirs if has_holes(disk) else ours[0] < theirs[0]:
             disk.chosen = "Automatic took Disk, because parts are no better"
             return disk
     parts.chosen = f"Automatic took Parts: {reason}"
@@ -95,9 +95,14 @@ def unserved(disk: SurfaceOutcome) -> str:
     for one in disk.islands:
         if one.error is not None:
             return NO_DISK.get(kind_of(one.error) or "", "the surface cannot be mapped to one disk")
-    if disk.islands and all(len(one.result.loops) == 1 for one in disk.islands):
-        return NO_HOLES
-    return worth_of_disk(disk).fault if disk.islands else "the surface cannot be mapped to one disk"
+    if not disk.islands:
+        return "the surface cannot be mapped to one disk"
+    return worth_of_disk(disk).fault or ("" if has_holes(disk) else NO_HOLES)
+
+
+def has_holes(disk: SurfaceOutcome) -> bool:
+    """Whether an island that is mapped has a hole."""
+    return any(len(one.result.loops) > 1 for one in disk.mapped)
 
 
 def worth_of_disk(disk: SurfaceOutcome) -> Worth:

@@ -71,8 +71,8 @@ def test_spheres_and_handles_are_those_of_the_command(tiles, tmp_path, domain, c
     for source in fitting:
         row = table[source]
         assert row["options"] == {
-            "domain": domain, option: words[chosen], "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01, "weld": None,
-            **({"even": 0.0} if domain == "sphere" else {}),
+            "domain": domain, option: words[chosen], "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01,
+            "weld": None, **({"even": 0.0} if domain == "sphere" else {}),
         }  # fmt: skip
         assert (row["exit_code"] == 0) is (row["flipped"] == 0) and row["faces"] > 0 and row["angle_error_deg"] > 0
         koebe(domain, tiles / source, tmp_path / "alone.obj", f"--{option}", words[chosen])

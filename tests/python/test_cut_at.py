@@ -107,10 +107,11 @@ def test_materials_of_glb_cut(tmp_path):
     for materials, expected in (((0, 1), 2), ((0, 0), 1)):
         glb = GlbBuilder()
         glb.json["materials"] = [{}, {}]
+        halves = np.array([[[0, 1, 2], [0, 2, 3]], [[1, 4, 5], [1, 5, 2]]], "<u2")
         glb.mesh(*[{"attributes": {"POSITION": glb.positions(points)}, "material": material,
-                    "indices": glb.accessor(np.array(faces, "<u2").ravel(), "SCALAR")}
-                   for faces, material in zip(([[0, 1, 2], [0, 2, 3]], [[1, 4, 5], [1, 5, 2]]), materials, strict=True)])
+                    "indices": glb.accessor(faces.ravel(), "SCALAR")}
+                   for faces, material in zip(halves, materials, strict=True)])  # fmt: skip
         (tmp_path / "i.glb").write_bytes(glb.bytes())
-        done = run("parts", tmp_path / "i.glb", tmp_path / "o.glb", "--json", tmp_path / "j.json", "--cut-at", "materials")
+        done = run("parts", tmp_path / "i.glb", tmp_path / "o.glb", "--json", tmp_path / "j.json", "--cut-at=materials")
         assert done.returncode == 0, done.stderr
         assert len(json.loads((tmp_path / "j.json").read_text())["parts"]) == expected

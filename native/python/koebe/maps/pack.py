@@ -74,7 +74,7 @@ def pack(vertices: Any, triangles: Any = None, **given: "Unpack[PackOptions]") -
     locked       (F,) bool: islands with such a triangle keep their place, anywhere in the plane. The others go into the
                  free space of the unit square, at the size that they have, or smaller where there is less room. With
                  average_scale they get at most the texel density of those islands. Not with several tiles
-    enough       a CancelToken that ends the search, also before the `seconds` are over: the best packing so far is taken
+    enough       a CancelToken that ends the search, also before the `seconds` end: the best packing is taken
     mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), SolverError, Cancelled, or MemoryError.
 

@@ -112,7 +112,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
                  mesh, or with arrays each triangle by itself
     slits        (E, 2) vertices of edges along which a tube is opened if they lead from one of its loops to the other.
                  None: along a short, straight path
-    cuts         (E, 2) vertices of edges that no part goes over, beside all other cuts: borders of materials, hard edges
+    cuts         (E, 2) vertices of edges that no part goes over, beside all other cuts: borders of materials
     mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
 
