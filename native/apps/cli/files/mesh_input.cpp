@@ -92,7 +92,7 @@ void triangulate_input(MeshInput& input, const ReadOptions& options)
         input.warnings.push_back(*std::move(warning));
 }
 
-MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options)
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, const ReadOptions& options)
 {
     ExecutionContext context({}, token);
     return run_detachable<MeshInput>(

@@ -72,7 +72,7 @@ struct ReadOptions {
 };
 
 /// @throws FileError, InputError, Cancelled
-MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options = {});
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, const ReadOptions& options = {});
 
 /// The hash of a file before it is read; empty for a pipe or a device.
 std::string input_hash(const std::filesystem::path& path);
