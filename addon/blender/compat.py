@@ -123,12 +123,12 @@ def _flag_attribute(mesh: bpy.types.Mesh, name: str, domain: str) -> Any:
     return found if found is not None and (found.domain, found.data_type) == (domain, "BOOLEAN") else None
 
 
-def any_pin(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer) -> bool:
-    """Whether a corner is pinned in a UV layer of the mesh. The mesh must not be in Edit Mode."""
+def pins(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer) -> np.ndarray:
+    """Whether each corner (C,) is pinned in a UV layer of the mesh. The mesh must not be in Edit Mode."""
     if not hasattr(layer, "pin"):  # before 3.5
-        return bool(read(layer.data, "pin_uv", bool).any())
-    pins = mesh.attributes.get(f".pn.{layer.name}")
-    return pins is not None and bool(read(pins.data, "value", bool).any())
+        return read(layer.data, "pin_uv", bool)
+    found = mesh.attributes.get(f".pn.{layer.name}")
+    return np.zeros(len(mesh.loops), dtype=bool) if found is None else read(found.data, "value", bool)
 
 
 def slow_mode_change() -> bool:
@@ -169,6 +169,17 @@ def seam_edges(mesh: bpy.types.Mesh) -> np.ndarray:
     if seams is None or seam_name_taken(mesh):
         return np.zeros(len(mesh.edges), dtype=bool)
     return read(seams.data, "value", bool)
+
+
+def corner_normals(mesh: bpy.types.Mesh) -> np.ndarray:
+    """Normals (C, 3) of the corners, split at sharp edges and as custom normals say. Not in Edit Mode."""
+    if hasattr(mesh, "corner_normals"):  # from 4.1 on
+        return read(mesh.corner_normals, "vector", np.float32, 3)
+    mesh.calc_normals_split()
+    try:
+        return read(mesh.loops, "normal", np.float32, 3)
+    finally:
+        mesh.free_normals_split()
 
 
 def has_seams(mesh: bpy.types.Mesh) -> bool:

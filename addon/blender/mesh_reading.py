@@ -12,13 +12,15 @@ from ..maps.surface import Surface
 from . import compat
 from .mesh_object import MeshObject
 
+SAME_NORMAL = 1e-3  # most difference of a coordinate: Blender keeps custom normals in 16 bits
 
-def read_surface(obj: MeshObject, selected_only: bool, cut_sharp: bool = False) -> Surface:
+
+def read_surface(obj: MeshObject, selected_only: bool, cut_at: str = "nothing") -> Surface:
     """The object's mesh as a `Surface`, in world space without the translation.
 
     In Edit Mode the mesh's arrays are brought up to date first. With `selected_only` it is the surface of the selected
-    faces. With `cut_sharp` sharp edges count as seams. A mirrored object keeps its face order: lengths and angles are
-    those of the world, and the UVs stay counter-clockwise in the mesh's own order.
+    faces. With `cut_at` sharp edges, borders of materials or split normals count as seams. A mirrored object keeps its
+    face order: lengths and angles are those of the world, and the UVs stay counter-clockwise in the mesh's own order.
     """
     bring_up_to_date(obj)
     with arrays(obj) as mesh:
@@ -31,11 +33,42 @@ def read_surface(obj: MeshObject, selected_only: bool, cut_sharp: bool = False) 
             corner_edge=edge,
             face_start=compat.read_indices(mesh.polygons, "loop_start"),
             face_size=size,
-            seam=compat.seam_edges(mesh) | (cut_sharp & compat.read(mesh.edges, "use_edge_sharp", bool)),
+            seam=compat.seam_edges(mesh) | _further_seams(mesh, cut_at),
             selected=compat.chosen_faces(mesh) if selected_only else np.ones(len(mesh.polygons), dtype=bool),
             triangle_corners=compat.read_indices(mesh.loop_triangles, "loops", 3),
             triangle_face=np.repeat(np.arange(len(size), dtype=np.int32), size - 2),  # in Blender's order
         )
+
+
+def _further_seams(mesh: bpy.types.Mesh, cut_at: str) -> np.ndarray:
+    """The edges (E,) that count as seams, by a word of the option `cut_at`."""
+    seams = np.zeros(len(mesh.edges), dtype=bool)
+    if cut_at in ("sharp", "normals", "all"):
+        seams |= compat.read(mesh.edges, "use_edge_sharp", bool)
+    if cut_at in ("materials", "all"):
+        seams |= _edges_between(mesh, np.repeat(compat.read(mesh.polygons, "material_index", np.int32),
+                                                compat.read_indices(mesh.polygons, "loop_total"))[:, None])  # fmt: skip
+    if cut_at in ("normals", "all") and mesh.has_custom_normals:
+        seams |= _edges_between(mesh, compat.corner_normals(mesh), SAME_NORMAL)
+    return seams
+
+
+def _edges_between(mesh: bpy.types.Mesh, values: np.ndarray, tolerance: float = 0.0) -> np.ndarray:
+    """The edges (E,) at which faces have different values (C, n) at a corner."""
+    vertex, edge = compat.corner_indices(mesh)
+    size = compat.read_indices(mesh.polygons, "loop_total")
+    after = np.arange(1, len(vertex) + 1)
+    last = np.cumsum(size) - 1
+    after[last] = last + 1 - size
+    ends = np.concatenate([np.arange(len(vertex)), after])
+    edge = np.concatenate([edge, edge])
+    order = np.lexsort((vertex[ends], edge))
+    ends, edge = ends[order], edge[order]
+    same = (edge[1:] == edge[:-1]) & (vertex[ends[1:]] == vertex[ends[:-1]])
+    apart = same & (np.abs(values[ends[1:]] - values[ends[:-1]]).max(axis=1) > tolerance)
+    found = np.zeros(len(mesh.edges), dtype=bool)
+    found[edge[1:][apart]] = True
+    return found
 
 
 def bring_up_to_date(obj: MeshObject) -> None:
@@ -108,7 +141,13 @@ def has_pins(obj: MeshObject, layer_name: str) -> bool:
     if layer_name not in obj.data.uv_layers:
         return False
     with arrays(obj) as mesh:
-        return compat.any_pin(mesh, mesh.uv_layers[layer_name])
+        return bool(compat.pins(mesh, mesh.uv_layers[layer_name]).any())
+
+
+def pinned_corners(obj: MeshObject, layer_name: str) -> np.ndarray:
+    """Whether each corner (C,) is pinned in a UV layer, as in `read_surface`."""
+    with arrays(obj) as mesh:
+        return compat.pins(mesh, mesh.uv_layers[layer_name])
 
 
 def vertex_weights(obj: MeshObject, group: str) -> np.ndarray | None:

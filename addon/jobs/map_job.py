@@ -87,9 +87,9 @@ class Job:
         return str(self.options.importance)
 
     @property
-    def _cut_sharp(self) -> bool:
-        """Whether sharp edges count as seams."""
-        return False
+    def _cut_at(self) -> str:
+        """What counts as a seam beside the seams: a word of the option."""
+        return "nothing"
 
     def _add(self, obj: MeshObject) -> None:
         check_mesh(obj)
@@ -102,7 +102,7 @@ class Job:
         self.tasks.append(task)
 
     def _surface(self, obj: MeshObject) -> Surface:
-        surface, self._first = mesh_reading.read_surface(obj, self.selected_only, self._cut_sharp), None
+        surface, self._first = mesh_reading.read_surface(obj, self.selected_only, self._cut_at), None
         if not np.isfinite(surface.positions).all():  # the solver refuses them, and names them
             return surface
         if self.options.weld > 0.0:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packs the islands of one object's UV layer, as they are."""
+"""Packs the islands of a UV layer of each object, as they are: read, compute, write."""
 
+import dataclasses
 from types import ModuleType
 from typing import Any
 
@@ -11,32 +12,88 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
+from ..maps.outcomes import Progress, share_of
+from ..maps.surface import Surface
 
 
-def pack(
-    run: Transaction, koebe: ModuleType, obj: MeshObject, layer: str, selected_only: bool, options: dict[str, Any]
-) -> Any:
-    """Write the packed islands. Returns the result of `koebe.pack`.
+@dataclasses.dataclass
+class PackTask:
+    """An object's islands, and what became of them.
+
+    corners  (t, 3) of the triangles that are packed, polygon (t,) their faces
+    uv       (C, 2) of the layer
+    locked   (t,) triangles whose islands keep their place
+    """
+
+    layer: str
+    target: Target
+    surface: Surface
+    corners: np.ndarray
+    polygon: np.ndarray
+    uv: np.ndarray
+    locked: np.ndarray
+    result: Any = None
+    error: Exception | None = None
+
+
+class PackJob:
+    """Packs several objects one after the other.
 
     layer    that is packed. Without a name the active one
-    options  of `koebe.pack`
-    Raises TransferError, and the errors of `koebe.pack`.
+    keep     word of the option `keep_places`
+    options  of `koebe.pack`; the `seconds` are those of each object
     """
-    check_mesh(obj)
-    surface = mesh_reading.read_surface(obj, selected_only)
-    layer = layer or getattr(obj.data.uv_layers.active, "name", "")
-    if layer not in obj.data.uv_layers:
-        raise TransferError(f"{obj.name}: it has no UV layer {layer!r}" if layer else f"{obj.name}: it has no UVs")
-    chosen = surface.selected[surface.triangle_face]
-    if not chosen.any():
-        raise TransferError(f"{obj.name}: no face is selected" if selected_only else f"{obj.name}: it has no faces")
-    target, uv = Target.of(obj), mesh_reading.read_layer(obj, layer).astype(np.float64)
-    corners = surface.triangle_corners[chosen]
-    result = koebe.pack(
-        surface.positions, surface.corner_vertex[corners], uv=uv[corners], polygon=surface.triangle_face[chosen],
-        **options,
-    )  # fmt: skip
-    uv[corners] = result.uv
-    written = np.unique(corners)
-    map_writing.write(run, map_writing.plan(target, layer, surface, written, uv[written]), select=False)
-    return result
+
+    def __init__(self, koebe: ModuleType, layer: str, selected_only: bool, keep: str, options: dict[str, Any]) -> None:
+        self.koebe, self.options = koebe, options
+        self._layer, self._selected_only, self._keep = layer, selected_only, keep
+        self.cancel_token, self.enough = koebe.CancelToken(), koebe.CancelToken()
+        self.tasks: list[PackTask] = []
+
+    def read(self, obj: MeshObject) -> None:
+        """Add an object. Raises TransferError."""
+        check_mesh(obj)
+        surface = mesh_reading.read_surface(obj, self._selected_only)
+        layer = self._layer or getattr(obj.data.uv_layers.active, "name", "")
+        if layer not in obj.data.uv_layers:
+            raise TransferError(f"{obj.name}: it has no UV layer {layer!r}" if layer else f"{obj.name}: it has no UVs")
+        selected = surface.selected[surface.triangle_face]
+        if not selected.any():
+            nothing = "no face is selected" if self._selected_only else "it has no faces"
+            raise TransferError(f"{obj.name}: {nothing}")
+        chosen = np.ones_like(selected) if self._keep in {"OTHERS", "BOTH"} else selected
+        corners = surface.triangle_corners[chosen]
+        locked = ~selected[chosen]
+        if self._keep in {"PINNED", "BOTH"}:
+            locked |= mesh_reading.pinned_corners(obj, layer)[corners].any(axis=1)
+        uv = mesh_reading.read_layer(obj, layer).astype(np.float64)
+        polygon = surface.triangle_face[chosen]
+        self.tasks.append(PackTask(layer, Target.of(obj), surface, corners, polygon, uv, locked))
+
+    def compute(self, progress: Progress | None = None) -> None:
+        """Fill the tasks' results or errors. Raises `koebe.Cancelled` once the token was raised."""
+        for k, task in enumerate(self.tasks):
+            try:
+                task.result = self.koebe.pack(
+                    task.surface.positions, task.surface.corner_vertex[task.corners], uv=task.uv[task.corners],
+                    polygon=task.polygon, locked=task.locked, cancel=self.cancel_token, enough=self.enough,
+                    progress=share_of(progress, k, 1, len(self.tasks)), **self.options,
+                )  # fmt: skip
+            except self.koebe.Cancelled:
+                raise
+            except self.koebe.KoebeError as error:
+                task.error = error
+
+    def finish_early(self) -> bool:
+        """End the search: the best packing so far is taken. False if that was asked for already."""
+        asked, _ = self.enough.cancelled, self.enough.cancel()
+        return not asked
+
+    def write(self, run: Transaction, task: PackTask) -> None:
+        """Write an object's packed islands. Raises TransferError, also if it could not be packed."""
+        if task.error is not None:
+            raise TransferError(f"{task.target.name}: {task.error}")
+        task.uv[task.corners] = task.result.uv
+        written = np.unique(task.corners)
+        plan = map_writing.plan(task.target, task.layer, task.surface, written, task.uv[written])
+        map_writing.write(run, plan, select=False)

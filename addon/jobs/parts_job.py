@@ -30,8 +30,8 @@ class PartsJob(ChoiceJob):
             raise TransferError(f"Avoid is the vertex group {self.choice.show!r}, but no object has this group")
 
     @property
-    def _cut_sharp(self) -> bool:
-        return bool(self.choice.cut_sharp)
+    def _cut_at(self) -> str:
+        return str(self.choice.cut_at)
 
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
         show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None

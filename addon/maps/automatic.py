@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface mapped to the shape that serves: one disk if the report has nothing against it, else parts."""
+"""A surface mapped to the shape that serves: one disk if it has holes to make round and the report has nothing against
+it, else parts: they keep flat sheets, grids and rims as they are."""
 
 import dataclasses
 from types import ModuleType
@@ -15,6 +16,7 @@ from .verdicts import EVEN, TRUE
 from .wording import counted, density_text
 
 PARTS_WORK = 3  # of cutting into parts, where the map to a disk is 1
+NO_HOLES = "there is no hole to make round"
 NO_DISK = {  # why a surface is no disk, by the kind of `koebe.TopologyError`
     "closed": "the surface is closed",
     "genus": "the surface has a handle",
@@ -80,7 +82,8 @@ def map_automatically(
         if parts.failed:
             disk.chosen = "Automatic took Disk, because the surface could not be cut into parts"
             return disk
-        if worth_of_disk(disk).order < worth_of_parts(parts).order:
+        ours, theirs = worth_of_disk(disk).order, worth_of_parts(parts).order
+        if ours < theirs if has_holes(disk) else ours[0] < theirs[0]:
             disk.chosen = "Automatic took Disk, because parts are no better"
             return disk
     parts.chosen = f"Automatic took Parts: {reason}"
@@ -92,7 +95,14 @@ def unserved(disk: SurfaceOutcome) -> str:
     for one in disk.islands:
         if one.error is not None:
             return NO_DISK.get(kind_of(one.error) or "", "the surface cannot be mapped to one disk")
-    return worth_of_disk(disk).fault if disk.islands else "the surface cannot be mapped to one disk"
+    if not disk.islands:
+        return "the surface cannot be mapped to one disk"
+    return worth_of_disk(disk).fault or ("" if has_holes(disk) else NO_HOLES)
+
+
+def has_holes(disk: SurfaceOutcome) -> bool:
+    """Whether an island that is mapped has a hole."""
+    return any(len(one.result.loops) > 1 for one in disk.mapped)
 
 
 def worth_of_disk(disk: SurfaceOutcome) -> Worth:

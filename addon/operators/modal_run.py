@@ -47,10 +47,16 @@ def redraw(context: bpy.types.Context, editors: Collection[str] = ()) -> None:
             area.tag_redraw()
 
 
+def finish_early(job: Any) -> bool:
+    """Whether the job ends with the best that it has, in place of being cancelled."""
+    return hasattr(job, "finish_early") and job.finish_early()
+
+
 class ModalRun(OperatorBase):
     """Mixin of operators that gather, compute and write. In the background, and called by a script, they run at once.
 
-    A job has `compute(progress)`, which touches no Blender data, and a `cancel_token`.
+    A job has `compute(progress)`, which touches no Blender data, and a `cancel_token`. If it has `finish_early()`, the
+    first Esc calls this, and the job is cancelled only if it says False.
     """
 
     def _job(self, context: bpy.types.Context) -> Any:
@@ -103,6 +109,8 @@ class ModalRun(OperatorBase):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type == "ESC" and event.value == "PRESS":
+            if self._worker is not None and finish_early(self._running):
+                return {"RUNNING_MODAL"}
             # The thread has its own arrays and ends at its next checkpoint, so nothing waits for it.
             self.cancel(context)
             self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")

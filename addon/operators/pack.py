@@ -7,20 +7,21 @@ import bpy
 from bpy.props import StringProperty
 
 from ..blender import edit_mode
+from ..blender.errors import TransferError
 from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import transaction
-from ..jobs.pack_job import pack
+from ..jobs.pack_job import PackJob
 from ..maps.wording import few, lines
 from ..state.option_properties import option, shown_number
 from ..state.run_report import forget
-from .modal_run import redraw
+from .modal_run import ModalRun, redraw
 from .polls import has_targets, native_or_told
 from .tooltip import tooltip
 
 
-class UV_OT_koebe_pack(bpy.types.Operator):
+class UV_OT_koebe_pack(ModalRun, bpy.types.Operator):
     """Pack the islands of the active UV layer into the UV square, as large as they have room. No island is cut, bent or
-    turned over. In Edit Mode the islands of the selected faces are packed"""
+    turned over. In Edit Mode the islands of the selected faces are packed. Esc takes the best packing so far"""
 
     bl_idname = "uv.koebe_pack"
     bl_label = "Koebe Pack Only"
@@ -32,26 +33,41 @@ class UV_OT_koebe_pack(bpy.types.Operator):
     pixels: option("pixels")
     average_scale: option("average_scale")
 
+    seconds: option("seconds")
+    keep_places: option("keep_places")
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return has_targets(cls, context, "Select a mesh object with UVs, in Object Mode or in Edit Mode")
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def _job(self, context: bpy.types.Context) -> PackJob | None:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
         koebe = native_or_told(self)
         if koebe is None:
-            return {"CANCELLED"}
-        options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale}
-        selected_only = context.mode == "EDIT_MESH"
-        problems: list[str] = []
-        done: list[str] = []
+            return None
+        options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale,
+                   "seconds": self.seconds or None}  # fmt: skip
+        job = PackJob(koebe, self.layer, context.mode == "EDIT_MESH", self.keep_places, options)
+        self._problems: list[str] = []
+        for obj in with_own_meshes(target_objects(context)):
+            try:
+                job.read(obj)
+            except TransferError as error:
+                self._problems.append(str(error))
+        if job.tasks:
+            return job
+        self._say([], self._problems)
+        return None
+
+    def _finish(self, context: bpy.types.Context, job: PackJob) -> set[str]:
+        problems, done = self._problems, []
         with transaction() as run:
             with edit_mode.left_if_faster(run, context):
-                for obj in with_own_meshes(target_objects(context)):
-                    with attempt(run, obj.name, problems):
-                        result = pack(run, koebe, obj, self.layer, selected_only, options)
-                        forget(run, context, obj.name, obj.data.uv_layers.active.name)
-                        done.append(_line(obj.name, result.to_dict()))
+                for task in job.tasks:
+                    with attempt(run, task.target.name, problems):
+                        job.write(run, task)
+                        forget(run, context, task.target.name, task.layer)
+                        done.append(_line(task.target.name, task.result.to_dict()))
             redraw(context)
             edit_mode.undo_all(context)
             return self._say(done, problems)
@@ -71,6 +87,9 @@ def _line(name: str, report: dict[str, Any]) -> str:
     """The result for one object."""
     overlaps = report["overlaps"]
     more = f", {overlaps} overlap or touch themselves as before" if overlaps else ""
+    kept = sum(island["locked"] for island in report["islands"])
+    more += f", {kept} kept their place" if kept else ""
+    more += f", the others {100 * report['scale']:.0f} % as large" if kept and report["scale"] < 0.995 else ""
     return (
         f"{name}: {len(report['islands'])} islands{more}, {100 * report['coverage']:.0f} % of the UV square, "
         f"margin {report['margin']:.3g} px"

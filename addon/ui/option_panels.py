@@ -122,7 +122,7 @@ class LayerPanel(ClosedPanel):
         column.prop(settings, "texels")
         for name in {"number": ("density",), "layer": ("like",)}.get(settings.texels, ()):
             draw_option(column, settings, name, context)
-        for name in ("tiles", "no_hard", "hard_angle", "cut_hard", "cut_sharp", "rectify", "stack", "stack_mirrored",
+        for name in ("tiles", "no_hard", "hard_angle", "cut_hard", "cut_at", "rectify", "stack", "stack_mirrored",
                      "atlas"):
             draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
@@ -142,7 +142,8 @@ class ToolsPanel(ClosedPanel):
             fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
         column.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
         draw_pack(column, settings_of(context))
-        column.prop(settings_of(context), "average_scale")
+        for name in ("average_scale", "seconds", "keep_places"):
+            column.prop(settings_of(context), name)
         column.operator(MESH_OT_koebe_loops_around_holes.bl_idname, text="Loops Around Holes", icon="PROP_CON")
         column.operator(OBJECT_OT_koebe_flat_copy.bl_idname, text="Flat Copy", icon="MESH_PLANE")
         column.operator(UV_OT_koebe_flat_svg.bl_idname, text="Flat SVG", icon="EXPORT")

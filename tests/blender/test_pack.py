@@ -56,13 +56,73 @@ def test_an_object_without_uvs_is_told():
         bpy.ops.uv.koebe_pack()
 
 
-def test_hard_and_sharp_edges_are_cut():
+def test_hard_edges_are_cut():
     obj = scenes.add_cube()
     scenes.select(obj)
     parts = []
-    for options in ({}, {"cut_hard": True}, {"cut_sharp": True}):
-        for edge in obj.data.edges:  # round one face
-            edge.use_edge_sharp = set(edge.vertices) <= set(obj.data.polygons[0].vertices)
-        assert bpy.ops.uv.koebe_parts(checker=False, **options) == {"FINISHED"}
+    for cut_hard in (False, True):
+        assert bpy.ops.uv.koebe_parts(checker=False, cut_hard=cut_hard) == {"FINISHED"}
         parts.append(scenes.last_run().parts)
-    assert parts == [1, 6, 2]
+    assert parts == [2, 6]
+
+
+@pytest.mark.parametrize("word, expected", [("sharp", 2), ("materials", 2), ("normals", 2), ("all", 2), ("nothing", 1)])
+def test_the_mesh_cuts_where_it_parts_its_faces(word, expected):
+    """A cube whose first face is sharp all round, or has a material or normals of its own."""
+    obj = scenes.add_cube()
+    mesh = obj.data
+    if word == "normals":
+        up = np.zeros((len(mesh.loops), 3), np.float32)
+        up[:, 2] = 1
+        up[list(mesh.polygons[0].loop_indices)] = (1, 0, 0)
+        mesh.polygons.foreach_set("use_smooth", [True] * 6)
+        if hasattr(mesh, "use_auto_smooth"):
+            mesh.use_auto_smooth = True
+        mesh.normals_split_custom_set([tuple(one) for one in up.tolist()])
+    elif word in ("materials", "all", "nothing"):
+        for name in "AB":
+            mesh.materials.append(bpy.data.materials.new(name))
+        mesh.polygons[0].material_index = 1
+    else:
+        for edge in mesh.edges:
+            edge.use_edge_sharp = set(edge.vertices) <= set(mesh.polygons[0].vertices)
+    scenes.select(obj)
+    assert bpy.ops.uv.koebe_parts(checker=False, cut_at=word) == {"FINISHED"}
+    assert scenes.last_run().parts >= expected
+    faces = [{tuple(corner) for corner in face} for face in scenes.corner_uv(mesh, "Koebe").reshape(6, 4, 2).tolist()]
+    assert faces[0].isdisjoint(set.union(*faces[1:])) is (expected == 2)
+
+
+@pytest.mark.parametrize("keep", ["PINNED", "OTHERS", "BOTH"])
+def test_islands_keep_their_places(keep):
+    obj = scattered_cube()
+    layer = obj.data.uv_layers["Old"]
+    uv = scenes.corner_uv(obj.data, "Old").reshape(6, 4, 2)
+    uv[0] = np.array([[0, 0], [0.5, 0], [0.5, 0.5], [0, 0.5]])
+    uv[1:] = uv[0] / 4 + 5 * np.arange(1, 6)[:, None, None]
+    layer.data.foreach_set("uv", uv.ravel())
+    if keep != "OTHERS":
+        if hasattr(layer, "pin"):
+            layer.pin.foreach_set("value", [True] * 4 + [False] * 20)
+        else:
+            layer.data.foreach_set("pin_uv", [True] * 4 + [False] * 20)
+    chosen = [0, 1, 2, 3, 4, 5] if keep == "PINNED" else [1, 2] if keep == "OTHERS" else [0, 1, 2]
+    scenes.select_faces(obj, chosen)
+    assert bpy.ops.uv.koebe_pack(keep_places=keep, margin=4, pixels=512, seconds=0.2) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    after = scenes.corner_uv(obj.data, "Old").reshape(6, 4, 2)
+    moved = (after != uv).any(axis=(1, 2))
+    assert moved.tolist() == [False, True, True, *([True] * 3 if keep == "PINNED" else [False] * 3)]
+    assert np.allclose(sides(obj)[moved], 0.125, atol=1e-5)  # there is room at their size
+    inside = after[moved].reshape(-1, 2)
+    assert inside.min() > 0 and inside.max() < 1 and (inside.max(axis=1) > 0.5).all()
+
+
+def test_locked_islands_that_leave_no_room_are_told():
+    obj = scattered_cube()
+    uv = scenes.corner_uv(obj.data, "Old").reshape(6, 4, 2)
+    uv[0] = np.array([[-1, -1], [2, -1], [2, 2], [-1, 2]])
+    obj.data.uv_layers["Old"].data.foreach_set("uv", uv.ravel())
+    scenes.select_faces(obj, [1])
+    with pytest.raises(RuntimeError, match="Cube: the islands that keep their place leave no room"):
+        bpy.ops.uv.koebe_pack(keep_places="OTHERS")

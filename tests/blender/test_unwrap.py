@@ -55,10 +55,11 @@ def test_the_options_of_a_shape_reach_its_map(options):
 
 
 SAMPLE_SHAPES = [
-    ("face_five_holes", "Disk"), ("bowl", "Disk"), ("perforated_panel", "Disk"), ("closed_head", "Parts"),
+    ("face_five_holes", "Disk"), ("bowl", "Parts"), ("perforated_panel", "Disk"), ("closed_head", "Parts"),
     ("character", "Parts"), ("mug", "Parts"), ("hand", "Parts"), ("suzanne_mask", "Parts"),
 ]  # fmt: skip
-REASONS = {"closed_head": "the surface is closed", "character": "the surface is closed",
+REASONS = {"bowl": "there is no hole to make round", "closed_head": "the surface is closed",
+           "character": "the surface is closed",
            "mug": "the surface has a handle", "hand": "the texels of a disk are uneven, 1 : more than 1,000",
            "suzanne_mask": "uneven, 1 : 5.9"}  # fmt: skip
 
@@ -114,7 +115,26 @@ def test_automatic_chooses_for_each_object_and_for_what_is_selected():
     scenes.select(cube)
     scenes.select_faces(cube, [1])
     assert bpy.ops.uv.koebe_unwrap() == {"FINISHED"}
-    assert report().parts == 0, "one face of a cube is a disk"
+    assert report().parts == 1 and "no hole to make round" in report().note
+
+
+def test_automatic_lays_sheets_flat_as_they_are():
+    """A plane of 10:1 stays one, also with many faces, and a waved sheet is a rectangle."""
+    n, m = 20, 4
+    x, y = np.meshgrid(np.linspace(0, 10, n + 1), np.linspace(0, 1, m + 1), indexing="ij")
+    at = np.arange((n + 1) * (m + 1)).reshape(n + 1, m + 1)
+    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1).reshape(-1, 4)
+    for height, ratio in ((0.0, 10.0), (0.05, None)):
+        points = np.stack([x, y, height * np.sin(2 * x) * np.cos(3 * y)], -1).reshape(-1, 3)
+        obj = scenes.add_object("Sheet", points, quads)
+        scenes.select(obj)
+        assert bpy.ops.uv.koebe_unwrap() == {"FINISHED"}
+        uv = scenes.corner_uv(obj.data, "Koebe").reshape(-1, 4, 2).astype(float)
+        along = np.abs(np.roll(uv, -1, axis=1) - uv)
+        rim = along[np.isin(np.arange(len(uv)), np.arange(m) + 0)][:, 3]  # the first column of faces: their outer sides
+        assert report().parts == 1 and (rim.min(axis=1) < 1e-5).all()
+        size = np.ptp(uv.reshape(-1, 2), axis=0)
+        assert size.max() > 0.99 and (ratio is None or abs(size.max() / size.min() / ratio - 1) < 1e-4)
 
 
 @pytest.mark.alike

@@ -71,7 +71,8 @@ def test_spheres_and_handles_are_those_of_the_command(tiles, tmp_path, domain, c
     for source in fitting:
         row = table[source]
         assert row["options"] == {
-            "domain": domain, option: words[chosen], "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01
+            "domain": domain, option: words[chosen], "tolerance": 1e-6, "max_sweeps": 50, "most_lost": 0.01,
+            "weld": None, **({"even": 0.0} if domain == "sphere" else {}),
         }  # fmt: skip
         assert (row["exit_code"] == 0) is (row["flipped"] == 0) and row["faces"] > 0 and row["angle_error_deg"] > 0
         koebe(domain, tiles / source, tmp_path / "alone.obj", f"--{option}", words[chosen])
@@ -80,9 +81,44 @@ def test_spheres_and_handles_are_those_of_the_command(tiles, tmp_path, domain, c
     assert "unchanged" not in batch(tiles, "--output", out, *other).stdout
 
 
+CUT = {"parts": ("--price=0.1", "obj"), "pack": ("--margin=2", "obj"), "flatten": ("--units=cm", "dxf")}
+
+
+@pytest.mark.parametrize("domain", CUT)
+def test_parts_layers_and_patterns_are_those_of_their_commands(tiles, tmp_path, domain):
+    """Every option is a part of the recipe, and a domain's own defaults hold."""
+    option, ending = CUT[domain]
+    for name in ("torus", "ring"):
+        koebe("parts", tiles / f"{name}.obj", tiles / f"{name}.obj", "--quiet")
+    out = tmp_path / "out"
+    done = batch(tiles, "--output", out, "--domain", domain, option)
+    failed = {"closed.off"} if domain == "pack" else set()  # it has no UVs
+    assert done.returncode == (CANNOT_BE_MAPPED if failed else 0), done.stderr
+    table = rows(out)
+    assert {name for name, row in table.items() if row["exit_code"]} == failed
+    for name in ("torus", "ring"):
+        row = table[f"{name}.obj"]
+        assert row["options"]["domain"] == domain and row["faces"] > 0 and row["angle_error_deg"] is not None
+        koebe(domain, tiles / f"{name}.obj", tmp_path / f"alone.{ending}", option)
+        assert (tmp_path / f"alone.{ending}").read_bytes() == (out / f"{name}.{ending}").read_bytes()
+    assert "(3 unchanged)" in batch(tiles, "--output", out, "--domain", domain, option).stdout
+    assert "unchanged" not in batch(tiles, "--output", out, "--domain", domain).stdout
+
+
+def test_another_evenness_is_another_recipe(tiles, tmp_path):
+    words = (tiles / "ring.obj", "--output", tmp_path / "out", "--domain", "ring")
+    assert "unchanged" not in batch(*words).stdout
+    assert "unchanged" not in batch(*words, "--even", "0.5").stdout
+    assert rows(tmp_path / "out")["ring.obj"]["options"]["even"] == 0.5
+
+
 @pytest.mark.parametrize("words", [
+    ["--domain", "parts", "--holes", "radial"], ["--domain", "parts", "--margin", "-1"], ["--page", "A4"],
+    ["--domain", "parts", "--format", "svg"], ["--domain", "flatten", "--format", "obj"], ["--format", "dxf"],
+    ["--domain", "flatten", "--format", "svg"], ["--domain", "pack", "--price", "1"],
+    ["--domain", "flatten", "--blender", "blender"], ["--domain", "flatten", "--page", "B9"],
     ["--domain", "ball"], ["--holes", "radial"], ["--layout", "octahedral"], ["--domain", "torus", "--holes", "radial"],
-    ["--domain", "torus", "--balance", "area"], ["--domain", "ring", "--cut"], ["--domain", "ring", "--outer", "3"],
+    ["--domain", "torus", "--balance", "area"], ["--domain", "ring", "--cut"], ["--domain", "sphere", "--outer", "3"],
     ["--domain", "ring", "--holes", "square"], ["--domain", "ring", "--layout", "octahedral"],
     ["--domain", "sphere", "--layout", "flat"], ["--domain", "sphere", "--polish"],
     ["--normalization", "area"], ["--domain", "schottky", "--normalization", "none"],
@@ -106,6 +142,8 @@ def test_files_of_blender_are_told_the_domain(blends, tmp_path):
     assert rows(out)["a.blend"]["options"]["arguments"] == ["--domain=sphere", "--layout=octahedral"]
     assert batch(*files.words, "--output", out, "--domain", "schottky", "--normalization", "circles").returncode == 0
     assert rows(out)["a.blend"]["options"]["arguments"] == ["--domain=schottky", "--normalization=circles"]
+    assert batch(*files.words, "--output", out, "--domain", "parts", "--margin", "4").returncode == 0
+    assert rows(out)["a.blend"]["options"]["arguments"] == ["--parts", "--margin=4"]
 
 
 def test_each_file_has_a_result_a_report_and_a_row(library, tmp_path):

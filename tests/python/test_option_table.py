@@ -27,7 +27,7 @@ MAPS = {  # function, struct
 }
 COMMANDS = sorted({*MAPS, "ricci"} - {"certified"})
 KINDS = {"number", "integer", "flag", "choice", "vertex", "loop", "steps", "weights", "page", "text", "array"}
-OF_READING = {"weld"}  # obeyed where a surface is read: no struct of a map has it
+OF_READING = {"weld", "cut_at"}  # obeyed where a surface is read: no struct of a map has it
 
 
 def rows_in(front, of):

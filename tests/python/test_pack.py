@@ -1,6 +1,8 @@
 """Packed UV layers: islands keep their shapes, their sizes and their distance, and files keep all else."""
 
 import json
+import threading
+import time
 from itertools import combinations
 
 import koebe
@@ -84,6 +86,90 @@ def test_straight_islands_are_turned_by_quarters_and_others_at_will():
     packed = koebe.pack(vertices, triangles, uv=uv).uv @ [1, 1j]
     for corners in (packed[0], packed[2], packed[4]):
         assert abs((corners[1] - corners[0]).real * (corners[1] - corners[0]).imag) < 1e-12
+
+
+def square(at, side=1.0):
+    return fan(at + side * np.array([0, 1, 1 + 1j, 1j]))
+
+
+def test_locked_islands_keep_their_place_and_the_others_go_into_the_free_space():
+    """Some locked islands lie on the square in part, one around it, and one far away."""
+    rng = np.random.default_rng(5)
+    for _ in range(6):
+        kept = [(w / 40 + complex(*rng.uniform(0, 1, 2)) - 1, t) for w, t in convex_islands(rng, 4)]
+        frame = np.array([-9, 9 - 9j, 9 + 9j, -9 + 9j, -9 - 9j])
+        kept.append((np.array([-9 - 9j, 9 - 9j, 0.5 - 0.2j]), np.array([[0, 1, 2]])))
+        kept.append(((frame[1:4] + 3e7), np.array([[0, 1, 2]])))
+        free = [(w / 20, t) for w, t in convex_islands(rng, 12)]
+        vertices, triangles, uv = layer_of(kept + free)
+        count = sum(len(t) for _, t in kept)
+        locked = np.arange(len(triangles)) < count
+        result = koebe.pack(vertices, triangles, uv=uv, locked=locked, margin=4, pixels=512)
+        assert [island["locked"] for island in result.islands] == [k < len(kept) for k in range(len(kept + free))]
+        assert np.array_equal(result.uv[:count], uv[:count]) and 0 < result.scale <= 1 + 1e-9
+        moved = result.uv[count:]
+        assert moved.min() > 0 and moved.max() < 1
+        outlines = [(result.uv @ [1, 1j])[result.island == k] for k in range(len(kept + free))]
+        places = [np.r_[corners[:, 0][:1], corners[:, 1], corners[-1:, 2]] for corners in outlines]
+        apart = [distance(places[i], places[k]) for k in range(len(kept), len(places)) for i in range(k)]
+        assert min(apart) > 0.999 * result.margin / 512 and result.margin > 0
+
+
+def test_free_islands_keep_their_size_where_there_is_room_and_get_the_density_of_the_locked_ones():
+    vertices, triangles, uv = layer_of([square(0.1 + 0.1j, 0.5), square(7, 0.25), square(9, 0.125)])
+    vertices[:, 2] = 0
+    for average, sides in ((False, [0.5, 0.25, 0.125]), (True, [0.5, 0.25, 0.125])):
+        result = koebe.pack(vertices, triangles, uv=uv, locked=[True] * 2 + [False] * 4, average_scale=average)
+        found = np.abs(np.diff(result.uv @ [1, 1j])[::2, 0])
+        assert found == pytest.approx(sides) and result.scale == pytest.approx(1)
+    larger = uv.copy()
+    larger[2:4] *= 3  # against its size on the surface
+    result = koebe.pack(vertices, triangles, uv=larger, locked=[True] * 2 + [False] * 4, average_scale=True)
+    assert np.abs(np.diff(result.uv @ [1, 1j])[::2, 0]) == pytest.approx([0.5, 0.25, 0.125])
+
+
+def test_locked_islands_that_leave_no_room_are_told():
+    vertices, triangles, uv = layer_of([square(-1 - 1j, 3), square(7)])
+    locked = [True, True, False, False]
+    with pytest.raises(koebe.InputError, match="leave no room"):
+        koebe.pack(vertices, triangles, uv=uv, locked=locked)
+    with pytest.raises(koebe.InputError, match="tiles = 1"):
+        koebe.pack(vertices, triangles, uv=uv, locked=locked, tiles=2)
+    with pytest.raises(koebe.InputError, match="bool"):
+        koebe.pack(vertices, triangles, uv=uv, locked=[1, 1, 0])
+    whole = koebe.pack(vertices, triangles, uv=uv, locked=[True] * 4)
+    assert np.array_equal(whole.uv, uv)
+
+
+def test_the_command_locks_faces_of_a_file(tmp_path):
+    lines = [f"v {x} {y} 0\nvt {x} {y}\n" for x, y in ((0, 0), (0.5, 0), (0.5, 0.5), (0, 0.5))]
+    lines += [f"v {x} {y} 0\nvt {x} {y}\n" for x, y in ((3, 3), (3.5, 3), (3.5, 3.4), (3, 3.4))]
+    (tmp_path / "i.obj").write_text("".join(lines) + "f 1/1 2/2 3/3 4/4\nf 5/5 6/6 7/7 8/8\n")
+    (tmp_path / "locked.txt").write_text("1\n0\n")
+    done = run("pack", tmp_path / "i.obj", tmp_path / "o.obj", "--locked", tmp_path / "locked.txt", "--json",
+               tmp_path / "j.json")  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    report = json.loads((tmp_path / "j.json").read_text())
+    assert [island["locked"] for island in report["islands"]] == [True, False] and report["scale"] > 0.99
+    assert report["options"]["locked"] is True
+    (tmp_path / "locked.txt").write_text("1\n")
+    done = run("pack", tmp_path / "i.obj", tmp_path / "o.obj", "--locked", tmp_path / "locked.txt")
+    assert done.returncode == CANNOT_BE_MAPPED and "2 faces" in done.stderr
+
+
+def test_more_seconds_give_no_worse_packing_and_enough_ends_it():
+    vertices, triangles, uv = layer_of(convex_islands(np.random.default_rng(6), 20))
+    usual = koebe.pack(vertices, triangles, uv=uv)
+    begin = time.monotonic()
+    longer = koebe.pack(vertices, triangles, uv=uv, seconds=2)
+    assert 1.9 < time.monotonic() - begin < 6 and longer.coverage >= usual.coverage
+    token = koebe.CancelToken()
+    threading.Timer(0.5, token.cancel).start()
+    begin = time.monotonic()
+    ended = koebe.pack(vertices, triangles, uv=uv, seconds=60, enough=token)
+    assert time.monotonic() - begin < 20 and ended.coverage > 0.3 and ended.flipped == 0
+    with pytest.raises(koebe.Cancelled):
+        koebe.pack(vertices, triangles, uv=uv, seconds=60, cancel=token)
 
 
 def test_average_scale_gives_all_islands_one_texel_density():

@@ -26,7 +26,7 @@ NOT_FROM_BLENDER = (
     "landmark", "the field of", "the bent map", "a point of the sphere", "the price must be positive",
     "the map must have a finite point", "the map has vertices that",
     "the density must be positive", "the texture needs at least", "the margin must not be", "tiles must be from 0",
-    "as many tiles as needed",
+    "as many tiles as needed", "the seconds must be positive", "cuts need cut = true",
     "an importance", "importance needs", "there must be ", "vertices have ",
     "disks to pack need",
 )  # fmt: skip

@@ -161,7 +161,7 @@ def circle(n):
 
 def test_hard_surfaces_are_reported_and_cut_as_asked_for():
     vertices, triangles = cubes(1)
-    for options, parts in (({}, 1), ({"cut_hard": True}, 6), ({"cut_hard": True, "hard_angle": 91}, 1)):
+    for options, parts in (({}, 2), ({"cut_hard": True}, 6), ({"cut_hard": True, "hard_angle": 91}, 1)):
         result = koebe.parts(turned(vertices, 1), triangles, **options)
         assert (len(result.parts), result.regions, result.whole) == (parts, 6, 1.0), options
         assert result.aligned == 1.0 and result.angle_error_deg["max"] < 1e-3

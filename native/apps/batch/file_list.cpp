@@ -22,10 +22,10 @@ constexpr std::string_view blend_extension = ".blend", scene_extension = ".glb";
 bool is_blend(const fs::path& path) { return io::lower_extension(path) == blend_extension; }
 
 /// Scenes keep everything but their UVs, which no other format can.
-std::string output_extension(const fs::path& source, const std::string& of_meshes)
+std::string output_extension(const fs::path& source, const ListOptions& options)
 {
     const std::string own = io::lower_extension(source);
-    return own == blend_extension || own == scene_extension ? own : of_meshes;
+    return own == blend_extension || (own == scene_extension && options.keeps_scenes) ? own : options.extension;
 }
 
 bool is_hidden(const fs::path& path) { return utf8(path.filename()).starts_with('.'); }
@@ -100,7 +100,7 @@ private:
             throw UsageError(utf8(known->second) + " and " + utf8(source) + " would both get the name " + file.name);
         names_.emplace(file.name, source);
         sources_.insert(fs::canonical(source));
-        file.output = (output_ / relative).replace_extension(output_extension(source, options_.extension));
+        file.output = (output_ / relative).replace_extension(output_extension(source, options_));
         file.report = fs::path(file.output).replace_extension(".json");
         list_.files.push_back(std::move(file));
     }

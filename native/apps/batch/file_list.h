@@ -25,7 +25,8 @@ struct ListOptions {
     std::vector<std::filesystem::path> inputs;  ///< mesh files, and folders whose files are all taken
     std::filesystem::path base;                 ///< names are relative to it; empty: to each input folder
     std::filesystem::path output;               ///< the folder
-    std::string extension = ".obj";             ///< of written meshes; .glb and .blend keep theirs
+    std::string extension = ".obj";             ///< of results; .blend keeps its own
+    bool keeps_scenes = true;                   ///< whether .glb keeps its own, too
     bool with_blends = false;
 };
 

@@ -125,7 +125,7 @@ std::int64_t CellShape::cells() const
     return sum;
 }
 
-CellShape cells_near(const std::vector<GridLoop>& loops, std::int64_t reach)
+CellShape cells_near(const std::vector<GridLoop>& loops, std::int64_t reach, bool on_board)
 {
     GridPoint least = {INT64_MAX, INT64_MAX}, most = {INT64_MIN, INT64_MIN};
     for (const GridLoop& loop : loops)
@@ -134,6 +134,8 @@ CellShape cells_near(const std::vector<GridLoop>& loops, std::int64_t reach)
                 least[k] = std::min(least[k], point[k] - reach);
                 most[k] = std::max(most[k], point[k] + reach);
             }
+    if (on_board)
+        for (std::int64_t& low : least) low = grid_cell * floor_ratio(low, grid_cell);
     CellShape shape;
     shape.origin = least;
     shape.width = static_cast<int>(ceil_ratio(most[0] - least[0], grid_cell));

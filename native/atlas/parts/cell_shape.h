@@ -28,7 +28,8 @@ struct CellShape {
 /// All cells nearer than `reach` to the loops or to their inside. A point is inside if its winding number is not 0. The
 /// first row and column of cells touch the drawing.
 /// @param reach in grid units; along diagonals up to 8 % more
-CellShape cells_near(const std::vector<GridLoop>& loops, std::int64_t reach);
+/// @param on_board the cells are those of a board with a corner at 0
+CellShape cells_near(const std::vector<GridLoop>& loops, std::int64_t reach, bool on_board = false);
 
 /// The shape turned by 180 degrees in its box of cells.
 CellShape half_turn(const CellShape& shape);

@@ -143,7 +143,8 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
 {
     context.begin_stage("topology", 0.0, 0.05);
     const bool hard_first = options.cut && may_unfold(options);
-    const OpenOptions opening{.polygon = options.polygon, .slit_beside_handles = false, .open = !hard_first};
+    const OpenOptions opening{
+        .polygon = options.polygon, .seams = options.cuts, .slit_beside_handles = false, .open = !hard_first};
     OpenedSurface opened =
         options.cut ? open_surface(vertices, triangles, opening, context) : strict_surface(vertices, triangles);
     FlatMesh mesh;

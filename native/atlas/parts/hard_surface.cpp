@@ -54,8 +54,10 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
     }
     if (!rest.empty()) {
         std::ranges::sort(rest);
-        opened = open_surface(vertices, triangles(rest, Eigen::all),
-                              {.polygon = values_at(options.polygon, rest), .slit_beside_handles = false}, context);
+        opened = open_surface(
+            vertices, triangles(rest, Eigen::all),
+            {.polygon = values_at(options.polygon, rest), .seams = options.cuts, .slit_beside_handles = false},
+            context);
         for (SurfacePiece& piece : opened.pieces) piece.source_face = values_at(rest, piece.source_face);
     }
     opened.left_out = std::move(connected.left_out);

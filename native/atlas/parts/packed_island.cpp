@@ -51,6 +51,31 @@ Complex upright_turn(const Outline& outline)
     return size[0] > size[1] ? best * quarters[1] : best;
 }
 
+/// The part of a closed line near the unit square: clipped at the sides of a square three times as large [Sutherland
+/// and Hodgman 1974]. Its winding numbers in the unit square stay.
+std::vector<Eigen::RowVector2d> clipped(const PlanarPoints& loop)
+{
+    std::vector<Eigen::RowVector2d> points;
+    for (const auto& point : loop.rowwise()) points.emplace_back(point);
+    for (int side = 0; side < 4; ++side) {
+        const int axis = side / 2;
+        const double sign = side % 2 == 0 ? 1.0 : -1.0, most = side % 2 == 0 ? 2.0 : 1.0;  // sign x <= most
+        std::vector<Eigen::RowVector2d> kept;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Eigen::RowVector2d &a = points[i], &b = points[(i + 1) % points.size()];
+            const double over_a = sign * a[axis] - most, over_b = sign * b[axis] - most;
+            if (over_a <= 0.0) kept.push_back(a);
+            if ((over_a < 0.0 && over_b > 0.0) || (over_a > 0.0 && over_b < 0.0)) {
+                Eigen::RowVector2d cut = a + over_a / (over_a - over_b) * (b - a);
+                cut[axis] = sign * most;
+                kept.push_back(cut);
+            }
+        }
+        points = std::move(kept);
+    }
+    return points;
+}
+
 /// The same runs, the first ones from all over the shape.
 std::vector<CellRun> spread(const std::vector<CellRun>& runs)
 {
@@ -124,6 +149,29 @@ DrawnTurns draw_island(const UprightIsland& island, double scale, std::int64_t r
     }
     for (DrawnTurn& turn : turns) turn.order = spread(turn.shape.runs);
     return turns;
+}
+
+CellShape cells_on_board(const Outline& outline, int side, double margin)
+{
+    const double unit = static_cast<double>(side) * static_cast<double>(grid_cell);
+    const auto reach = static_cast<std::int64_t>(std::ceil(0.5 * margin * unit)) + 1;  // points are rounded
+    std::vector<GridLoop> loops;
+    for (const VertexLoop& loop : outline.loops) {
+        GridLoop& drawn = loops.emplace_back();
+        for (const Eigen::RowVector2d& at : clipped(outline.points(loop, Eigen::all)))
+            drawn.push_back({std::llround(unit * at[0]), std::llround(unit * at[1])});
+        if (drawn.empty()) loops.pop_back();
+    }
+    if (loops.empty()) return {};
+    CellShape shape = cells_near(loops, reach, true);
+    std::vector<CellRun> runs;
+    for (CellRun run : shape.runs) {
+        run.row += static_cast<int>(shape.origin[1] / grid_cell);
+        run.from = std::max(0, run.from + static_cast<int>(shape.origin[0] / grid_cell));
+        run.to = std::min(side, run.to + static_cast<int>(shape.origin[0] / grid_cell));
+        if (run.row >= 0 && run.row < side && run.from < run.to) runs.push_back(run);
+    }
+    return {side, side, std::move(runs)};
 }
 
 std::vector<DrawnTurns> draw_islands(const std::vector<UprightIsland>& islands, double scale, double unit,

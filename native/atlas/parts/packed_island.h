@@ -40,6 +40,11 @@ using DrawnTurns = std::array<DrawnTurn, 4>;
 /// @param scale grid units of a unit of the points @param reach of the margin, in grid units
 DrawnTurns draw_island(const UprightIsland& island, double scale, std::int64_t reach);
 
+/// An island that keeps its place, with half the margin round it: the cells of a board of the unit square that it
+/// takes.
+/// @param side cells of the board
+CellShape cells_on_board(const Outline& outline, int side, double margin);
+
 /// All islands at one scale, each with half the margin round it. @param unit grid units of the square's side
 std::vector<DrawnTurns> draw_islands(const std::vector<UprightIsland>& islands, double scale, double unit,
                                      double margin);

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -33,6 +34,7 @@ constexpr double least_fullness = 1e-6;  // area over the square of the extent: 
 struct LayerVertices {
     Triangles faces;      ///< (F, 3) of these vertices
     PlanarPoints points;  ///< (V', 2) as given, in a unit in which no number is over 1
+    double unit = 1.0;    ///< its length in the UVs
 };
 
 LayerVertices layer_vertices(const Triangles& triangles, const PlanarPoints& uv)
@@ -45,7 +47,7 @@ LayerVertices layer_vertices(const Triangles& triangles, const PlanarPoints& uv)
     for (Index c = 0; c < static_cast<Index>(uv.rows()); ++c)
         corners.emplace_back(triangles.data()[c], as_stored(points(c, 0)), as_stored(points(c, 1)), c);
     std::ranges::sort(corners);
-    LayerVertices layer{triangles, PlanarPoints(uv.rows(), 2)};
+    LayerVertices layer{triangles, PlanarPoints(uv.rows(), 2), std::ldexp(1.0, exponent)};
     Index count = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const auto& [vertex, u, v, c] = corners[i];
@@ -85,6 +87,7 @@ struct PackedPiece {
     PlanarPoints points;
     bool is_mirrored = false;
     bool overlaps = false;
+    bool is_locked = false;
     double area = 0.0;  ///< of its faces, each counted as positive
     Outline outline = {};
 };
@@ -231,20 +234,65 @@ Vertices of_size_one(const Vertices& vertices)
     return most > 0.0 ? Vertices(vertices / most) : vertices;
 }
 
-std::vector<Outline> outlines_in_unit(const std::vector<PackedPiece>& islands)
-{
-    double most = 0.0;
-    for (const PackedPiece& island : islands) most = std::max(most, island.points.maxCoeff());
+/// The outlines of the islands that move, in a unit in which no number is over 1.
+struct MovedOutlines {
+    std::vector<std::size_t> island;
     std::vector<Outline> outlines;
-    for (const PackedPiece& island : islands) {
-        outlines.push_back(island.outline);
-        outlines.back().points = most > 0.0 ? PlanarPoints(island.points / most) : island.points;
+    double unit = 1.0;  ///< in that of the islands
+};
+
+MovedOutlines outlines_in_unit(const std::vector<PackedPiece>& islands)
+{
+    MovedOutlines moved;
+    double most = 0.0;
+    for (const PackedPiece& island : islands)
+        if (!island.is_locked) most = std::max(most, island.points.maxCoeff());
+    if (most > 0.0) moved.unit = most;
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        if (islands[k].is_locked) continue;
+        moved.island.push_back(k);
+        moved.outlines.push_back(islands[k].outline);
+        moved.outlines.back().points = islands[k].points / moved.unit;
     }
-    return outlines;
+    return moved;
+}
+
+/// The islands that keep their place, in UVs, as long as they lie on the square.
+std::vector<Outline> taken_places(const std::vector<PackedPiece>& islands, const LayerVertices& layer)
+{
+    std::vector<Outline> taken;
+    for (const PackedPiece& island : islands) {
+        if (!island.is_locked) continue;
+        Outline& outline = taken.emplace_back(island.outline);
+        outline.points = layer.unit * layer.points(island.vertices, Eigen::all);
+        if (outline.points.colwise().minCoeff().maxCoeff() > 1.0 || outline.points.maxCoeff() < 0.0 ||
+            outline.points.colwise().maxCoeff().minCoeff() < 0.0)
+            taken.pop_back();
+    }
+    return taken;
+}
+
+/// UV units over the islands' unit before scaling to areas, and texel density of islands that keep their place.
+double locked_density(const std::vector<PackedPiece>& islands, const VectorXd& areas, double unit)
+{
+    double in_layer = 0.0, on_surface = 0.0;
+    for (const PackedPiece& island : islands)
+        if (island.is_locked) {
+            in_layer += island.area;
+            on_surface += areas(island.faces).sum();
+        }
+    return in_layer > 0.0 && on_surface > 0.0 ? unit * std::sqrt(in_layer / on_surface)
+                                              : std::numeric_limits<double>::infinity();
 }
 
 void check_layer(const Triangles& triangles, const PackedLayerOptions& options)
 {
+    if (!options.locked.empty() && options.locked.size() != static_cast<std::size_t>(triangles.rows()))
+        throw InputError("there must be a lock for each face");
+    if (std::ranges::any_of(options.locked, [](double lock) { return lock > 0.0; }) && options.tiles != 1)
+        throw InputError("islands that keep their place need tiles = 1");
+    if (options.seconds && !(*options.seconds > 0.0 && std::isfinite(*options.seconds)))
+        throw InputError("the seconds must be positive");
     if (options.tiles < 1 || options.tiles > most_tiles) throw InputError("tiles must be from 1 to 100");
     if (triangles.rows() == 0) throw InputError("there is no face to pack");
     if (options.uv.rows() != 3 * triangles.rows()) throw InputError("each corner of a face needs u and v");
@@ -293,34 +341,62 @@ PackedLayer packed(const Vertices& given, const Triangles& triangles, const Pack
     for (std::vector<Index>& own : faces) {
         context.checkpoint();
         islands.push_back(island_alone(layer, std::move(own)));
+        islands.back().is_locked = std::ranges::any_of(
+            islands.back().faces, [&](Index f) { return !options.locked.empty() && options.locked[f] > 0.0; });
     }
-    if (options.average_scale) scale_to_areas(islands, face_areas(vertices, triangles));
+    const bool any_locked = std::ranges::any_of(islands, &PackedPiece::is_locked);
+    double area_before = 0.0, area_after = 0.0;  // of islands that move
+    for (const PackedPiece& island : islands)
+        if (!island.is_locked) area_before += island.area * layer.unit * layer.unit;
+    double as_it_is = layer.unit;  // UV units over the islands' unit, at the size that they have
+    if (options.average_scale) {
+        const VectorXd areas = face_areas(vertices, triangles);
+        if (any_locked) as_it_is = locked_density(islands, areas, layer.unit);
+        scale_to_areas(islands, areas);
+    }
     // Their places.
     context.begin_stage("pack", 0.2, 1.0);
-    const std::vector<Outline> outlines = outlines_in_unit(islands);
-    const TilePacking packing = pack_on_tiles(outlines, margin, options.tiles);
-    result.uv.resize(options.uv.rows(), 2);
+    const MovedOutlines moved = outlines_in_unit(islands);
+    const Stopwatch packing_run;
+    const PackingTime time{[&] {
+                               const double share = options.seconds ? packing_run.elapsed() / *options.seconds : 0.0;
+                               context.advance(share);
+                               return share >= 1.0 || options.enough.cancelled();
+                           },
+                           options.seconds.has_value()};
+    TilePacking packing;
+    if (any_locked) {
+        const PackingSite site{taken_places(islands, layer), as_it_is * moved.unit};
+        packing = {pack_around(moved.outlines, margin, site, time), std::vector<int>(moved.outlines.size(), 0)};
+    } else {
+        packing = pack_on_tiles(moved.outlines, margin, options.tiles, time);
+    }
+    result.uv = options.uv;  // of islands that keep their place
     double area = 0.0;
-    for (std::size_t k = 0; k < islands.size(); ++k) {
-        PackedPiece& island = islands[k];
-        const Eigen::RowVector2d corner = tile_corner(packing.tile[k]);
-        PlanarPoints places = place_island(outlines[k].points, packing.places[k], packing.scale);
+    for (std::size_t i = 0; i < moved.island.size(); ++i) {
+        PackedPiece& island = islands[moved.island[i]];
+        const Eigen::RowVector2d corner = tile_corner(packing.tile[i]);
+        PlanarPoints places = place_island(moved.outlines[i].points, packing.places[i], packing.scale);
         places = places.cwiseMax(0.0).cwiseMin(1.0).rowwise() + corner;
+        result.tiles = std::max(result.tiles, packing.tile[i] + 1);
+        area_after += island.area * std::pow(packing.scale / moved.unit, 2);
         for (const Index f : island.faces)
             for (int c = 0; c < 3; ++c) {
                 const auto at = std::ranges::lower_bound(island.vertices, layer.faces(f, c)) - island.vertices.begin();
                 result.uv.row(3 * static_cast<Eigen::Index>(f) + c) = places.row(at);
             }
+    }
+    for (PackedPiece& island : islands) {
         if (island.is_mirrored) result.turned.insert(result.turned.end(), island.faces.begin(), island.faces.end());
         result.overlaps += island.overlaps ? 1 : 0;
-        result.tiles = std::max(result.tiles, packing.tile[k] + 1);
-        result.islands.push_back({std::move(island.faces), island.overlaps});
+        result.islands.push_back({std::move(island.faces), island.overlaps, island.is_locked});
     }
     std::ranges::sort(result.turned);
     const PlanarPoints stored = result.uv.unaryExpr(&as_stored);
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) area += std::abs(signed_corner_area(stored, f));
     // The report.
     result.coverage = area / result.tiles;
+    if (area_before > 0.0) result.scale = std::sqrt(area_after / area_before);
     result.margin = std::min(options.margin, packing.margin * options.pixels);
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());

@@ -39,6 +39,7 @@ constexpr std::size_t few_islands = 3;   // other turns are tried for so few isl
 constexpr double held = 0.8;             // or if one is that long, in sides of the square, in the first packing
 constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that
 constexpr double worth_one_turn = 0.95;  // times the scale: less is given up so that equal islands lie alike
+constexpr double least_scale = 1e-4;     // of the first one that is tried, beside islands that keep their place
 constexpr double similar = 0.8;          // area over that of the island before which all places were looked at
 
 enum class Rule { lowest_top, lowest, smallest_square };
@@ -46,11 +47,13 @@ constexpr std::array rules = {Rule::lowest_top, Rule::lowest, Rule::smallest_squ
 
 class Packer {
 public:
-    Packer(const std::vector<Outline>& outlines, double margin)
+    Packer(const std::vector<Outline>& outlines, double margin, const PackingTime& time, const PackingSite& site = {})
         : side_(board_side(outlines.size())),
           unit_(static_cast<double>(side_) * grid_cell),
           margin_(margin),
           is_many_(outlines.size() >= many_islands),
+          time_(time),
+          most_scale_(site.most_scale),
           board_(side_)
     {
         std::int64_t points = 0;
@@ -61,18 +64,26 @@ public:
         }
         allowed_ = std::clamp(tests_a_point * points, fewest_tests, most_tests);
         if (outlines.size() <= most_tight) allowed_ = fewest_tests;
+        for (const Outline& outline : site.taken) taken_.push_back(cells_on_board(outline, side_, margin_));
+        const bool is_last = outlines.size() > most_tight || !site.taken.empty();  // no tighter packing follows
+        if (is_last && time.is_used_up) allowed_ = INT64_MAX;
     }
 
     IslandPacking pack()
     {
         std::vector<std::size_t> order = by_size(0);
-        double scale = largest_scale(islands_, margin_);
+        double scale = std::min(largest_scale(islands_, margin_), most_scale_);
+        const double least = taken_.empty() ? 0.0 : least_scale * scale;
         for (int k = 0; !fits(order, rules[0], scale);
              scale *= is_many_ || failed_ == 0 ? std::clamp(std::sqrt(room_), least_factor, next_scale) : next_scale)
-            if (++k == most_scales) throw SolverError("the islands have no room in the square");
+            if (++k == most_scales || scale < least) {
+                if (taken_.empty()) throw SolverError("the islands have no room in the square");
+                throw InputError("the islands that keep their place leave no room for the others");
+            }
         grow(order, rules[0], first_step);
         std::int64_t work = board_.tests();
-        for (int k = 1; k < most_attempts && islands_.size() > 1 && work < allowed_; ++k) {
+        const int most = allowed_ == INT64_MAX ? INT_MAX : most_attempts;
+        for (int k = 1; k < most && islands_.size() > 1 && work < allowed_ && !is_over(); ++k) {
             const Rule rule = rules[static_cast<std::size_t>(k) % rules.size()];
             if (k == static_cast<int>(rules.size()) || k % attempts_an_order == 0) order = by_size(k);
             if (fits(order, rule, best_scale_ * (1.0 + least_gain)))
@@ -126,10 +137,13 @@ private:
     {
         const double last = is_many_ ? last_step_of_many : last_step;
         while (step > last)
-            if (const double scale = best_scale_ * (1.0 + step);
-                scale > largest_scale(islands_, margin_) || !fits(order, rule, scale))
+            if (const double scale = best_scale_ * (1.0 + step); scale > most_scale_ || is_over() ||
+                                                                 scale > largest_scale(islands_, margin_) ||
+                                                                 !fits(order, rule, scale))
                 step *= 0.5;
     }
+
+    bool is_over() const { return best_scale_ >= most_scale_ || (time_.is_over && time_.is_over()); }
 
     /// Whether all islands find room at that scale. If so, it becomes the best scale.
     bool fits(const std::vector<std::size_t>& order, Rule rule, double scale)
@@ -144,6 +158,7 @@ private:
         room_ = static_cast<double>(side_) * side_ / static_cast<double>(cells);
         if (room_ < 1.0) return false;
         board_.clear();
+        for (const CellShape& shape : taken_) board_.take(shape, 0, 0);
         std::vector<CellSpot> spots(islands_.size());
         int from = 0;
         double area = std::numeric_limits<double>::infinity();
@@ -171,7 +186,8 @@ private:
     {
         const DrawnTurns& turns = drawn_[k];
         std::array<int, 3> best = {INT_MAX, 0, 0};
-        const int tried = islands_.size() == 1 || (is_held_ && alike_[k]) ? 1 : 4;  // one alone stands upright
+        const int tried =
+            (islands_.size() == 1 && taken_.empty()) || (is_held_ && alike_[k]) ? 1 : 4;  // one alone stands upright
         for (int t = 0; t < tried; ++t) {
             const CellShape& shape = turns[t].shape;
             for (int y = from; y + shape.height <= side_; ++y) {
@@ -198,7 +214,7 @@ private:
     IslandPacking result()
     {
         const std::vector<DrawnTurns> drawn = draw_islands(islands_, best_scale_, unit_, margin_);
-        if (!is_many_) {
+        if (!is_many_ && taken_.empty()) {  // the other poses do not know what else lies on the board
             std::vector<std::vector<CellMask>> masks(islands_.size());
             std::vector<IslandSpot> spots;
             std::vector<std::array<double, 4>> preference;
@@ -220,6 +236,9 @@ private:
     const double unit_;  // grid units
     const double margin_;
     const bool is_many_;
+    const PackingTime& time_;
+    const double most_scale_;
+    std::vector<CellShape> taken_;  // on the board
     std::vector<UprightIsland> islands_;
     std::vector<char> alike_;
     bool is_held_ = false;  // islands that are alike keep their turn
@@ -242,31 +261,48 @@ double longest_side(const std::vector<Outline>& outlines, double scale)
 }
 
 /// Replaces the packing by tighter ones. Islands leave the upright only if that makes them clearly larger.
-void tighten(const std::vector<Outline>& outlines, IslandPacking& best)
+void tighten(const std::vector<Outline>& outlines, const PackingTime& time, IslandPacking& best)
 {
     std::int64_t points = 0;
     for (const Outline& outline : outlines) points += outline.points.rows();
     const std::int64_t words = std::clamp(words_a_point * points, fewest_words, most_words);
+    std::uint64_t seed = 0;
     const auto attempt = [&](IslandTurns turns, double gain, std::int64_t most) {
-        if (IslandPacking tight = pack_tightly(outlines, best.margin, turns, most); tight.scale > gain * best.scale)
+        if (time.is_over && time.is_over()) return;
+        const TightSearch search{turns, most, seed};
+        if (IslandPacking tight = pack_tightly(outlines, best.margin, search, time); tight.scale > gain * best.scale)
             best = std::move(tight);
     };
     const bool is_held = outlines.size() <= few_islands || longest_side(outlines, best.scale) > held;
     attempt(IslandTurns::quarter, 1.0, is_held ? words / 2 : words);
     if (std::ranges::any_of(outlines, &Outline::alike)) attempt(IslandTurns::alike, worth_one_turn, words);
     if (is_held) attempt(IslandTurns::free, worth_leaning, words / 2);
+    // Other arrangements at random, each with more work, while there is time.
+    while (time.is_used_up && !time.is_over()) {
+        ++seed;
+        attempt(IslandTurns::quarter, 1.0, words + static_cast<std::int64_t>(seed) * words / 2);
+    }
 }
 
 }  // namespace
 
-IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin)
+IslandPacking pack_around(const std::vector<Outline>& outlines, double margin, const PackingSite& site,
+                          const PackingTime& time)
+{
+    if (outlines.empty()) return {{}, 1.0, margin};
+    require_finite_outlines(outlines);
+    margin = std::min(margin, most_margin(outlines.size() + site.taken.size()));
+    return Packer(outlines, margin, time, site).pack();
+}
+
+IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin, const PackingTime& time)
 {
     if (outlines.empty()) return {{}, 1.0, margin};
     require_finite_outlines(outlines);
     margin = std::min(margin, most_margin(outlines.size()));
     if (outlines.size() >= islands_on_shelves) return pack_on_shelves(outlines, margin);
-    IslandPacking best = Packer(outlines, margin).pack();
-    if (outlines.size() <= most_tight) tighten(outlines, best);
+    IslandPacking best = Packer(outlines, margin, time).pack();
+    if (outlines.size() <= most_tight) tighten(outlines, time, best);
     return best;
 }
 

@@ -4,6 +4,8 @@
 #include "core/api.h"
 #include "core/types.h"
 
+#include <functional>
+#include <limits>
 #include <vector>
 
 namespace koebe {
@@ -29,6 +31,18 @@ struct IslandPacking {
     double margin = 0.0;  ///< the margin that was kept
 };
 
+/// How long to look for a better packing.
+struct PackingTime {
+    std::function<bool()> is_over = {};  ///< ends the search with the best packing so far. Null: it never does
+    bool is_used_up = false;             ///< true: the search goes on until then, for up to 999 islands
+};
+
+/// What lies in the unit square already.
+struct PackingSite {
+    std::vector<Outline> taken = {};                              ///< places, in units of the square
+    double most_scale = std::numeric_limits<double>::infinity();  ///< of the islands
+};
+
 /// Puts islands into the unit square, as large as it can. No island is mirrored. Each island is turned so that its
 /// smallest enclosing rectangle lies along the axes, unless the island already lies along them. Of the quarter turns
 /// the one with `up` nearest to up is taken where it costs no room. Islands
@@ -41,7 +55,12 @@ struct IslandPacking {
 /// @param margin distance of two islands, and twice the distance from the border, in sides of the square. It is made
 /// smaller for many islands, so that they have room
 /// @throws SolverError points that are NaN or infinite
-IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin);
+IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin, const PackingTime& time = {});
+
+/// Puts islands into the free places of the square, as above, but none is moved closer to others in the end.
+/// @throws InputError there is no room for them; SolverError
+IslandPacking pack_around(const std::vector<Outline>& outlines, double margin, const PackingSite& site,
+                          const PackingTime& time = {});
 
 /// The points (V, 2) of an island, moved to its place.
 PlanarPoints place_island(const PlanarPoints& points, const IslandPlace& place, double scale);

@@ -177,6 +177,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
 {
     const Stopwatch run;
     if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
+    if (!options.cuts.empty() && !options.cut) throw InputError("cuts need cut = true");
     if (options.even) require_even(*options.even);
     if (!(options.darts >= 0.0 && options.darts <= 1.0)) throw InputError("darts must be from 0 to 1");
     if (options.density && (!(*options.density > 0.0) || !std::isfinite(*options.density)))
@@ -288,7 +289,8 @@ PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const
         const auto length_of_unit = [&] { return root_of_area(vertices, triangles); };
         here.show = mesh.of_vertices(here.show);
         here.importance = mesh.of_vertices(here.importance);
-        for (auto& edge : here.slits) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
+        for (auto* const edges : {&here.slits, &here.cuts})
+            for (auto& edge : *edges) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
         return compute(mesh.vertices, mesh.triangles, here, length_of_unit, mesh.turn.row(2), own);
     };
     return corner_map<PartsResult>(vertices, triangles, options, context, compute_here, name_parts);

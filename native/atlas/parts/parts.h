@@ -24,6 +24,9 @@ struct PartsOptions : MapOptions {
     std::vector<Index> polygon = {};  ///< (F) faces with the same number are not cut apart; empty: all may be
     /// Edges, as pairs of vertices. A tube is opened along them if they lead from one of its loops to the other.
     std::vector<std::array<Index, 2>> slits = {};
+    /// Edges, as pairs of vertices: no part goes over one. An edge inside a polygon, or one that separates nothing, as
+    /// it neither leads to a border nor goes on along another cut, does nothing. Needs `cut`.
+    std::vector<std::array<Index, 2>> cuts = {};
     /// (V) from 0 to 1: cuts and darts keep away from vertices of weight 1, where they count as 8 times as long.
     /// Borders (hidden_cuts.h), slits and darts obey. Cuts through handles do not obey. Empty: 0 at all vertices.
     std::vector<double> show = {};

@@ -12,11 +12,15 @@
 namespace koebe {
 namespace {
 
-// In the diagonal of the surface's box: coordinates with five digits, a coarse scan, noise of 0.1 %.
-constexpr double stored_digits = 1e-5;
-constexpr double noise_levels[] = {3e-4, 4e-3};
-constexpr double large_region = 0.03;   // of the area: noise hides no smaller region
-constexpr double most_area = 0.6;       // of the area, in large regions: then the surface is flat up to noise
+constexpr double stored_digits = 1e-5;  // in the diagonal of the surface's box: coordinates with five digits
+/// A level of noise: the tolerance in that unit, and the share of the area in large regions from which it is taken. A
+/// patch of a ball is no large region at the first level.
+struct NoiseLevel {
+    double tolerance, share;
+};
+constexpr NoiseLevel noise_levels[] = {{3e-4, 0.25}, {4e-3, 0.6}};  // a coarse scan, noise of 0.1 %
+constexpr double large_region = 0.03;                               // of the area: noise hides no smaller region
+constexpr double most_area = 0.6;       // of the area, in regions of several faces: then there is no noise
 constexpr double most_one_sided = 0.5;  // of all bends in a region that is flat up to noise
 constexpr double coplanar = std::numbers::pi / 360.0;  // radians between normals in one plane
 constexpr double upright = 0.1;                        // least cosine between a face's normal and its plane's
@@ -160,9 +164,9 @@ PlanarRegions planar_regions(const CutSurface& surface)
     const double diagonal = (surface.vertices.colwise().maxCoeff() - surface.vertices.colwise().minCoeff()).norm();
     PlanarRegions exact = RegionGrowth(surface, stored_digits * diagonal).run();
     if (flat_share(surface, exact) >= most_area) return exact;
-    for (const double level : noise_levels)
-        if (PlanarRegions noisy = RegionGrowth(surface, level * diagonal).run();
-            noisy_share(surface, noisy) >= most_area)
+    for (const auto& [tolerance, share] : noise_levels)
+        if (PlanarRegions noisy = RegionGrowth(surface, tolerance * diagonal).run();
+            noisy_share(surface, noisy) >= share)
             return noisy;
     return exact;
 }

@@ -52,8 +52,10 @@ struct Drawn {
 
 class TightPacker {
 public:
-    TightPacker(const std::vector<Outline>& outlines, double margin, IslandTurns turns) : margin_(margin)
+    TightPacker(const std::vector<Outline>& outlines, double margin, const TightSearch& search, const PackingTime& time)
+        : margin_(margin), seed_(search.seed), time_(time)
     {
+        const IslandTurns turns = search.turns;
         for (const Outline& outline : outlines) {
             held_.push_back(turns == IslandTurns::alike && outline.alike);
             islands_.push_back(angles_of(outline, turns));
@@ -117,14 +119,15 @@ private:
     {
         drawn_ = draw(side_);
         Separation separation(drawn_.masks);
+        for (std::uint64_t k = 0; k < seed_ * islands_.size(); ++k) separation.random();
         spots_.resize(islands_.size());
         for (IslandSpot& spot : spots_)
             spot = {0, static_cast<int>(separation.random() % coarse_side),
                     static_cast<int>(separation.random() % coarse_side)};
         for (int k = 0; !separation.separate(side_, spots_, false, most); side_ += side_ / 20)
-            if (++k == most_larger || separation.work() > most) return false;
+            if (++k == most_larger || separation.work() > most || is_over()) return false;
         int step = side_ / 32;
-        for (int failures = 0; failures < most_failures && separation.work() < most;) {
+        for (int failures = 0; failures < most_failures && separation.work() < most && !is_over();) {
             std::vector<IslandSpot> spots = squeezed(side_ - step);
             if (failures > 0) disturb(spots, separation);
             if (separation.separate(side_ - step, spots, false, most)) {
@@ -138,6 +141,8 @@ private:
         }
         return true;
     }
+
+    bool is_over() const { return time_.is_over && time_.is_over(); }
 
     /// One or two pairs of islands change places.
     static void disturb(std::vector<IslandSpot>& spots, Separation& separation)
@@ -186,7 +191,7 @@ private:
         Separation separation(drawn_.masks);
         for (int k = 0; !separation.separate(side_, spots_, true, work); side_ += 2)
             if (++k == most_larger) return false;
-        for (int step = side_ / 100; step > 0 && separation.work() < work;) {
+        for (int step = side_ / 100; step > 0 && separation.work() < work && !is_over();) {
             std::vector<IslandSpot> spots = squeezed(side_ - step);
             if (separation.separate(side_ - step, spots, true, work))
                 take(side_ - step, std::move(spots));
@@ -214,6 +219,8 @@ private:
     }
 
     const double margin_;
+    const std::uint64_t seed_;
+    const PackingTime& time_;
     std::vector<std::vector<UprightIsland>> islands_;  // in all their angles
     std::vector<char> held_;                           // 1: the island keeps its turn
     double area_ = 0.0, scale_ = 0.0;                  // grid units of a unit of the points
@@ -224,9 +231,10 @@ private:
 
 }  // namespace
 
-IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, IslandTurns turns, std::int64_t most)
+IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, const TightSearch& search,
+                           const PackingTime& time)
 {
-    return TightPacker(outlines, margin, turns).pack(most);
+    return TightPacker(outlines, margin, search, time).pack(search.most);
 }
 
 }  // namespace koebe

@@ -16,9 +16,16 @@ enum class IslandTurns {
     free      ///< by more angles, except islands that lie along the axes already
 };
 
+struct TightSearch {
+    IslandTurns turns = IslandTurns::quarter;
+    std::int64_t most = 0;   ///< work, in words compared
+    std::uint64_t seed = 0;  ///< of the arrangement at first
+};
+
 /// Packs islands by moving them apart in a square that becomes smaller and smaller: first on a coarse board, anywhere
 /// and in any turn (`separation.h`); then on a fine board, along short ways.
-/// @param most work, in words compared @return a scale of 0 if it found no packing
-IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, IslandTurns turns, std::int64_t most);
+/// @return a scale of 0 if it found no packing
+IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, const TightSearch& search,
+                           const PackingTime& time = {});
 
 }  // namespace koebe

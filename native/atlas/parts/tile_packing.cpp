@@ -30,8 +30,8 @@ struct OneTile {
 
 class TilePacker {
 public:
-    TilePacker(const std::vector<Outline>& outlines, double margin, int tiles)
-        : outlines_(outlines), margin_(margin), tiles_(static_cast<std::size_t>(tiles))
+    TilePacker(const std::vector<Outline>& outlines, double margin, int tiles, const PackingTime& time)
+        : outlines_(outlines), margin_(margin), time_{time.is_over}, tiles_(static_cast<std::size_t>(tiles))
     {
         for (const Outline& outline : outlines) {
             const UprightIsland island = upright_island(outline);
@@ -56,7 +56,7 @@ public:
             OneTile& tile = tiles_[t];
             // A tile with more room is made smaller, and its margin with it: then islands lie further apart at first.
             if (const double smaller = result.scale / tile.packing.scale; smaller < 1.0 && !tile.islands.empty())
-                if (IslandPacking wider = pack_islands(outlines_of(tile), margin_ / smaller);
+                if (IslandPacking wider = pack_islands(outlines_of(tile), margin_ / smaller, time_);
                     wider.scale >= result.scale)
                     tile.packing = std::move(wider);
             const double factor = result.scale / tile.packing.scale;
@@ -120,7 +120,7 @@ private:
     void fill(OneTile& tile) const
     {
         if (tile.islands.empty()) return;
-        IslandPacking packing = pack_islands(outlines_of(tile), margin_);
+        IslandPacking packing = pack_islands(outlines_of(tile), margin_, time_);
         const bool is_new = tile.packing.places.size() != tile.islands.size();
         if (is_new || packing.scale > tile.packing.scale) tile.packing = std::move(packing);
     }
@@ -159,6 +159,7 @@ private:
 
     const std::vector<Outline>& outlines_;
     const double margin_;
+    const PackingTime time_;
     std::vector<double> area_;  // of the islands
     double extent_ = 0.0;
     std::vector<OneTile> tiles_;
@@ -166,13 +167,13 @@ private:
 
 }  // namespace
 
-TilePacking pack_on_tiles(const std::vector<Outline>& outlines, double margin, int tiles)
+TilePacking pack_on_tiles(const std::vector<Outline>& outlines, double margin, int tiles, const PackingTime& time)
 {
     require_finite_outlines(outlines);
     margin = std::min(margin, most_margin(outlines.size() / static_cast<std::size_t>(tiles)));
     const auto has_area = [](const Outline& outline) { return upright_island(outline).area > 0.0; };
-    if (tiles > 1 && std::ranges::any_of(outlines, has_area)) return TilePacker(outlines, margin, tiles).pack();
-    return {pack_islands(outlines, margin), std::vector<int>(outlines.size(), 0)};
+    if (tiles > 1 && std::ranges::any_of(outlines, has_area)) return TilePacker(outlines, margin, tiles, time).pack();
+    return {pack_islands(outlines, margin, time), std::vector<int>(outlines.size(), 0)};
 }
 
 int tiles_for(const std::vector<Outline>& outlines, double margin, double scale)

@@ -21,8 +21,9 @@ struct TilePacking : IslandPacking {
 /// tiles have room for them, one after the other, the largest first (sheet_packing.h). Then each tile is packed by
 /// itself (pack_islands), and small islands move from the fullest tile to the emptiest one. With one tile this is
 /// pack_islands.
-/// @param margin as in pack_islands @throws SolverError points that are NaN or infinite
-TilePacking pack_on_tiles(const std::vector<Outline>& outlines, double margin, int tiles);
+/// @param margin as in pack_islands @param time on several tiles it ends the search, and is not used up @throws
+/// SolverError points that are NaN or infinite
+TilePacking pack_on_tiles(const std::vector<Outline>& outlines, double margin, int tiles, const PackingTime& time = {});
 
 /// The number of tiles on which islands have room at this scale, one after the other; most_tiles if they have none.
 int tiles_for(const std::vector<Outline>& outlines, double margin, double scale);

@@ -4,6 +4,7 @@
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
+#include "parts/packing.h"
 #include "parts/regions.h"
 #include "planar/planar_predicates.h"
 #include "surface/free_flattening.h"
@@ -25,6 +26,7 @@ constexpr double least_border = 0.12;     // of a chart's boundary: a shorter co
 constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
+constexpr double between_plates = 0.5;    // of a chart's outline, at planar regions
 constexpr double large_chart = 0.01;      // of the area: charts from there on
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
 
@@ -37,12 +39,24 @@ constexpr double middle = 1e-6;        // of a piece: a region so near to its en
 constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
 constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
 
+constexpr double packed_badly =
+    0.45;                            // share of the square that a single island covers: less is tried in more islands,
+constexpr double worth_apart = 1.4;  // which have to cover so many times as much,
+constexpr double usual_margin = 0.004;  // with this margin;
+constexpr double whole_mesh = 0.999;    // of the area of all surfaces: this one is alone
+
+/// The longest island, in roots of the area of all surfaces. @param area of this surface
+double longest_island(double area, const UnfoldOptions& options)
+{
+    if (!options.roomy) return std::numeric_limits<double>::infinity();
+    return options.compact ? packed_well : std::max(packed_well, side_of_nut * std::sqrt(area));
+}
+
 class Unfolding {
 public:
-    Unfolding(const CutSurface& surface, FlatCharts charts, bool roomy)
+    Unfolding(const CutSurface& surface, FlatCharts charts, const UnfoldOptions& options)
         : surface_(surface),
-          longest_(roomy ? std::max(packed_well, side_of_nut * std::sqrt(surface.areas.sum()))
-                         : std::numeric_limits<double>::infinity()),
+          longest_(longest_island(surface.areas.sum(), options)),
           charts_(std::move(charts)),
           islands_(charts_.faces),
           island_(islands_.size())
@@ -55,14 +69,26 @@ public:
     }
 
     /// The area of charts that are not small, without single faces in the planes of which no other face lies. An
-    /// animal of few faces has charts with such faces only.
+    /// animal of few faces has charts with such faces only. A chart between planar regions counts as a whole: the side
+    /// of a cone consists of single faces.
     double hard_area(double least) const
     {
+        const auto is_planar = [&](Index f) { return charts_.plane[f] > alone * surface_.areas[f]; };
         double sum = 0.0;
-        for (const std::vector<Index>& faces : islands_)
-            if (surface_.areas(faces).sum() >= least)
-                for (const Index f : faces)
-                    if (charts_.plane[f] > alone * surface_.areas[f]) sum += surface_.areas[f];
+        for (const std::vector<Index>& faces : islands_) {
+            const double area = surface_.areas(faces).sum();
+            if (!(area >= least)) continue;
+            double planar = 0.0, outline = 0.0, at_planar = 0.0;
+            for (const Index f : faces) {
+                if (is_planar(f)) planar += surface_.areas[f];
+                for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                    if (charts_.net.twin[h] != no_twin || !charts_.crease[h]) continue;
+                    outline += surface_.lengths[h];
+                    if (is_planar(face_of(twin(h)))) at_planar += surface_.lengths[h];
+                }
+            }
+            sum += at_planar > between_plates * outline ? area : planar;
+        }
         return sum;
     }
 
@@ -425,29 +451,66 @@ private:
     std::vector<FlatPart> parts_;              // (islands)
 };
 
-}  // namespace
+double coverage(const UnfoldedParts& unfolded, double area)
+{
+    std::vector<Outline> outlines;
+    for (const FlatPart& part : unfolded.parts) outlines.push_back({part.points, part.surface.loops});
+    const double scale = pack_islands(outlines, usual_margin).scale;
+    return area * scale * scale;
+}
 
-std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context,
-                                      const UnfoldOptions& options)
+/// A mesh that became one island which leaves most of the square empty, such as the cross of a cube, becomes several
+/// islands if they are much larger there. @param unfold does it with other options
+template <class Unfold>
+std::optional<UnfoldedParts> larger_when_packed(const CutSurface& surface, UnfoldOptions options, const Unfold& unfold)
+{
+    std::optional<UnfoldedParts> whole = unfold(options);
+    const double area = surface.areas.sum();
+    if (!whole || !options.roomy || whole->parts.size() != 1 || !whole->rest.empty() || area < whole_mesh) return whole;
+    const double covered = coverage(*whole, area);
+    if (covered >= packed_badly) return whole;
+    options.compact = true;
+    std::optional<UnfoldedParts> apart = unfold(options);
+    return apart && coverage(*apart, area) > worth_apart * covered ? apart : whole;
+}
+
+std::optional<UnfoldedParts> unfolded_once(const CutSurface& surface, ExecutionContext& context,
+                                           const UnfoldOptions& options)
 {
     FlatCharts charts = flat_charts(surface, most_tips, options.hard_angle);
     if (!charts.rest.empty() || charts.faces.size() > most_charts) return {};
-    Unfolding unfolding(surface, std::move(charts), options.roomy);
+    Unfolding unfolding(surface, std::move(charts), options);
     if (options.roomy) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
     return UnfoldedParts{unfolding.parts(), {}, unfolding.cut_length()};
 }
 
-std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
-                                        const UnfoldOptions& options)
+std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, ExecutionContext& context,
+                                             const UnfoldOptions& options)
 {
     const double area = surface.areas.sum();
-    Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options.roomy);
+    Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options);
     if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
     if (options.roomy) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
     unfolding.attach_rest(context);
     return UnfoldedParts{unfolding.parts(), unfolding.rest(), unfolding.cut_length()};
+}
+
+}  // namespace
+
+std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context,
+                                      const UnfoldOptions& options)
+{
+    return larger_when_packed(surface, options,
+                              [&](const UnfoldOptions& own) { return unfolded_once(surface, context, own); });
+}
+
+std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
+                                        const UnfoldOptions& options)
+{
+    return larger_when_packed(surface, options,
+                              [&](const UnfoldOptions& own) { return hard_parts_once(surface, context, own); });
 }
 
 }  // namespace koebe

@@ -13,6 +13,7 @@ struct UnfoldOptions {
     double hard_angle = 30.0;  ///< in degrees: a crease is bent by more
     bool cut_hard = false;     ///< no island goes over a crease
     bool roomy = false;        ///< no island is so long that it keeps all islands of the square small
+    bool compact = false;      ///< with `roomy`: not even as the cross of a cube does
 };
 
 struct UnfoldedParts {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "io/file_losses.h"
+#include "io/mesh_formats.h"
 #include "io/polygon_mesh.h"
 
 #include <string_view>
+#include <vector>
 
 namespace koebe::io {
 
@@ -17,6 +19,7 @@ PolygonMesh read_stl(std::string_view bytes);
 // As MeshFormat::corner_uvs (mesh_formats.h).
 PlanarPoints obj_corner_uvs(std::string_view bytes, const PolygonMesh& mesh, int set);
 PlanarPoints ply_corner_uvs(std::string_view bytes, const PolygonMesh& mesh, int set);
+std::vector<Index> obj_corner_marks(std::string_view bytes, CutAt at);  // as MeshFormat::corner_marks
 
 FileLosses obj_contents(std::string_view bytes);
 FileLosses off_contents(std::string_view bytes);

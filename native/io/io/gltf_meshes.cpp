@@ -6,9 +6,11 @@
 #include "io/welding.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <utility>
 
 namespace koebe {
@@ -194,6 +196,36 @@ std::vector<PlanarPoints> read_gltf_uvs(std::string_view glb, int set)
             if (points.rows() != primitive.vertex_count)
                 throw InputError(mesh_name(mesh) + " has another number of UVs than of vertices");
             for (const Index v : primitive.corner_vertex) uvs.row(corner++) << points(v, 0), 1.0 - points(v, 1);
+        }
+    }
+    return all;
+}
+
+std::vector<std::vector<Index>> read_gltf_marks(std::string_view glb, CutAt at)
+{
+    const auto wanted = [at](CutAt kind) { return at == kind || at == CutAt::all; };
+    const tinygltf::Model model = io::read_gltf_model(glb);
+    std::vector<std::vector<Index>> all;
+    for (const GltfMesh& mesh : read_gltf_meshes(glb)) {
+        std::map<std::array<double, 5>, Index> numbers;
+        std::vector<Index>& marks = all.emplace_back();
+        for (const GltfPrimitive& primitive : mesh.primitives) {
+            const tinygltf::Primitive& own = model.meshes[mesh.place].primitives[primitive.place];
+            std::array<double, 5> mark{};
+            if (wanted(CutAt::materials)) mark[3] = own.material;
+            if (wanted(CutAt::groups)) mark[4] = static_cast<double>(primitive.place);
+            Vertices normals(0, 3);
+            if (const auto found = own.attributes.find("NORMAL");
+                found != own.attributes.end() && wanted(CutAt::normals)) {
+                normals = points_of<Vertices>(model, found->second);
+                if (normals.rows() != primitive.vertex_count)
+                    throw InputError(mesh_name(mesh) + " has another number of normals than of vertices");
+            }
+            for (const Index v : primitive.corner_vertex) {
+                for (int k = 0; k < 3 && normals.rows() > 0; ++k)
+                    mark[static_cast<std::size_t>(k)] = std::isfinite(normals(v, k)) ? normals(v, k) : 0.0;
+                marks.push_back(numbers.emplace(mark, static_cast<Index>(numbers.size())).first->second);
+            }
         }
     }
     return all;

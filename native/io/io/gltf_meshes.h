@@ -1,6 +1,7 @@
 // The surfaces in a GLB file: one for each mesh that has triangles.
 #pragma once
 
+#include "io/mesh_formats.h"
 #include "io/polygon_mesh.h"
 
 #include <string>
@@ -36,6 +37,11 @@ std::vector<GltfMesh> read_gltf_meshes(std::string_view glb);
 /// Reads a set of UVs (TEXCOORD_N) of the same meshes: (C, 2) of the corners of each one's faces, v from the bottom up.
 /// @throws InputError a primitive has no such set, or another number of UVs than of vertices
 std::vector<PlanarPoints> read_gltf_uvs(std::string_view glb, int set);
+
+/// Reads what parts the faces of the same meshes, as MeshFormat::corner_marks: materials of their primitives,
+/// primitives (groups), and normals. A primitive without normals has one for all its corners.
+/// @throws InputError a primitive has another number of normals than of vertices
+std::vector<std::vector<Index>> read_gltf_marks(std::string_view glb, CutAt at);
 
 /// Words that name a mesh: "mesh 2 (Head)".
 std::string mesh_name(const GltfMesh& mesh);

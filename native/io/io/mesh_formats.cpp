@@ -39,6 +39,8 @@ PlanarPoints uvs_of_only_mesh(std::string_view glb, const PolygonMesh&, int set)
     return read_gltf_uvs(glb, set).front();
 }
 
+std::vector<Index> marks_of_only_mesh(std::string_view glb, CutAt at) { return read_gltf_marks(glb, at).front(); }
+
 FileLosses glb_contents(std::string_view)
 {
     return {.others = {"materials, skins and other contents of the GLB file"}};
@@ -74,9 +76,11 @@ constexpr MeshWriter ply_writer{write_ply_with_uvs, write_ply_with_corner_uvs, w
 /// crashes, MeshLab invents coordinates, trimesh drops them and meshio refuses the file. GLB files are edited, not
 /// written (glb_editor.h).
 constexpr MeshFormat all_formats[] = {
-    {".obj", read_obj, obj_contents, &obj_writer, obj_corner_uvs},     {".off", read_off, off_contents},
-    {".ply", read_ply, ply_contents, &ply_writer, ply_corner_uvs},     {".stl", read_stl, stl_contents},
-    {".glb", read_only_mesh, glb_contents, nullptr, uvs_of_only_mesh},
+    {".obj", read_obj, obj_contents, &obj_writer, obj_corner_uvs, obj_corner_marks},
+    {".off", read_off, off_contents},
+    {".ply", read_ply, ply_contents, &ply_writer, ply_corner_uvs},
+    {".stl", read_stl, stl_contents},
+    {".glb", read_only_mesh, glb_contents, nullptr, uvs_of_only_mesh, marks_of_only_mesh},
 };
 
 }  // namespace

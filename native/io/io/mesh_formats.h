@@ -28,6 +28,9 @@ struct MeshWriter {
     bool (*can_keep)(std::string_view bytes);  ///< whether a file of these bytes can be written again
 };
 
+/// What parts the faces of a file, beside their vertices.
+enum class CutAt { nothing, materials, groups, normals, all };
+
 struct MeshFormat {
     std::string_view extension;  ///< in lower case, with the dot
     PolygonMesh (*read)(std::string_view bytes);
@@ -37,6 +40,9 @@ struct MeshFormat {
     /// @param mesh as it was read from these bytes @param set which UVs, where a file can have several
     /// @throws InputError the UVs are damaged, or some faces have none (elements: faces)
     PlanarPoints (*corner_uvs)(std::string_view bytes, const PolygonMesh& mesh, int set) = nullptr;
+    /// (C) a number for each corner: two faces lie apart at an edge if their corners there have different numbers.
+    /// Null: the format tells no such thing. @throws InputError the file is damaged
+    std::vector<Index> (*corner_marks)(std::string_view bytes, CutAt at) = nullptr;
 };
 
 namespace io {

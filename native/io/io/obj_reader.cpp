@@ -6,9 +6,27 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace koebe::io {
+namespace {
+
+/// Numbers for values, in the order in which they are met.
+template <typename Value>
+class NumberedValues {
+public:
+    Index number(const Value& value)
+    {
+        return numbers_.emplace(value, static_cast<Index>(numbers_.size())).first->second;
+    }
+
+private:
+    std::map<Value, Index> numbers_;
+};
+
+}  // namespace
 
 /// CGAL is not used, as it makes a stream of each line, which takes a third of the command's whole time. tinyobjloader
 /// changes the last digits of numbers, and Assimp keeps 32 bits.
@@ -83,6 +101,50 @@ PlanarPoints obj_corner_uvs(std::string_view bytes, const PolygonMesh&, int)
         points.row(static_cast<Eigen::Index>(c)) << uvs[corners[c]][0], uvs[corners[c]][1];
     }
     return points;
+}
+
+/// Materials are the names of usemtl, groups the lines of g and o, normals the values of vn.
+std::vector<Index> obj_corner_marks(std::string_view bytes, CutAt at)
+{
+    const auto wanted = [at](CutAt kind) { return at == kind || at == CutAt::all; };
+    NumberedValues<std::string> names;
+    NumberedValues<std::array<double, 3>> values;
+    NumberedValues<std::array<Index, 4>> marks;
+    std::vector<Index> normals, corners;
+    std::array<Index, 4> mark{};  // material, group, object, normal
+    TextLines lines(bytes);
+    while (lines.next_statement()) {
+        const std::string_view keyword = lines.next_word_of_joined_lines();
+        const auto name = [&] {
+            std::string words(keyword);
+            for (std::string_view word; !(word = lines.next_word_of_joined_lines()).empty();)
+                words.append(1, ' ').append(word);
+            return names.number(words);
+        };
+        if (keyword == "usemtl" && wanted(CutAt::materials)) mark[0] = name();
+        if (keyword == "g" && wanted(CutAt::groups)) mark[1] = name();
+        if (keyword == "o" && wanted(CutAt::groups)) mark[2] = name();
+        if (keyword == "vn" && wanted(CutAt::normals)) {
+            std::array<double, 3> normal{};
+            for (double& number : normal)
+                if (!to_number(lines.next_word_of_joined_lines(), number))
+                    refuse("normal", normals.size(), "is not three finite numbers");
+            normals.push_back(values.number(normal));
+        }
+        if (keyword == "f")
+            for (std::string_view word; !(word = lines.next_word_of_joined_lines()).empty();) {
+                const std::size_t last = word.rfind('/');
+                const bool has_normal = last != std::string_view::npos && word.find('/') != last;
+                const auto count = static_cast<Index>(normals.size());
+                Index number = 0;  // counted from 1; if negative, from the last one backwards; 0: none
+                if (!has_normal || !to_number(word.substr(last + 1), number)) number = 0;
+                if (number < 0) number += count + 1;
+                mark[3] = number > 0 && number <= count ? normals[static_cast<std::size_t>(number) - 1] : -1;
+                corners.push_back(marks.number(mark));
+            }
+        if (std::max(normals.size(), corners.size()) >= most_elements) refuse_size();
+    }
+    return corners;
 }
 
 FileLosses obj_contents(std::string_view bytes)

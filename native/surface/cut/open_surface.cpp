@@ -409,7 +409,7 @@ OpenedSurface open_surface(const Vertices& vertices, const Triangles& triangles,
     context.checkpoint();
     // Seams where faces cannot be joined: an edge with more than two faces, faces that disagree, pinched vertices. Then
     // the cuts that make each part a disk or a planar surface.
-    Seams seams = seam_faces(vertices, triangles, faces, options.polygon);
+    Seams seams = seam_faces(vertices, triangles, faces, options.polygon, options.seams);
     for (auto& chain : edge_chains(std::move(seams.crowded)))
         result.cuts.push_back({CutKind::crowded_edge, std::move(chain)});
     for (auto& chain : edge_chains(std::move(seams.disagree)))

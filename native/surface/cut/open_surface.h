@@ -5,6 +5,7 @@
 #include "core/types.h"
 #include "execution/execution.h"
 
+#include <array>
 #include <vector>
 
 namespace koebe {
@@ -55,6 +56,7 @@ struct OpenedSurface {
 struct OpenOptions {
     /// (F) faces of one number are one polygon, and are not cut apart; empty: each face by itself.
     std::vector<Index> polygon = {};
+    std::vector<std::array<Index, 2>> seams = {};  ///< edges over which faces are not joined, as pairs of vertices
     /// Opens a surface without boundary, or with only its handles' cuts, by a long slit, which keeps the areas of its
     /// map even. false: by a slit of two edges, and only without boundary.
     bool long_slit = true;

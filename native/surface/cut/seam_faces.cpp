@@ -6,6 +6,8 @@
 #include "core/length.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace koebe {
@@ -17,9 +19,11 @@ constexpr double least_length = 1e-9;
 class FaceJoiner {
 public:
     FaceJoiner(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& faces,
-               const std::vector<Index>& polygon)
+               const std::vector<Index>& polygon, const std::vector<std::array<Index, 2>>& seams)
         : vertex_count_(static_cast<Index>(vertices.rows()))
     {
+        for (const auto& edge : seams) chosen_.emplace_back(std::minmax(edge[0], edge[1]));
+        std::ranges::sort(chosen_);
         SeamedMesh& mesh = seams_.mesh;
         mesh.face = faces;
         mesh.corners = triangles(faces, Eigen::all);
@@ -70,7 +74,7 @@ private:
                     }
                 if (mesh.twin[run[i]] == no_twin) left.push_back(run[i]);
             }
-            if (left.size() == 2) join(left[0], left[1]);
+            if (left.size() == 2 && !std::ranges::binary_search(chosen_, ends(left[0]))) join(left[0], left[1]);
             if (left.size() > 2) seams_.crowded.emplace_back(ends(left[0]));
         });
     }
@@ -207,15 +211,16 @@ private:
 
     Index vertex_count_;
     std::vector<Index> polygon_;
+    std::vector<std::pair<Index, Index>> chosen_;  // seams, ascending
     Seams seams_;
 };
 
 }  // namespace
 
 Seams seam_faces(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& faces,
-                 const std::vector<Index>& polygon)
+                 const std::vector<Index>& polygon, const std::vector<std::array<Index, 2>>& seams)
 {
-    return FaceJoiner(vertices, triangles, faces, polygon).run(vertices);
+    return FaceJoiner(vertices, triangles, faces, polygon, seams).run(vertices);
 }
 
 }  // namespace koebe

@@ -4,6 +4,7 @@
 #include "core/connectivity.h"
 #include "core/types.h"
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -49,8 +50,8 @@ struct Seams {
 
 /// Joins faces over all edges with two faces, as far as these can be oriented alike.
 /// @param faces of the input to take, ascending, each with three different vertices, no two with the same three
-/// @param polygon (F) or empty, as in OpenOptions
+/// @param polygon (F) or empty, as in OpenOptions @param seams edges that stay open, as there
 Seams seam_faces(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& faces,
-                 const std::vector<Index>& polygon);
+                 const std::vector<Index>& polygon, const std::vector<std::array<Index, 2>>& seams);
 
 }  // namespace koebe

@@ -1,7 +1,6 @@
 // koebe batch INPUTS... --output FOLDER
 #include "cli/commands/subcommand.h"
 #include "cli/options/option_table.h"
-#include "cli/options/uniformize_options.h"
 #include "cli/options/validators.h"
 #include "cli/options/wrong_usage.h"
 #include "cli/process/end_with_input.h"
@@ -20,7 +19,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -31,40 +29,66 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* disk_domain = "disk";
-const std::vector<std::string> domains{disk_domain, "torus", "ring", "sphere", "schottky"};
+/// A kind of map, the command that makes it, and the words by which the add-on's batch.py makes it; null: it does not.
+struct Domain {
+    const char* name;
+    AddSubcommand add;
+    const char* of_blender;
+    bool makes_pattern = false;  ///< a drawing in place of a mesh
+};
 
-/// The choices of other domains that the disk does not have.
-std::vector<const OptionRow*> domain_rows()
+constexpr Domain domains[]{{"disk", add_uniformize, ""},
+                           {"torus", add_torus, "--domain=torus"},
+                           {"ring", add_ring, "--domain=ring"},
+                           {"sphere", add_sphere, "--domain=sphere"},
+                           {"schottky", add_schottky, "--domain=schottky"},
+                           {"parts", add_parts, "--parts"},
+                           {"pack", add_pack, nullptr},
+                           KOEBE_OF_MAKING({"flatten", add_flatten, nullptr, true})};
+const std::vector<std::string> pattern_formats{"dxf", "svg"};
+
+/// A domain's command as it is parsed alone: checks the options of a batch, and knows their defaults.
+struct DomainCommand {
+    Domain domain;
+    std::shared_ptr<CLI::App> app = std::make_shared<CLI::App>();
+    Subcommand command = domain.add(*app);
+
+    std::string name() const { return command.options->get_name(); }
+    /// The option's row, or null. Files and the set of UVs are each file's own.
+    const OptionRow* row_of(const CLI::Option& option) const
+    {
+        const std::vector<std::string>& words = option.get_lnames();
+        std::string word = words.empty() ? "" : words.front();
+        std::ranges::replace(word, '-', '_');
+        const OptionRow* const row = find_row(name(), word);
+        return row == nullptr || row->kind == "weights" || word == "uv_channel" ? nullptr : row;
+    }
+    const CLI::Option* find(const std::string& flag) const
+    {
+        const CLI::Option* const option = command.options->get_option_no_throw(flag);
+        return option == nullptr || row_of(*option) == nullptr ? nullptr : option;
+    }
+};
+
+std::vector<std::string> domain_names()
 {
-    std::vector<const OptionRow*> rows;
-    for (const OptionRow& row : option_rows())
-        if (row.kind == "choice" && !row.is_of("uniformize") &&
-            std::ranges::any_of(domains, [&](const std::string& domain) { return row.is_of(domain); }))
-            rows.push_back(&row);
-    return rows;
+    std::vector<std::string> names;
+    for (const Domain& domain : domains) names.emplace_back(domain.name);
+    return names;
 }
 
-/// Whether another domain has the disk's option, with the same kind.
-bool has_too(const std::string& domain, const std::string& flag)
-{
-    return std::ranges::any_of(option_rows(), [&](const OptionRow& row) {
-        const OptionRow* const of_disk = find_row("uniformize", row.name);
-        return row.flag() == flag && row.is_of(domain) && of_disk != nullptr && of_disk->kind == row.kind;
-    });
-}
-
-struct BatchRequest : MapRequest {
-    std::vector<CLI::Option*> forwarded;           ///< a map's options
-    std::map<std::string, std::string> of_domain;  ///< words of options that only other domains have
-    std::string domain = disk_domain;
-    bool cut = false;
+struct BatchRequest {
+    std::vector<CLI::Option*> forwarded;  ///< the domains' options
+    std::vector<DomainCommand> commands;
+    const DomainCommand* chosen = nullptr;
+    nlohmann::ordered_json recipe;  ///< the settings that a map depends on beside the mesh
+    std::string domain = domains[0].name;
     std::vector<std::string> inputs, blender_arguments;
-    std::string folder, base, format = "obj", blender, blender_script;
+    std::string folder, base, format, blender, blender_script;
     int workers = 0;
     double time_limit = 0.0, stale = 120.0;
     bool retry = false, list = false, no_summary = false, summary_only = false, exit_zero = false,
-         ends_with_input = false;
+         ends_with_input = false, quiet = false;
 };
 
 void add_batch_options(CLI::App& app, BatchRequest& request)
@@ -82,9 +106,11 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
     app.add_option("--time-limit", request.time_limit, "most seconds for a file. By default there is no limit")
         ->check(number_in({.above = 0.0}))
         ->type_name("SECONDS");
-    app.add_option("--format", request.format, "format of the written meshes")
-        ->check(CLI::IsMember(io::format_names(io::FormatName::bare, true)))
-        ->capture_default_str();
+    std::vector<std::string> formats = io::format_names(io::FormatName::bare, true);
+    if (std::ranges::any_of(domains, &Domain::makes_pattern))
+        formats.insert(formats.end(), pattern_formats.begin(), pattern_formats.end());
+    app.add_option("--format", request.format, "format of the results: by default obj, and dxf of patterns")
+        ->check(CLI::IsMember(formats));
     app.add_flag("--retry", request.retry, "try meshes again that could not be mapped");
     app.add_option("--stale", request.stale, "seconds without a sign of life until another host's claim is taken over")
         ->check(number_in({.above = 0.0}))
@@ -102,12 +128,8 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
     app.add_option("--domain", request.domain,
                    "the map of each file. disk: koebe uniformize; each other word: the command of this name")
-        ->check(CLI::IsMember(domains))
+        ->check(CLI::IsMember(domain_names()))
         ->capture_default_str();
-    for (const OptionRow* row : domain_rows()) {
-        std::string& word = request.of_domain[std::string(row->name)] = row->choices().front();
-        add_choice(app, *row, 0, [&word, row](int k) { word = row->choices()[static_cast<std::size_t>(k)]; });
-    }
     const std::string group = "Files of Blender";
     app.add_option("--blender", request.blender, "map .blend files too, by this program and the add-on")
         ->type_name("PROGRAM")
@@ -121,41 +143,40 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
         ->group(group);
 }
 
-/// @throws CLI::ValidationError options of another domain
-void check_domain(const CLI::App& app, const BatchRequest& request)
+/// The names of the domains that have an option.
+std::string domains_with(const BatchRequest& request, const std::string& flag)
 {
-    for (const OptionRow* row : domain_rows())
-        if (app.count(row->flag()) > 0 && !row->is_of(request.domain))
-            throw CLI::ValidationError(row->flag(), "belongs to --domain " + std::string(row->maps));
-    if (request.domain == disk_domain) return;
-    for (const CLI::Option* option : request.forwarded)
-        if (option->count() > 0 && !has_too(request.domain, option->get_name()))
-            throw CLI::ValidationError(option->get_name(), "belongs to --domain disk");
+    std::string names;
+    for (const DomainCommand& command : request.commands)
+        if (command.find(flag) != nullptr) names += (names.empty() ? "" : ", ") + std::string(command.domain.name);
+    return names;
 }
 
-/// The settings that a map depends on beside the mesh.
-nlohmann::ordered_json recipe_options(const BatchRequest& request)
+/// Adds each option of the domains once, as text that the domain's command checks.
+void add_domain_options(CLI::App& app, BatchRequest& request)
 {
-    nlohmann::ordered_json report = nlohmann::ordered_json::object();
-    if (request.of_files.weld) report["weld"] = *request.of_files.weld;
-    if (request.domain == disk_domain) {
-        report.update(uniformize_report(request.options, request.cut));
-        return report;
-    }
-    report["domain"] = request.domain;
-    for (const auto& [name, word] : request.of_domain)
-        if (find_row(request.domain, name) != nullptr) report[name] = word;
-    report.update(option_report<SweepOptions>(request.domain, request.options));
-    return report;
+    for (const Domain& domain : domains) request.commands.push_back({domain});
+    for (const DomainCommand& command : request.commands)
+        for (const CLI::Option* const option : command.command.options->get_options()) {
+            const OptionRow* const row = command.row_of(*option);
+            if (row == nullptr || app.get_option_no_throw(row->flag()) != nullptr) continue;
+            CLI::Option* const added =
+                row->kind == "flag" ? app.add_flag(row->flag()) : app.add_option(row->flag())->delimiter(',');
+            added->description(option->get_description());
+            if (row->kind != "flag") {
+                added->type_name(option->get_type_name())->default_str(option->get_default_str());
+                added->expected(option->get_expected_min(), option->get_expected_max());
+            }
+            const bool is_of_disk = &command == request.commands.data();
+            added->group(is_of_disk ? option->get_group() : "With --domain " + domains_with(request, row->flag()));
+            request.forwarded.push_back(added);
+        }
 }
 
 /// A map's options as given, for the processes that make it.
 std::vector<std::string> given_words(const BatchRequest& request, bool with_threads)
 {
     std::vector<std::string> words;
-    for (const auto& [name, word] : request.of_domain)
-        if (find_row(request.domain, name) != nullptr)
-            words.push_back(find_row(request.domain, name)->flag() + "=" + word);
     for (const CLI::Option* option : request.forwarded) {
         if (option->count() == 0 || (!with_threads && option->check_name("--threads"))) continue;
         if (option->get_expected_max() == 0) {  // a flag
@@ -169,19 +190,55 @@ std::vector<std::string> given_words(const BatchRequest& request, bool with_thre
     return words;
 }
 
+/// Chooses the domain, checks its options by its command, and takes the recipe from there.
+/// @throws CLI::ParseError options of another domain, or wrong values
+void choose_domain(BatchRequest& request)
+{
+    request.chosen = &*std::ranges::find(request.commands, request.domain,
+                                         [](const DomainCommand& command) { return std::string(command.domain.name); });
+    const Domain& domain = request.chosen->domain;
+    for (const CLI::Option* option : request.forwarded)
+        if (option->count() > 0 && request.chosen->find(option->get_name()) == nullptr)
+            throw CLI::ValidationError(option->get_name(),
+                                       "belongs to --domain " + domains_with(request, option->get_name()));
+    if (!request.blender.empty() && domain.of_blender == nullptr)
+        throw CLI::ValidationError("--blender", "does not work with --domain " + request.domain);
+    if (request.format.empty()) request.format = domain.makes_pattern ? pattern_formats.front() : "obj";
+    if ((std::ranges::count(pattern_formats, request.format) > 0) != domain.makes_pattern)
+        throw CLI::ValidationError("--format", request.format + " does not work with --domain " + request.domain);
+    std::vector<std::string> words = given_words(request, true);
+    words.insert(words.begin(), {request.chosen->name(), "IN.obj", "OUT." + request.format, "--quiet"});
+    std::ranges::reverse(words);  // as CLI11 takes them
+    request.chosen->app->parse(words);
+    request.recipe = request.chosen->command.entries->at("options");
+    if (request.format == "svg" && request.recipe.at("page") != "none")
+        throw CLI::ValidationError("--format", "svg needs --page none: it has a file for each page");
+    if (request.domain != domains[0].name) request.recipe["domain"] = request.domain;
+}
+
 std::vector<std::string> map_command(const BatchRequest& request, const std::string& own_program,
                                      const batch::BatchFile& file, const batch::Scratch& scratch)
 {
-    std::vector<std::string> words{own_program, request.domain == disk_domain ? "uniformize" : request.domain,
-                                   "--quiet", end_with_input_flag, "--json=" + batch::utf8(scratch.report)};
+    std::vector<std::string> words{own_program, request.chosen->name(), "--quiet", end_with_input_flag,
+                                   "--json=" + batch::utf8(scratch.report)};
     for (std::string& word : given_words(request, true)) words.push_back(std::move(word));
     // Each worker has one core; a single map would take all cores.
     const bool says_threads = std::ranges::any_of(request.forwarded, [](const CLI::Option* option) {
         return option->count() > 0 && option->check_name("--threads");
     });
-    const bool has_threads = request.domain == disk_domain || find_row(request.domain, "threads") != nullptr;
-    if (has_threads && request.workers != 1 && !says_threads) words.emplace_back("--threads=1");
+    if (request.chosen->find("--threads") != nullptr && request.workers != 1 && !says_threads)
+        words.emplace_back("--threads=1");
     words.insert(words.end(), {batch::utf8(file.source), batch::utf8(scratch.output)});
+    return words;
+}
+
+/// The words by which the add-on's batch.py makes the domain's maps.
+std::vector<std::string> blend_words(const BatchRequest& request, bool with_threads)
+{
+    std::vector<std::string> words = given_words(request, with_threads);
+    const std::string domain = request.chosen->domain.of_blender == nullptr ? "" : request.chosen->domain.of_blender;
+    if (!domain.empty()) words.insert(words.begin(), domain);
+    words.insert(words.end(), request.blender_arguments.begin(), request.blender_arguments.end());
     return words;
 }
 
@@ -201,9 +258,7 @@ std::vector<std::string> blend_command(const BatchRequest& request, const std::s
                                    batch::utf8(scratch.output),
                                    "--report",
                                    batch::utf8(scratch.report)};
-    if (request.domain != disk_domain) words.push_back("--domain=" + request.domain);
-    for (std::string& word : given_words(request, true)) words.push_back(std::move(word));
-    words.insert(words.end(), request.blender_arguments.begin(), request.blender_arguments.end());
+    for (std::string& word : blend_words(request, true)) words.push_back(std::move(word));
     return words;
 }
 
@@ -213,6 +268,7 @@ batch::FileList files_of(const BatchRequest& request)
     options.base = batch::path_of(request.base);
     options.output = batch::path_of(request.folder);
     options.extension = "." + request.format;
+    options.keeps_scenes = !request.chosen->domain.makes_pattern;
     options.with_blends = !request.blender.empty();
     for (const std::string& input : request.inputs) options.inputs.push_back(batch::path_of(input));
     try {
@@ -242,11 +298,8 @@ batch::BatchOptions batch_options(const BatchRequest& request, const fs::path& o
     options.writes_summary = !request.no_summary;
     options.workers = request.workers > 0 ? static_cast<unsigned>(request.workers) : batch::core_count();
     options.stale = request.stale;
-    options.mesh = {recipe_options(request), request.time_limit, request.retry};
-    auto blend_words = given_words(request, false);
-    if (request.domain != disk_domain) blend_words.insert(blend_words.begin(), "--domain=" + request.domain);
-    blend_words.insert(blend_words.end(), request.blender_arguments.begin(), request.blender_arguments.end());
-    options.blend = {{{"arguments", std::move(blend_words)}}, request.time_limit, request.retry};
+    options.mesh = {request.recipe, request.time_limit, request.retry};
+    options.blend = {{{"arguments", blend_words(request, false)}}, request.time_limit, request.retry};
     const std::string script = request.blender.empty() ? "" : batch::blender_script(request.blender_script);
     options.command = [&request, own = batch::own_program(), script](const auto& file, const auto& scratch) {
         return file.is_blend ? blend_command(request, script, file, scratch) : map_command(request, own, file, scratch);
@@ -304,15 +357,8 @@ Subcommand add_batch(CLI::App& app)
     auto request = std::make_shared<BatchRequest>();
     CLI::App* options = app.add_subcommand("batch", "map many files, each by a process of its own; go on after a stop");
     add_batch_options(*options, *request);
-    const std::size_t before = options->get_options().size();
-    add_uniformize_options(*options, request->options, request->cut);
-    add_value(*options, *find_row("uniformize", "weld"), request->of_files.weld);
-    const std::vector<CLI::Option*> all = options->get_options({});
-    request->forwarded.assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
-    options->callback([options, request] {
-        check_uniformize_options(*options, request->options, request->cut);
-        check_domain(*options, *request);
-    });
+    add_domain_options(*options, *request);
+    options->callback([request] { choose_domain(*request); });
     return {options, [request] { return run_batch(*request); }};
 }
 

@@ -19,7 +19,7 @@ namespace koebe::cli {
 template <typename Options>
 struct CornerMapRequest : MapRequest {
     Options chosen;
-    WeightsOption show, importance;
+    WeightsOption show, importance, locked;
     bool ends_with_input = false;
 };
 
@@ -59,6 +59,8 @@ public:
         options.polygon = input.triangulation.face;
         if constexpr (requires { options.uv; })
             options.uv = triangle_corner_uvs(input.mapped_polygons(), input.triangulation, input.uvs);
+        if constexpr (requires { options.cuts; }) options.cuts = marked_edges(input);
+        if constexpr (requires { options.locked; }) options.locked = of_triangles(input, options.locked);
         name_mapped_vertices(input, options);
         Result result = with_filed_faces(
             input, [&] { return map_(input.polygons.vertices, input.triangulation.triangles, options, context); });
@@ -118,6 +120,7 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
     add_options(*options, help.name, request->of_files);
     request->show.add(*options, help.name, "show");
     request->importance.add(*options, help.name, "importance");
+    request->locked.add(*options, help.name, "locked");
     if (help.has_sphere)
         options
             ->add_option("--sphere", request->sphere,
@@ -133,15 +136,20 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
         request->entries["options"].update(option_report(name, request->of_files));
         request->show.check(*request);
         request->importance.check(*request);
+        request->locked.check(*request);
     });
-    return {options, [request, run] {
+    return {options,
+            [request, run] {
                 if (request->ends_with_input) end_with_input();
                 if constexpr (requires { request->chosen.show; })
                     request->chosen.show = request->show.read("a weight to show");
                 if constexpr (requires { request->chosen.importance; })
                     request->chosen.importance = request->importance.read("an importance");
+                if constexpr (requires { request->chosen.locked; })
+                    request->chosen.locked = request->locked.read("a lock");
                 return run(*request);
-            }};
+            },
+            &request->entries};
 }
 
 }  // namespace koebe::cli

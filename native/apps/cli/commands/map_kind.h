@@ -49,6 +49,7 @@ ReadOptions begin_run(const MapRequest& request, const MapKind<Result>& kind)
             .hash = !request.json.empty(),
             .weld = request.of_files.weld,
             .threads = request.options.threads,
+            .cut_at = request.of_files.cut_at,
             .uv_set = kind.takes_uvs() ? std::optional(request.of_files.uv_channel) : std::nullopt};
 }
 

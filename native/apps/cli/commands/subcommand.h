@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <span>
@@ -11,6 +12,8 @@ namespace koebe::cli {
 struct Subcommand {
     CLI::App* options;
     std::function<int()> run;  ///< returns an ExitCode; errors are thrown
+    /// What the report has beside the map; after parsing with the `options`. Null: the command makes no map.
+    const nlohmann::ordered_json* entries = nullptr;
 };
 
 // The sub-commands of the extras, where those are built.

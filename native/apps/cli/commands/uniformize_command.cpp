@@ -43,7 +43,8 @@ Subcommand add_uniformize(CLI::App& app)
         request->entries["options"].update(option_report("uniformize", request->of_files));
         request->importance.check(*request);
     });
-    return {options, [request] {
+    return {options,
+            [request] {
                 if (request->ends_with_input) end_with_input();
                 request->options.importance = request->importance.read("an importance");
                 if (request->cut) return run_cut_map(*request);
@@ -52,7 +53,8 @@ Subcommand add_uniformize(CLI::App& app)
                     require_schedule_of_loops(triangles, static_cast<Index>(vertices.rows()), chosen);
                     return uniformize(vertices, triangles, chosen, context);
                 });
-            }};
+            },
+            &request->entries};
 }
 
 }  // namespace koebe::cli

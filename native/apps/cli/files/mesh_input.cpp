@@ -11,6 +11,7 @@
 #include "io/welding.h"
 #include "quality/take_verdict.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
@@ -37,6 +38,9 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     input.file = read_mesh_file(path);
     input.polygons = parse_mesh(input.file.bytes, input.file.extension);
     if (options.uv_set) input.uvs = uvs_of(input.file, input.polygons, *options.uv_set);
+    const MeshFormat* const format = io::mesh_format(input.file.extension);
+    if (options.cut_at != CutAt::nothing && format != nullptr && format->corner_marks != nullptr)
+        input.marks = format->corner_marks(input.file.bytes, options.cut_at);
     if (!options.keep_file) input.file = {};
     triangulate_input(input, options);
     input.seconds = reading.elapsed();
@@ -88,11 +92,42 @@ void triangulate_input(MeshInput& input, const ReadOptions& options)
         input.warnings.push_back(*std::move(warning));
 }
 
-MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options)
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, const ReadOptions& options)
 {
     ExecutionContext context({}, token);
     return run_detachable<MeshInput>(
         context, [path, options](ExecutionContext&) { return read_and_triangulate(path, options); });
+}
+
+std::vector<double> of_triangles(const MeshInput& input, const std::vector<double>& of_faces)
+{
+    if (of_faces.empty()) return {};
+    if (of_faces.size() != static_cast<std::size_t>(input.polygons.face_count()))
+        throw InputError("there must be a number for each of the " + counted(input.polygons.face_count(), "face") +
+                         ", not " + std::to_string(of_faces.size()));
+    std::vector<double> found;
+    for (const Index face : input.triangulation.face) found.push_back(of_faces[face]);
+    return found;
+}
+
+std::vector<std::array<Index, 2>> marked_edges(const MeshInput& input)
+{
+    const PolygonMesh& mesh = input.mapped_polygons();
+    std::vector<std::array<Index, 4>> sides;  // two vertices and their marks
+    for (Index f = 0; f < mesh.face_count() && !input.marks.empty(); ++f)
+        for (Index c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
+            const Index next = c + 1 < mesh.face_begin[f + 1] ? c + 1 : mesh.face_begin[f];
+            const auto [a, b] = mesh.corners[c] < mesh.corners[next] ? std::pair(c, next) : std::pair(next, c);
+            sides.push_back({mesh.corners[a], mesh.corners[b], input.marks[a], input.marks[b]});
+        }
+    std::ranges::sort(sides);
+    std::vector<std::array<Index, 2>> edges;
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        const std::array edge{sides[i][0], sides[i][1]};
+        if (edge != std::array{sides[i - 1][0], sides[i - 1][1]} || sides[i] == sides[i - 1]) continue;
+        if (edges.empty() || edges.back() != edge) edges.push_back(edge);
+    }
+    return edges;
 }
 
 void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)

@@ -4,9 +4,11 @@
 #include "core/errors.h"
 #include "core/warning.h"
 #include "execution/execution.h"
+#include "io/mesh_formats.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,9 +23,10 @@ struct MeshInput {
     std::optional<PolygonMesh> joined;  ///< with --weld: the polygons with joined corners
     Triangulation triangulation;        ///< of the joined polygons
     std::vector<Warning> warnings;
-    PlanarPoints uvs;      ///< (C, 2) the file's own, of the polygons' corners, if requested
-    std::string sha256;    ///< hash of the file, if requested; empty for a pipe or a device
-    double seconds = 0.0;  ///< time to read and triangulate
+    std::vector<Index> marks;  ///< (C) see MeshFormat::corner_marks; empty: none
+    PlanarPoints uvs;          ///< (C, 2) the file's own, of the polygons' corners, if requested
+    std::string sha256;        ///< hash of the file, if requested; empty for a pipe or a device
+    double seconds = 0.0;      ///< time to read and triangulate
 
     const PolygonMesh& mapped_polygons() const { return joined ? *joined : polygons; }
     /// The vertex that stands for a vertex in the map; also -1 for none.
@@ -62,13 +65,14 @@ struct ReadOptions {
     bool any_polygon = false;  ///< polygons that cannot be cut into triangles are a warning, not an error
     bool hash = false;         ///< computes sha256: takes as long as reading
     std::optional<double> weld = {};
-    std::vector<Index> first = {};   ///< with weld: joins as they were found in another file of a sequence
-    int threads = 1;                 ///< at most; 0: all cores
+    std::vector<Index> first = {};  ///< with weld: joins as they were found in another file of a sequence
+    int threads = 1;                ///< at most; 0: all cores
+    CutAt cut_at = CutAt::nothing;
     std::optional<int> uv_set = {};  ///< reads the file's texture coordinates; the set where it has several
 };
 
 /// @throws FileError, InputError, Cancelled
-MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options = {});
+MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, const ReadOptions& options = {});
 
 /// The hash of a file before it is read; empty for a pipe or a device.
 std::string input_hash(const std::filesystem::path& path);
@@ -76,6 +80,12 @@ std::string input_hash(const std::filesystem::path& path);
 /// Joins vertices, triangulates the polygons, and adds warnings about left out ones, and about coincident vertices.
 /// @throws InputError
 void triangulate_input(MeshInput& input, const ReadOptions& options);
+
+/// Numbers of the file's faces, as numbers of the triangles. @throws InputError there are not as many as faces
+std::vector<double> of_triangles(const MeshInput& input, const std::vector<double>& of_faces);
+
+/// The edges at which faces with different marks meet, as pairs of vertices of the map.
+std::vector<std::array<Index, 2>> marked_edges(const MeshInput& input);
 
 /// The faces of the file that contain these triangles, each once.
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles);

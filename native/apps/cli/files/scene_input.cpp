@@ -17,11 +17,14 @@ SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
     scene.meshes = read_gltf_meshes(scene.file.bytes);
     std::vector<PlanarPoints> uvs;
     if (options.uv_set) uvs = read_gltf_uvs(scene.file.bytes, *options.uv_set);
+    std::vector<std::vector<Index>> marks;
+    if (options.cut_at != CutAt::nothing) marks = read_gltf_marks(scene.file.bytes, options.cut_at);
     for (GltfMesh& mesh : scene.meshes)
         with_mesh_name(scene, scene.inputs.size(), [&] {
             MeshInput input;
             input.polygons = std::move(mesh.polygons);
             if (options.uv_set) input.uvs = std::move(uvs[scene.inputs.size()]);
+            if (!marks.empty()) input.marks = std::move(marks[scene.inputs.size()]);
             triangulate_input(input, options);
             scene.inputs.push_back(std::move(input));
         });

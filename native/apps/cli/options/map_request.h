@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/files/output_files.h"
+#include "io/mesh_formats.h"
 #include "io/mesh_writer.h"
 #include "pipeline/options.h"
 
@@ -17,6 +18,7 @@ namespace koebe::cli {
 /// Options of how files are read and written, of several commands.
 struct FileOptions {
     std::optional<double> weld = {};  ///< distance of vertices that are joined in the map (io/welding.h)
+    CutAt cut_at = CutAt::nothing;    ///< what in the file cuts the surface
     int uv_channel = 0;               ///< the set of UVs that is written, where a file has several
 };
 

@@ -21,10 +21,13 @@ class PackResult(DomainMap):
 
     uv               (F, 3, 2) float64 in [0, 1]^2, or on tiles: of each corner of each triangle, read-only
     island           (F,) int32: the island of each triangle
-    islands          for each island a dict: faces, overlaps (it lies on itself, or its border touches itself)
+    islands          for each island a dict: faces, overlaps (it lies on itself, or its border touches itself),
+                     locked (it kept its place)
     overlaps         number of such islands. They are moved as they are
     tiles            number of tiles with islands
-    margin           least distance of two islands, in pixels: many islands get less than the option says
+    margin           least distance of two islands, in pixels, unless both kept their place: many islands get less than
+                     the option says
+    scale            of the islands that were moved, against their UVs as given: the root of the ratio of their areas
     coverage         area of the triangles over the area of the unit square, or of the tiles, as stored. Triangles that
                      lie on each other all count
     turned           triangles of islands that lie with their back to the front: no island is turned over
@@ -39,6 +42,7 @@ class PackResult(DomainMap):
     overlaps: int
     tiles: int
     margin: float
+    scale: float
     coverage: float
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
@@ -55,7 +59,7 @@ class PackResult(DomainMap):
         return [f"{len(self.islands)} islands", f"coverage {self.coverage:.3g}"]
 
 
-@takes("pack", uv=None, polygon=None, progress=None, cancel=None)
+@takes("pack", uv=None, polygon=None, locked=None, enough=None, progress=None, cancel=None)
 def pack(vertices: Any, triangles: Any = None, **given: "Unpack[PackOptions]") -> PackResult:
     """Pack the islands of UVs into the unit square, or onto tiles, as large as they have room.
 
@@ -67,6 +71,10 @@ def pack(vertices: Any, triangles: Any = None, **given: "Unpack[PackOptions]") -
     uv           (F, 3, 2) of the corners of the triangles, or (V, 2) of the vertices: finite numbers, anywhere
     {options}
     polygon      (F,) integers: triangles of one number are one polygon, and in one island
+    locked       (F,) bool: islands with such a triangle keep their place, anywhere in the plane. The others go into the
+                 free space of the unit square, at the size that they have, or smaller where there is less room. With
+                 average_scale they get at most the texel density of those islands. Not with several tiles
+    enough       a CancelToken that ends the search, also before the `seconds` end: the best packing is taken
     mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), SolverError, Cancelled, or MemoryError.
 
@@ -81,8 +89,22 @@ def pack(vertices: Any, triangles: Any = None, **given: "Unpack[PackOptions]") -
     source = surface_of(vertices, triangles, degenerate=True, mask=given["mask"])
     options.polygon = polygons_of(given["polygon"], source)
     options.uv = _corner_uv(given["uv"], source).reshape(-1, 2)
+    options.locked = _locks(given["locked"], source)
+    options.enough = token(given["enough"], "enough")
     native = source.call(_koebe.pack, options, progress, cancel)
     return PackResult({**native.report(), "options": said}, native, source)
+
+
+def _locks(given: Any, source: Source) -> np.ndarray:
+    """(F,) 1 for triangles whose island keeps its place, or empty."""
+    if given is None:
+        return np.zeros(0)
+    locked = np.asarray(given)
+    if source.kept is not None and len(locked) > source.kept[-1]:  # of all triangles
+        locked = locked[source.kept]
+    if locked.shape != (len(source.triangles),) or locked.dtype != bool:
+        raise InputError(f"locked must be ({len(source.triangles)},) bool, not {locked.shape} {locked.dtype}")
+    return locked.astype(np.float64)
 
 
 def _corner_uv(given: Any, source: Source) -> np.ndarray:

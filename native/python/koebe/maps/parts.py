@@ -102,7 +102,7 @@ class PartsResult(MapReport):
         )
 
 
-@takes("parts", polygon=None, slits=None, progress=None, cancel=None)
+@takes("parts", polygon=None, slits=None, cuts=None, progress=None, cancel=None)
 def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
     """Cut a surface in its UVs only into disks and tubes of even texel density, packed into a square or onto tiles.
 
@@ -112,6 +112,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
                  mesh, or with arrays each triangle by itself
     slits        (E, 2) vertices of edges along which a tube is opened if they lead from one of its loops to the other.
                  None: along a short, straight path
+    cuts         (E, 2) vertices of edges that no part goes over, beside all other cuts: borders of materials
     mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
 
@@ -128,21 +129,22 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     options.polygon = polygons_of(given["polygon"], source)
     options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.show = vertex_weights("show", given["show"], len(source.vertices))
-    if given["slits"] is not None:
-        slits = _edges(given["slits"], len(source.vertices))
-        options.slits = (slits if source.first is None else source.first[slits]).tolist()
+    for name in ("slits", "cuts"):
+        if given[name] is not None:
+            edges = _edges(name, given[name], len(source.vertices))
+            setattr(options, name, (edges if source.first is None else source.first[edges]).tolist())
     native = source.call(_koebe.parts, options, progress, cancel)
     report = {**native.report(), "options": said}
     return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32), source)
 
 
-def _edges(slits: Any, count: int) -> np.ndarray:
+def _edges(name: str, edges: Any, count: int) -> np.ndarray:
     """Vertices of edges as int32."""
-    given = np.asarray(slits)
+    given = np.asarray(edges)
     if given.size == 0:
         return np.zeros((0, 2), np.int32)
     if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":
-        raise InputError(f"slits must be (E, 2) integers, not {given.shape} {given.dtype}")
+        raise InputError(f"{name} must be (E, 2) integers, not {given.shape} {given.dtype}")
     if given.min() < 0 or given.max() >= count:
-        raise InputError(f"slits name a vertex that is not among the {count}")
+        raise InputError(f"{name} name a vertex that is not among the {count}")
     return given.astype(np.int32)
