@@ -14,7 +14,7 @@ from ..maps.wording import few, lines
 from ..state.option_properties import option, shown_number
 from ..state.run_report import forget
 from .modal_run import redraw
-from .polls import has_targets, native_or_told
+from .polls import has_targets, native_or_error
 from .tooltip import tooltip
 
 
@@ -38,7 +38,7 @@ class UV_OT_koebe_pack(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
-        koebe = native_or_told(self)
+        koebe = native_or_error(self)
         if koebe is None:
             return {"CANCELLED"}
         options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale}
