@@ -36,7 +36,7 @@ public:
     FineSheet run()
     {
         require_few_faces(least_faces());
-        while (halve_once()) require_few_faces(static_cast<double>(corners_.size() / 3));
+        while (halve_once()) require_few_faces(static_cast<double>(face_.size()));
         require_stored();
         FineSheet fine;
         fine.vertices.resize(static_cast<Eigen::Index>(points_.size()), 3);
