@@ -262,7 +262,7 @@ build/actionlint/actionlint: | $(DONE)/go
 # Six minutes of two cores: clang-tidy reads each source with all of Eigen. FILES="native/... ..." looks at those alone,
 # SHARE=0/7 at every seventh.
 lint-native: $(VENV)/.done $(DONE)/install-lint
-	$(configure) -B build/lint -DKOEBE_HEAPS=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >build/lint.log
+	$(configure) -B build/lint -DKOEBE_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >build/lint.log
 	find native tests bench \( -name '*.h' -o -name '*.cpp' \) -print0 | xargs -0 clang-format --dry-run -Werror
 	SHARE=$(SHARE) scripts/clang_tidy.sh build/lint $(FILES)
 

@@ -28,7 +28,7 @@ OUT, PAGE, IMAGES = ROOT / "out" / "compare", ROOT / "docs" / "comparison.md", R
 MAPS = OUT / "maps"
 LIMIT = 300  # seconds of processor time of one map
 # In docs/: of what is this project's own or Blender's.
-PICTURED = ("Suzanne", "torus", "face_five_holes", "character", "hand", "mug", "closed_head")
+PICTURED = ("Suzanne", "torus", "face_five_holes", "hand")
 
 
 def parse():

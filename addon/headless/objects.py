@@ -59,11 +59,11 @@ def in_their_places(objects: list[MeshObject]) -> Iterator[None]:
             hidden.setdefault(_scene_of(obj), []).append(obj)
     helpers = []
     try:
-        for scene, ones in hidden.items():
-            helpers += [_helper(obj, scene) for obj in ones]
+        for scene, unseen in hidden.items():
+            helpers += [_helper(obj, scene) for obj in unseen]
             # A view-layer update is not enough: 3.4 does not animate another scene by it.
             scene.frame_set(scene.frame_current, subframe=scene.frame_subframe)
-            for obj in ones:  # 3.4 must be told again of an object with animated visibility
+            for obj in unseen:  # 3.4 must be set again for an object with animated visibility
                 obj.update_tag(refresh={"OBJECT"})
             scene.view_layers[0].update()
         yield

@@ -16,7 +16,7 @@ from .upright import upright_turn
 from .uv_islands import uv_islands, vertex_uv
 
 ON_CIRCLE = 1e-5  # UV units: distance from its circle allowed in 32-bit UVs
-LEAST_ROUND = 0.5  # share of a loop's vertices on its circle; the others belong to parts that hang on the loop
+LEAST_ROUND = 0.5  # share of a loop's vertices on its circle; the others belong to ears of the loop
 
 
 class DomainError(KnownError):
@@ -255,7 +255,7 @@ def _fitted(koebe: ModuleType, plane: np.ndarray, vertices: np.ndarray) -> Loop:
     """A loop with its circle in the UVs (n, 2). Raises DomainError if it is not round."""
     on = vertices
     center, radius, off = koebe.fit_circle(plane[on])
-    if off > ON_CIRCLE and len(on) > 3:  # some may hang on the loop by one edge
+    if off > ON_CIRCLE and len(on) > 3:  # some may belong to ears
         arms = np.abs(np.linalg.norm(plane[on] - center, axis=1) - radius)
         on = vertices[arms <= np.median(arms) + ON_CIRCLE]
         center, radius, _ = koebe.fit_circle(plane[on])

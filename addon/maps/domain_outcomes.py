@@ -217,9 +217,9 @@ def map_domain(
     Errors are those of their islands; `koebe.Cancelled` goes on.
     """
     outcome_type: type[DomainOutcome] = choice.domain.outcome
-    ones = [outcome_type.kind(island) for island in islands_to_map(task.surface)]
-    done, total = 0, sum(len(one.island.triangles) for one in ones)
-    for one in ones:
+    islands = [outcome_type.kind(island) for island in islands_to_map(task.surface)]
+    done, total = 0, sum(len(one.island.triangles) for one in islands)
+    for one in islands:
         size = len(one.island.triangles)
         with failing_alone(koebe, [one]):
             loops = checked_loops(koebe, one.island, choice.domain)
@@ -227,7 +227,7 @@ def map_domain(
             one.map(koebe, task, choice, loops, progress=share_of(progress, done, size, total), cancel=cancel, **run)
             one.judge(koebe, choice.most_lost)
         done += size
-    return outcome_type(task, ones, choice)
+    return outcome_type(task, islands, choice)
 
 
 def checked_loops(koebe: ModuleType, island: Island, domain: Domain) -> list[np.ndarray]:

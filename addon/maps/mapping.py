@@ -80,7 +80,7 @@ class _Run:
         self, koebe: ModuleType, options: Options, size: int, progress: Progress | None, cancel: Any
     ) -> None:
         self._koebe, self._options, self._progress, self._cancel = koebe, options, progress, cancel
-        self._total, self._done, self._told = max(size, 1), 0, 0.0  # triangles: all, finished; last reported share
+        self._total, self._done, self._reported = max(size, 1), 0, 0.0  # triangles: all, finished; last reported share
 
     def map(self, tasks: Sequence[Task]) -> list[list[IslandOutcome]]:
         """The outcome of each island of each task's surface."""
@@ -93,31 +93,31 @@ class _Run:
         cut = {index: _cut(task, *one) for index, (task, one) in enumerate(zip(tasks, outcomes, strict=True))}
         cut = {index: islands for index, islands in cut.items() if islands}
         again = self._map_all([(tasks[index], islands) for index, islands in cut.items()], self._is_last)
-        for index, ones in zip(cut, again, strict=True):
-            outcomes[index] = ones
+        for index, islands in zip(cut, again, strict=True):
+            outcomes[index] = islands
         if self._options.cut:
             self._open(tasks, outcomes)
         return outcomes
 
     def _open(self, tasks: Sequence[Task], outcomes: list[list[IslandOutcome]]) -> None:
         """Replace each island that cannot be mapped by the outcomes of its pieces."""
-        opened = [[self._opened(task, one) for one in ones] for task, ones in zip(tasks, outcomes, strict=True)]
-        named = [_names_left(task, ones, found)
-                 for task, ones, found in zip(tasks, outcomes, opened, strict=True)]  # fmt: skip
+        opened = [[self._opened(task, one) for one in islands] for task, islands in zip(tasks, outcomes, strict=True)]
+        named = [_names_left(task, islands, found)
+                 for task, islands, found in zip(tasks, outcomes, opened, strict=True)]  # fmt: skip
         pieces = [[piece for one in found if one for piece in one[1]] for found in opened]
         mapped = self._map_all([pair for pair in zip(named, pieces, strict=True) if pair[1]], _is_any)
         each = iter(mapped)
-        for ones, found, own in zip(outcomes, opened, pieces, strict=True):
+        for islands, found, own in zip(outcomes, opened, pieces, strict=True):
             if not own:
                 continue
             made = iter(next(each))
             result: list[IslandOutcome] = []
-            for one, pair in zip(ones, found, strict=True):
+            for one, pair in zip(islands, found, strict=True):
                 result += [one] if pair is None else itertools.islice(made, len(pair[1]))
                 if pair is not None:
                     for piece in result[len(result) - len(pair[1]) :]:
                         piece.opening = pair[0]
-            ones[:] = result
+            islands[:] = result
 
     def _opened(self, task: Task, one: IslandOutcome) -> tuple[Opening, list[Island]] | None:
         """The pieces of an island that the solver has refused, or None if cutting cannot help."""
@@ -179,17 +179,17 @@ class _Run:
             return None
 
         def tell(fraction: float, stage: str) -> None:
-            self._told = max(self._told, (done + fraction * size) / self._total)
-            progress(self._told, stage)
+            self._reported = max(self._reported, (done + fraction * size) / self._total)
+            progress(self._reported, stage)
 
         return tell
 
 
 def _names_left(
-    task: Task, ones: Sequence[IslandOutcome], found: Sequence[tuple[Opening, list[Island]] | None]
+    task: Task, islands: Sequence[IslandOutcome], found: Sequence[tuple[Opening, list[Island]] | None]
 ) -> Task:
     """The task for the pieces: they get a place in space only if no other island has taken it."""
-    others = [one.places for one, pair in zip(ones, found, strict=True) if pair is None]
+    others = [one.places for one, pair in zip(islands, found, strict=True) if pair is None]
     left: dict[str, Any] = {}
     for name in ("center", "point"):
         if isinstance(getattr(task, name), np.ndarray) and any(places.get(name) is not None for places in others):
@@ -283,14 +283,14 @@ def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:
 
 
 @contextlib.contextmanager
-def failing_alone(koebe: ModuleType, ones: Iterable[Any]) -> Iterator[None]:
+def failing_alone(koebe: ModuleType, islands: Iterable[Any]) -> Iterator[None]:
     """Makes any exception inside the error of these islands; the run goes on."""
     try:
         yield
     except koebe.Cancelled:
         raise
     except Exception as error:
-        for one in ones:
+        for one in islands:
             one.error = foreseen(koebe, error)
 
 

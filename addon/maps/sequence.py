@@ -240,7 +240,7 @@ def _next_map(
     kept: _Kept, first: SurfaceOutcome, task: Task, most_lost: float, progress: Progress | None, cancel: Any
 ) -> SurfaceOutcome:
     """The map of another shape, laid over the first."""
-    ones, done = [], 0
+    islands, done = [], 0
     total = sum(len(one.island.triangles) for one in first.islands)
     for old in first.islands:
         vertices = np.ascontiguousarray(task.surface.positions[old.island.source_vertex])
@@ -258,9 +258,9 @@ def _next_map(
             if not np.isfinite(one.uv).all():  # computed here, on this thread
                 raise MapError("its UVs are not finite")
             judge_island(kept, one, most_lost)  # type: ignore[arg-type]
-        ones.append(one)
+        islands.append(one)
         done += size
-    return SurfaceOutcome(task, ones)
+    return SurfaceOutcome(task, islands)
 
 
 def point_values(surface: Surface, corners: np.ndarray, uv: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:

@@ -89,7 +89,7 @@ class _Shared:
     def __init__(self, sizes: list[int], progress: Progress | None) -> None:
         self.fractions = [0.0] * len(sizes)
         self._sizes, self._total, self._progress = sizes, max(sum(sizes), 1), progress
-        self._stage, self._told = "", (0.0, "")
+        self._stage, self._reported = "", (0.0, "")
 
     def of(self, index: int, tell: bool) -> Progress | None:
         """The progress of one unit; `tell` if its thread reports the sum."""
@@ -107,7 +107,7 @@ class _Shared:
         if self._progress is None:
             return
         done = sum(size * fraction for size, fraction in zip(self._sizes, self.fractions, strict=True)) / self._total
-        news = max(done, self._told[0]), self._stage
-        if news != self._told and news[1]:
-            self._told = news
+        news = max(done, self._reported[0]), self._stage
+        if news != self._reported and news[1]:
+            self._reported = news
             self._progress(*news)

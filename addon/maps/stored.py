@@ -47,8 +47,8 @@ SERVES = {"parts": "Unwrap to Parts", "uniformize": "Unwrap to Disk"}
 
 def lost_text(share: float) -> str:
     """The sentence about a lost share of the area."""
-    told = f"{100.0 * share:.0f}" if share >= 0.1 else f"{100.0 * share:.2g}"
-    return f"{told} % of its area is lost: faces there have no area in the UVs"
+    said = f"{100.0 * share:.0f}" if share >= 0.1 else f"{100.0 * share:.2g}"
+    return f"{said} % of its area is lost: faces there have no area in the UVs"
 
 
 def judge(

@@ -4,7 +4,7 @@
 import dataclasses
 from typing import Any
 
-from .wording import MOST_TOLD, density_text
+from .wording import MOST_SHOWN, density_text
 
 EVEN = 4.0  # texel density at 95 % of the area over that at 5 %: below, a checker looks even
 COVERED = 0.4  # of the UV square: below, most of an image is empty
@@ -52,7 +52,7 @@ def _evenness(entry: Any) -> Figure:
             advice = "Texels are uneven: raise Even, or choose Shape: Parts"
         else:  # Automatic has the slider for parts, where Keep Angles moves it
             advice = "Texels are uneven: with Shape: Disk raise Even, or choose Shape: Parts"
-    value = f"1 : {density_text(entry.density)}" if entry.density <= MOST_TOLD else f"over {MOST_TOLD:.0f}"
+    value = f"1 : {density_text(entry.density)}" if entry.density <= MOST_SHOWN else f"over {MOST_SHOWN:.0f}"
     return Figure("Evenness", value, advice)
 
 

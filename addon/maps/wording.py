@@ -26,7 +26,7 @@ PINNED = "pinned UVs have moved too: this map cannot keep pins"
 MIRRORED = "the object's scale is negative, so textures look mirrored: apply the scale"
 UNEVEN_TEXELS = "texels are very uneven: Unwrap to Parts makes them even"
 MOST_UNEVEN = 100.0  # texel density at 95 % of the area over that at 5 %; above it the UVs cannot be painted on
-MOST_TOLD = 1000.0  # of such a ratio; larger values say no more
+MOST_SHOWN = 1000.0  # of such a ratio; larger values say no more
 FEW = 6  # reasons in one message, which must fit on the screen
 
 
@@ -93,7 +93,7 @@ def cut_line(opening: "Opening") -> str:
 
 def density_text(ratio: float) -> str:
     """A ratio of texel densities as a readable number."""
-    return f"{ratio:.1f}" if ratio <= MOST_TOLD else f"more than {MOST_TOLD:,.0f}"
+    return f"{ratio:.1f}" if ratio <= MOST_SHOWN else f"more than {MOST_SHOWN:,.0f}"
 
 
 def too_uneven(one: Mapped) -> bool:
@@ -110,8 +110,8 @@ def failure_line(outcome: Failures) -> str:
     for one in failed:
         reasons.setdefault(explain(one.error), []).append(one)
     text = "; ".join(
-        reason if len(ones) == 1 else f"{len(ones)} times: {reason}"
-        for reason, ones in reasons.items()
+        reason if len(alike) == 1 else f"{len(alike)} times: {reason}"
+        for reason, alike in reasons.items()
     )
     count = "" if len(outcome.islands) == 1 else f"{len(failed)} of {len(outcome.islands)} islands: "
     return f"{outcome.name}: {count}{text}"

@@ -10,7 +10,7 @@ from ..blender.filled_mesh import FillPlan
 from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
 from ..maps.wording import counted, few, lines
-from .polls import has_targets, native_or_told
+from .polls import has_targets, native_or_error
 from .tooltip import tooltip
 
 
@@ -39,7 +39,7 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
         return has_targets(cls, context, "Select a mesh object")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        koebe = native_or_told(self)
+        koebe = native_or_error(self)
         if koebe is None:
             return {"CANCELLED"}
         plans: list[FillPlan] = []

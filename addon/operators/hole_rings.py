@@ -15,7 +15,7 @@ from ..blender.transaction import transaction
 from ..jobs.moebius_job import MoebiusJob
 from ..maps.hole_rings import ring_edges
 from ..maps.offending_elements import EDGES
-from .polls import has_targets, native_or_told
+from .polls import has_targets, native_or_error
 from .tooltip import tooltip
 
 
@@ -47,7 +47,7 @@ class MESH_OT_koebe_loops_around_holes(bpy.types.Operator):
             layout.prop(self, name)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        koebe = native_or_told(self)
+        koebe = native_or_error(self)
         if koebe is None:
             return {"CANCELLED"}
         obj = target_objects(context)[0]

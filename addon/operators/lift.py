@@ -93,9 +93,9 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
             self.report({"ERROR"}, lines("Koebe UV: no copy was made.", problems))
             return {"CANCELLED"}
         for outcome in done:
-            told = outcome.warnings()
-            self.report({"WARNING"} if told else {"INFO"}, outcome.line(self.way == "perforate"))
-            for text in told:
+            warnings = outcome.warnings()
+            self.report({"WARNING"} if warnings else {"INFO"}, outcome.line(self.way == "perforate"))
+            for text in warnings:
                 self.report({"WARNING"}, f"{outcome.name}: {text}")
         if problems:
             self.report({"WARNING"}, "Koebe UV: left out. " + few(problems))

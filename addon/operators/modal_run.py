@@ -60,7 +60,7 @@ class ModalRun(OperatorBase):
     """
 
     def _job(self, context: bpy.types.Context) -> Any:
-        """The job, or None if there is nothing to do and the user was told why."""
+        """The job, or None if there is nothing to do and the reason was reported."""
         raise NotImplementedError
 
     def _reading(self, context: bpy.types.Context, job: Any) -> Generator[float, None, None] | None:

@@ -15,7 +15,7 @@ from ..maps.wording import few, lines
 from ..state.option_properties import option, shown_number
 from ..state.run_report import forget
 from .modal_run import ModalRun, redraw
-from .polls import has_targets, native_or_told
+from .polls import has_targets, native_or_error
 from .tooltip import tooltip
 
 
@@ -42,7 +42,7 @@ class UV_OT_koebe_pack(ModalRun, bpy.types.Operator):
 
     def _job(self, context: bpy.types.Context) -> PackJob | None:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
-        koebe = native_or_told(self)
+        koebe = native_or_error(self)
         if koebe is None:
             return None
         options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale,

@@ -23,8 +23,8 @@ def has_targets(
     return False
 
 
-def native_or_told(operator: bpy.types.Operator) -> ModuleType | None:
-    """The native package, or None if it is missing and the user was told why."""
+def native_or_error(operator: bpy.types.Operator) -> ModuleType | None:
+    """The native package, or None if it is missing, and then an error is reported."""
     try:
         return native_package.load()
     except NativeError as error:

@@ -17,7 +17,7 @@ from ..state import moved_circles
 from ..state.run_report import report_of
 from .modal_run import redraw
 from .moebius import numbered
-from .polls import has_targets, native_or_told
+from .polls import has_targets, native_or_error
 from .tooltip import tooltip
 
 Done = tuple[MoebiusJob, Symmetry]
@@ -40,7 +40,7 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
-        koebe = native_or_told(self)
+        koebe = native_or_error(self)
         if koebe is None:
             return {"CANCELLED"}
         problems: list[str] = []

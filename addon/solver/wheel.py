@@ -210,7 +210,7 @@ def _write_known(file: Path, folder: str, stamps: dict[str, list[int]]) -> None:
         file.parent.mkdir(parents=True, exist_ok=True)
         try:
             content = {**_read_known(file), folder: stamps}
-            content = {path: ones for path, ones in content.items() if Path(path).is_dir()}
+            content = {path: of_path for path, of_path in content.items() if Path(path).is_dir()}
             temporary.write_text(json.dumps(content), encoding="utf-8")
             os.replace(temporary, file)
         finally:

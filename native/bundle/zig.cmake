@@ -33,7 +33,7 @@ set(CMAKE_AR ${tools}/ar CACHE FILEPATH "")
 set(CMAKE_RANLIB ${tools}/ranlib CACHE FILEPATH "")
 set(CMAKE_RC_COMPILER ${tools}/rc)
 set(CMAKE_INSTALL_NAME_TOOL true)  # wanted for macOS, and not called: names are final when linked
-# zig's compilers write what debuggers want unless told not to: a fifth of the compile time, and nobody reads it.
+# zig's compilers write what debuggers want unless asked not to: a fifth of the compile time, and nobody reads it.
 foreach(language C CXX)
   string(APPEND CMAKE_${language}_FLAGS_INIT " -g0")
 endforeach()

@@ -214,6 +214,7 @@ def test_shapes_are_those_of_the_operator(batch, tmp_path, options):
     assert entry["unrolled"] is (options.get("tube") == "unroll") and entry["flipped"] == 0
 
 
+@pytest.mark.alike
 def test_loops_are_reported_in_the_numbers_of_the_mesh(batch, tmp_path):
     vertices, faces = scenes.panel_arrays()
     faces = [[v + 10 for v in face] for face in faces]
@@ -226,6 +227,7 @@ def test_loops_are_reported_in_the_numbers_of_the_mesh(batch, tmp_path):
     }
 
 
+@pytest.mark.alike
 def test_only_the_named_objects_and_no_checker(batch, tmp_path):
     for name in ("A", "B, not C", "C"):
         scenes.add_panel(name, size=12, holes=((0.1, 0.4, 0.4, 0.7),))
@@ -312,6 +314,7 @@ def test_the_output_may_replace_the_input_and_leaves_no_backup(batch, tmp_path):
     assert "Koebe" in bpy.data.objects["Panel"].data.uv_layers
 
 
+@pytest.mark.alike
 def test_a_failed_run_keeps_an_older_output(batch, tmp_path):
     (tmp_path / "out.blend").write_text("older")
     scenes.add_cube()

@@ -100,6 +100,7 @@ def test_a_report_is_written_on_a_scene_without_meshes(batch, tmp_path):
     assert read_report(tmp_path)[0]["error"]["reason"] == "the scene has no mesh objects"
 
 
+@pytest.mark.alike
 def test_every_object_that_cannot_be_written_is_named(batch, tmp_path):
     for name in ("Good", "Full", "Fuller"):
         scenes.add_panel(name, **SMALL)
@@ -113,6 +114,7 @@ def test_every_object_that_cannot_be_written_is_named(batch, tmp_path):
     assert entries.keys() == {"Full", "Fuller"} and content["error"]["name"] == "TransferError"
 
 
+@pytest.mark.alike
 def test_a_named_object_without_faces_is_not_passed_over(batch, tmp_path):
     scenes.add_panel(**SMALL)
     scenes.add_object("Wire", [(0, 0, 0), (1, 0, 0)], [])

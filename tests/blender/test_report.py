@@ -263,8 +263,8 @@ def test_what_a_warning_counts_beside_its_elements_are_triangles(addon, koebe):
         [0], "1 face around vertex 107, near loop 1, 1 triangle of them flipped")  # fmt: skip
     assert said("off_circle", [4, 5], "2 vertices taken off the circle; the first vertex is 4") == (
         [104, 105], "2 vertices taken off the circle; the first vertex is 104")  # fmt: skip
-    assert said("flaps", [1], "hanging on a loop by one edge: 1 part with 1 face, the first by the edge 3-12") == (
-        [0], "hanging on a loop by one edge: 1 part with 1 face, the first by the edge 103-112")  # fmt: skip
+    assert said("ears", [1], "joined to a loop by one edge: 1 part with 1 face, the first by the edge 3-12") == (
+        [0], "joined to a loop by one edge: 1 part with 1 face, the first by the edge 103-112")  # fmt: skip
 
 
 # ---------------------------------------------------------------- what is lost

@@ -130,7 +130,7 @@ def test_selected_faces_unroll_and_the_others_stay():
 
 
 
-# ---------------------------------------------------------------- flaps and chords
+# ---------------------------------------------------------------- ears and chords
 
 
 def add_tube_with_ear(triangles):
@@ -168,7 +168,7 @@ def test_an_ear_on_the_rim_is_no_end_for_the_cut(triangles):
 @pytest.mark.alike
 @pytest.mark.parametrize("name", ["face_surprised", "perforated_panel"])
 def test_any_part_of_a_sample_unrolls_or_says_why(name):
-    """Random selections have flaps, chords and points where they touch; a healthy object beside them is mapped."""
+    """Random selections have ears, chords and points where they touch; a healthy object beside them is mapped."""
     bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{name}.blend"))
     obj, random = next(obj for obj in bpy.data.objects if obj.type == "MESH"), np.random.default_rng(5)
     healthy = scenes.add_panel("Healthy", size=12)

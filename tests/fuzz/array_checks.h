@@ -9,7 +9,7 @@ namespace koebe::fuzz {
 
 using ArrayCheck = void (*)(const Program&);
 
-/// Of connectivity and shape: topology, canonical form, flaps, holes, metric.
+/// Of connectivity and shape: topology, canonical form, ears, holes, metric.
 std::span<const ArrayCheck> surface_checks();
 
 /// Of the plane: maps of disks and annuli, distortion, planar meshes, circle domains.

@@ -5,7 +5,7 @@
 #include "canonical/canonical_form.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
-#include "flaps/flaps.h"
+#include "ears/ears.h"
 #include "holes/fair_filling.h"
 #include "holes/fan_filling.h"
 #include "mesh/halfedge_mesh.h"
@@ -79,18 +79,18 @@ void check_canonical_form(const Program& program)
     require(rim_of(loops) == rim_of(surface.loops), "the form has the same boundary");
 }
 
-void check_flaps(const Program& program)
+void check_ears(const Program& program)
 {
     const Surface surface = checked_surface(program);
-    const FlapCut cut = cut_flaps(program.soup.vertices(), surface, surface.loops);
-    if (cut.flaps.empty()) return;
+    const EarCut cut = cut_ears(program.soup.vertices(), surface, surface.loops);
+    if (cut.ears.empty()) return;
     std::vector<Index> faces;
-    for (const Flap& flap : cut.flaps) faces.insert(faces.end(), flap.faces.begin(), flap.faces.end());
+    for (const Ear& ear : cut.ears) faces.insert(faces.end(), ear.faces.begin(), ear.faces.end());
     const std::size_t cut_off = faces.size();
     std::ranges::sort(faces);
-    require(std::ranges::adjacent_find(faces) == faces.end(), "a face belongs to one flap");
+    require(std::ranges::adjacent_find(faces) == faces.end(), "a face belongs to one ear");
     require(cut_off + static_cast<std::size_t>(cut.core.triangles.rows()) == program.soup.faces.size(),
-            "flaps and core are the whole");
+            "ears and core are the whole");
     require(cut.loops.size() == surface.loops.size(), "the core has every loop");
     for (const VertexLoop& loop : cut.loops) require(loop.size() >= 3, "a loop keeps three vertices");
 }
@@ -146,7 +146,7 @@ void check_halfedges(const Program& program)
     require(back.triangles.rows() == static_cast<Eigen::Index>(program.soup.faces.size()), "faces come back");
 }
 
-constexpr ArrayCheck checks[] = {check_topology, check_canonical_form, check_flaps,    check_fans,
+constexpr ArrayCheck checks[] = {check_topology, check_canonical_form, check_ears,     check_fans,
                                  check_fairing,  check_metric,         check_halfedges};
 
 }  // namespace

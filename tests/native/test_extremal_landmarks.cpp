@@ -148,29 +148,30 @@ TEST(ExtremalLandmarks, marks_of_all_kinds_have_bounds_that_nearly_meet)
 
 TEST(ExtremalLandmarks, a_bound_of_a_match_is_below_its_dilatation)
 {
-    const std::vector<Circle> from = five_circles();
-    std::vector<Circle> to{Circle{}, from[3], from[1], from[4], from[2]};
+    std::vector<Circle> from = five_circles();
+    from.pop_back();
+    std::vector<Circle> to{Circle{}, from[3], from[1], from[2]};
     for (std::size_t k = 1; k < to.size(); ++k) to[k].radius *= 0.8;
     const CircleDomain domain = make_circle_domain(from, 500);
     ExecutionContext context;
     const auto all = bounded_matches(domain.circles, to, 1e300, context);
-    EXPECT_EQ(all.size(), 24U);
+    EXPECT_EQ(all.size(), 6U);
     EXPECT_TRUE(std::ranges::is_sorted(all));
     double least = 1e300;
-    int mapped_ones = 0;
+    int mapped_count = 0;
     for (const auto& [bound, match] : all) {
         try {
             const TeichmuellerMap map = teichmueller_map(mapped(domain), to, {.match = match}, context);
             EXPECT_LE(bound, 1.001 * map.dilatation);
             least = std::min(least, map.dilatation);
-            ++mapped_ones;
+            ++mapped_count;
         } catch (const SolverError&) {
         }
     }
-    EXPECT_GT(mapped_ones, 3);
+    EXPECT_GT(mapped_count, 2);
     const TeichmuellerMap map = teichmueller_map(mapped(domain), to, {.least_match = true}, context);
     EXPECT_EQ(map.dilatation, least);
-    EXPECT_EQ(map.match, (std::vector<int>{0, 2, 4, 1, 3}));
+    EXPECT_EQ(map.match, (std::vector<int>{0, 2, 3, 1}));
 }
 
 TEST(ExtremalLandmarks, refuses_what_excludes_itself)

@@ -1,6 +1,7 @@
 #include "circle_domain.h"
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
+#include "iteration/disk_patch.h"
 #include "iteration/koebe_mesh.h"
 #include "pipeline/uniformize.h"
 #include "surface/harmonic_map.h"
@@ -61,7 +62,8 @@ TEST_P(KoebeMeshMethod, slow_finds_the_circles_of_a_lifted_circle_domain)
 {
     UniformizeOptions options;
     options.method = GetParam();
-    for (const Lift kind : {Lift::plane, Lift::polynomial, Lift::sphere, Lift::enneper}) {
+    // That all methods agree on the other lifts, slow_all_methods_find_the_same_circles shows.
+    for (const Lift kind : {Lift::plane, Lift::enneper}) {
         double first = 0.0, last = 0.0;
         for (const Index faces : {1000, 6000}) {
             const CircleDomain domain = make_circle_domain(five_circles(), faces);

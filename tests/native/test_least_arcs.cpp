@@ -1,5 +1,5 @@
-#include "flap_domain.h"
-#include "flaps/least_arcs.h"
+#include "ear_domain.h"
+#include "ears/least_arcs.h"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +8,14 @@
 using namespace koebe;
 using namespace koebe::test;
 
-TEST(LeastArcs, the_edge_of_a_flap_takes_room_for_each_of_the_flaps_edges)
+TEST(LeastArcs, the_edge_of_a_ear_takes_room_for_each_of_the_ears_edges)
 {
     CircleDomain domain = make_circle_domain(five_circles(), 1000);
     const Index a = domain.loops[0][7], b = domain.loops[0][8];
     glue_ear(domain, 0, a, glue_ear(domain, 0, a, b, 0.8), 0.8);
     const Surface surface = require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()));
-    const FlapCut cut = cut_flaps(lift(domain.points, Lift::plane), surface, domain.loops);
-    const VectorXd room = least_arcs(cut.core, cut.loops[0], cut.flaps, cut.vertices);
+    const EarCut cut = cut_ears(lift(domain.points, Lift::plane), surface, domain.loops);
+    const VectorXd room = least_arcs(cut.core, cut.loops[0], cut.ears, cut.vertices);
     const double mean = 2.0 * std::numbers::pi / static_cast<double>(room.size());
     for (Eigen::Index i = 0; i < room.size(); ++i) EXPECT_NEAR(room[i], i == 7 ? 3e-3 : 1e-3 * mean, 1e-15) << i;
 }

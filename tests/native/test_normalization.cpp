@@ -1,8 +1,8 @@
 // The laws of the normalization: what goes to 0 and to 1 is there exactly, and the map is an automorphism of the other.
 #include "circle_domain.h"
 #include "core/errors.h"
+#include "ear_domain.h"
 #include "embedding/embedded_map.h"
-#include "flap_domain.h"
 #include "loop_circles.h"
 #include "pipeline/final_check.h"
 #include "pipeline/normalization.h"
@@ -276,7 +276,7 @@ TEST(Normalization, a_vertex_that_cannot_go_there_is_named)
     EXPECT_THROW(uniformize(surface, domain.triangles, options), InputError);
 }
 
-TEST(Normalization, holds_within_flaps)
+TEST(Normalization, holds_within_ears)
 {
     for (const int loop : {0, 1}) {
         CircleDomain domain = make_circle_domain(some_circles(2), 600);

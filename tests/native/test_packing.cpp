@@ -134,7 +134,7 @@ TEST(Packing, slow_many_islands_have_room_and_less_margin)
     EXPECT_GT(2.0 * 5000.0 * packing.scale * packing.scale, 0.4);
 }
 
-TEST(Packing, crumbs_lie_apart_beside_large_islands)
+TEST(Packing, small_islands_lie_apart_beside_large_islands)
 {
     std::mt19937_64 random(8);
     std::vector<Outline> outlines;

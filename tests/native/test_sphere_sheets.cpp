@@ -41,7 +41,7 @@ std::pair<Vertices, Triangles> open_sphere(unsigned seed)
 
 TEST(SphereSheets, EachHalfIsOnePiece)
 {
-    int crumbs = 0;
+    int small_parts = 0;
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto [points, triangles] = open_sphere(seed);
         const SphereSheets sheets = sphere_sheets(points, triangles, points, {});
@@ -55,9 +55,9 @@ TEST(SphereSheets, EachHalfIsOnePiece)
         connected_pieces(twin, south, halves);
         connected_pieces(twin, low, sides);
         EXPECT_EQ(halves, 2) << "seed " << seed;
-        crumbs += sides > halves ? 1 : 0;
+        small_parts += sides > halves ? 1 : 0;
     }
-    EXPECT_GT(crumbs, 10) << "the middles alone leave small pieces";
+    EXPECT_GT(small_parts, 10) << "the middles alone leave small pieces";
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "blend_samples"))
 from cage_mesher import Cage, catmull_clark, edges_of, limb_sections, oval  # noqa: E402
 from implicit_shapes import chain, project  # noqa: E402
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.long]  # of the samples' maker, which no user has
 
 
 def euler(points, quads):

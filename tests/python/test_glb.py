@@ -259,7 +259,7 @@ def test_vertices_that_old_uvs_cut_are_one_surface(tmp_path):
     loose = vertices[faces].reshape(-1, 3)  # each corner has a vertex of its own
     scene.mesh({"attributes": {"POSITION": scene.positions(loose)}})
     new, report = mapped(tmp_path, scene.bytes(), "uniformize")
-    assert len(report["loops"]) == 2 and report["flipped"] == 0 and kinds_in(report) <= {"flaps"}
+    assert len(report["loops"]) == 2 and report["flipped"] == 0 and kinds_in(report) <= {"ears"}
     uv = new.array(new.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"])
     places = {}
     for position, point in zip(map(tuple, loose), map(tuple, uv), strict=True):
@@ -329,7 +329,7 @@ def test_a_scene_of_one_mesh_is_an_input_of_every_command(tmp_path):
     assert run.returncode == 0, run.stderr
     lines = (tmp_path / "out.obj").read_text().splitlines()
     assert sum(line.startswith("v ") for line in lines) == len(vertices)
-    assert kinds_in(json.loads((tmp_path / "out.json").read_text())) == {"flaps", "not_kept"}
+    assert kinds_in(json.loads((tmp_path / "out.json").read_text())) == {"ears", "not_kept"}
 
 
 def test_wrong_usage_is_refused(tmp_path):

@@ -1,4 +1,4 @@
-"""The rooms of native/, folders of its layers: includes run one way, and each room is on the map in CONTRIBUTING.md.
+"""The rooms of native/, folders of its layers: includes run one way, and each room is on docs/developers/rooms.md.
 
 That a layer includes only the layers below it, the compiler sees (native/CMakeLists.txt).
 """
@@ -66,7 +66,7 @@ def test_the_folders_of_the_command_are_one_upon_the_other():
 
 
 def test_every_room_is_on_the_map():
-    page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/developers/rooms.md").read_text(encoding="utf-8")
     shown = re.search(r"^```\n(native/.*?)^```$", page, re.MULTILINE | re.DOTALL)[1]
     layers = re.split(r"^native/(\w+)/", shown, flags=re.MULTILINE)
     named = {name for layer, text in zip(layers[1::2], layers[2::2]) if layer not in NO_LAYERS
@@ -134,12 +134,12 @@ def test_a_function_is_in_one_header():
     }.items(),
 )
 def test_what_is_used_of_eigen_is_included(module, use):
-    # Otherwise its functions are declared and not there, unless another source of the heap includes it.
+    # Otherwise its functions are declared and not there, unless another source of its unity group includes it.
     used = [path for path in NATIVE.rglob("*.[ch]*") if re.search(use, path.read_text(encoding="utf-8"))]
     included = re.compile(f"#include <Eigen/({module}|Dense)>")
     assert used and not [path.name for path in used if not included.search(path.read_text(encoding="utf-8"))]
 
 
 def test_no_header_includes_that_of_windows():
-    # It makes macros of "near", "far" and other words, in every source of a heap that follows.
+    # It makes macros of "near", "far" and other words, in every source of a unity group that follows.
     assert not [path for path in NATIVE.rglob("*.h") if "<windows.h>" in path.read_text(encoding="utf-8")]

@@ -37,7 +37,7 @@ def test_each_step_puts_the_loop_that_it_opens_on_the_unit_circle():
     for step, image in zip(r.history, r.step_maps):
         assert image.shape == (len(VERTICES), 2)
         radius = np.hypot(*image[r.loops[step["pair"][0]]].T)
-        assert np.isfinite(radius).sum() >= len(radius) - 4  # flaps are not in it
+        assert np.isfinite(radius).sum() >= len(radius) - 4  # ears are not in it
         assert np.nanmax(np.abs(radius - 1.0)) < 1e-12
     assert run().step_maps == []
 

@@ -60,7 +60,7 @@ def test_a_hole_turned_over_breaks_a_promise():
     assert promises.turned_over(hole) and not promises.turned_over(hole[::-1]) and not promises.turned_over(hole * 1e-4)
 
 
-# Vertices deep in flaps and limbs, of meshes of a few faces: where an automorphism turns faces over.
+# Vertices deep in ears and limbs, of meshes of a few faces: where an automorphism turns faces over.
 PLACED = [
     ("stacked", 2, 17, 23), ("stacked", 8, 7, 4), ("sphere", 2, 3, 4), ("ragged", 0, 311, None),
     ("ragged", 6, 111, 231), ("ragged", 8, 108, 95), ("lifted", 3, 171, 140), ("lifted", 9, 158, 30),

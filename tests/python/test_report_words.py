@@ -19,7 +19,7 @@ def warning(kind, *elements, text="as the solver says it"):
 
 def test_warnings_of_a_kind_are_one_sentence_with_all_their_elements(addon):
     said = addon("maps.warning_words").in_words(
-        [warning("flaps", 7, 3), warning("lost_circles", 1), warning("flaps", 3, 5), warning("other"),
+        [warning("ears", 7, 3), warning("lost_circles", 1), warning("ears", 3, 5), warning("other"),
          warning("not_even")])  # fmt: skip
     assert [one.get("elements") for one in said] == [[3, 5, 7], None, None, None]
     assert said[0]["text"].startswith("3 faces at the boundary are squeezed ") and said[0]["of"] == "faces"
@@ -30,7 +30,7 @@ def test_warnings_of_a_kind_are_one_sentence_with_all_their_elements(addon):
 
 
 def test_faces_that_a_cut_has_loosened_are_not_the_meshs_fault(addon):
-    (said,) = addon("maps.warning_words").in_words([warning("flaps", 7, 3)], is_cut=True)
+    (said,) = addon("maps.warning_words").in_words([warning("ears", 7, 3)], is_cut=True)
     assert said["text"].startswith("2 faces beside a cut are squeezed ") and "Subdivide" not in said["text"]
 
 

@@ -41,7 +41,7 @@ def test_a_result_survives_a_file_and_a_pickle(result, tmp_path):
 
 
 def test_before_balance_is_the_distortion_of_the_map_without_it():
-    assert "flaps" in [warning.kind for warning in RESULT.warnings]  # they count too
+    assert "ears" in [warning.kind for warning in RESULT.warnings]  # they count too
     before = koebe.uniformize(VERTICES, FACES, balance="area").area_distortion["before_balance"]
     assert before == {name: RESULT.area_distortion[name] for name in before}
 

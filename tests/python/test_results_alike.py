@@ -114,10 +114,10 @@ def test_a_loop_has_its_figures():
 
 
 def test_a_warning_is_a_warning_of_python_and_a_mapping():
-    one = koebe.Warning({"kind": "flaps", "elements": [3, 5], "text": "2 faces; the first face is 3"})
+    one = koebe.Warning({"kind": "ears", "elements": [3, 5], "text": "2 faces; the first face is 3"})
     assert isinstance(one, UserWarning) and issubclass(koebe.Warning, RuntimeWarning)
-    assert dict(one) == {"kind": "flaps", "elements": [3, 5], "text": str(one)} and one == dict(one)
-    assert one.kind == one["kind"] == "flaps" and one.of == "faces" and pickle.loads(pickle.dumps(one)) == one
+    assert dict(one) == {"kind": "ears", "elements": [3, 5], "text": str(one)} and one == dict(one)
+    assert one.kind == one["kind"] == "ears" and one.of == "faces" and pickle.loads(pickle.dumps(one)) == one
     assert one.renumbered(np.arange(10) * 2).text == "2 faces; the first face is 6"
     assert json.loads(json.dumps(dict(one))) == one and not hasattr(one, "nothing")
     with warnings.catch_warnings(record=True) as told:
@@ -129,6 +129,11 @@ def test_a_warning_is_a_warning_of_python_and_a_mapping():
         with pytest.raises(koebe.Warning, match="2 faces") as caught:
             warnings.warn(one, stacklevel=1)
     assert caught.value.elements == [3, 5]
+
+
+def test_kinds_that_1_0_has_saved_are_read():
+    old = koebe.Warning({"kind": "flaps", "elements": [3], "text": "1 face"})
+    assert (old.kind, old.of) == ("ears", "faces")
 
 
 def test_signatures_fit_a_screen():

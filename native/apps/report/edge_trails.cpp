@@ -51,6 +51,7 @@ std::vector<std::vector<Index>> edge_trails(const std::vector<Edge>& edges, Inde
         }
         return true;
     };
+    // A trail ends only at vertices of odd degree: these begin, and closed trails are left (Euler 1736).
     for (Index v = 0; v < vertex_count; ++v)
         if (incidence.degree(v) % 2 == 1) walk_from(v);
     for (Index v = 0; v < vertex_count; ++v)

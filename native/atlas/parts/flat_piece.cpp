@@ -41,7 +41,7 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
         if (parts.size() > uncut.size() && overflow_of(parts) > vain * overflow_of(uncut)) return uncut;
         if (parts.size() == 1 || !merge_parts(whole, options, parts, refused, context, effort)) break;
     }
-    merge_crumbs(whole, options, parts, context, effort);
+    merge_small_parts(whole, options, parts, context, effort);
     return parts;
 }
 
@@ -110,7 +110,7 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
     const std::vector<PartPointer> before = parts;
     hide_cuts(whole, prices, parts, context, effort);
     if (is_symmetric && !make_symmetric(whole, prices, mirror, parts, context, effort)) parts = before;
-    merge_crumbs(whole, prices, parts, context, effort);
+    merge_small_parts(whole, prices, parts, context, effort);
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });
 
     // Lay the parts flat. A part that was cut for its flaws has been tried as one part.

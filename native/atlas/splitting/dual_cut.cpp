@@ -110,7 +110,7 @@ private:
 };
 
 /// Pieces of a few faces take the label round them.
-void drop_crumbs(const PartMesh& part, std::vector<int>& label)
+void relabel_small_pieces(const PartMesh& part, std::vector<int>& label)
 {
     for (int round = 0; round < 4; ++round) {
         Index count = 0;
@@ -202,7 +202,7 @@ std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& give
     for (std::size_t f = 0; f < sides.size(); ++f)
         label[f] = node[f] == source || (node[f] != sink && color[node[f]] == color[source]);
     drop_ears(part, label);
-    drop_crumbs(part, label);
+    relabel_small_pieces(part, label);
     if (std::ranges::count(label, 1) == 0 || std::ranges::count(label, 0) == 0) return {};
     return label;
 }

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double worth_mapping = -0.25;  // of a part's price: with a larger predicted gain the merged part is mapped
 constexpr std::size_t most_at_once = 4;  // merges tried side by side, for any number of threads
-constexpr std::size_t few = 20;          // a part with fewer faces is a crumb, and
+constexpr std::size_t few = 20;          // a part with fewer faces is small, and
 constexpr std::size_t small = 400;       // a part with less than one face in so many of the whole
-constexpr double crumb_worth = 4.0;      // prices of a part: a crumb stays if it saves more, beside its own price
+constexpr double small_worth = 4.0;      // prices of a part: a small part stays if it saves more, beside its own price
 constexpr double sure = 0.5;             // of price and forecast: a larger gain needs no map
 
 /// The smallest part from which both parts come.
@@ -165,19 +165,19 @@ bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vect
     return any;
 }
 
-void merge_crumbs(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
-                  ExecutionContext& context, SplitEffort& effort)
+void merge_small_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
+                       ExecutionContext& context, SplitEffort& effort)
 {
     std::set<PartPointer> kept;
     const std::size_t largest = std::max(few, static_cast<std::size_t>(whole.areas.size()) / small);
     for (;;) {
-        const auto crumb = std::ranges::find_if(
+        const auto found = std::ranges::find_if(
             parts, [&](const PartPointer& part) { return part->mesh.faces.size() < largest && !kept.contains(part); });
-        if (crumb == parts.end()) return;
-        const int own = static_cast<int>(crumb - parts.begin());
+        if (found == parts.end()) return;
+        const int own = static_cast<int>(found - parts.begin());
         PartPointer best;
         int neighbour = -1;
-        double best_gain = -crumb_worth * options.part_price;
+        double best_gain = -small_worth * options.part_price;
         for (const auto& [pair, length] : borders(whole, parts)) {
             if (pair.first != own && pair.second != own) continue;
             context.checkpoint();
@@ -194,7 +194,7 @@ void merge_crumbs(const CutSurface& whole, const SplitOptions& options, std::vec
             neighbour = other;
         }
         if (neighbour < 0) {
-            kept.insert(*crumb);
+            kept.insert(*found);
             continue;
         }
         parts[std::min(own, neighbour)] = std::move(best);

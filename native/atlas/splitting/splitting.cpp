@@ -19,7 +19,7 @@ constexpr double remaining = 0.6;          // of an uneven child's cost: left af
 constexpr double unknown_cost = 0.25;      // in u: cost of a face that the parent's map lost, as its own map may not
 constexpr std::size_t most_looked_at = 8;  // most proposals of a part
 constexpr std::size_t most_verified = 3;   // proposals whose children are mapped
-constexpr double crumb_leaves = 0.9;       // of a part's area
+constexpr double nearly_all = 0.9;         // of a part's area: a larger child leaves only a small part beside it
 constexpr double least_return = 0.5;       // of the price: the cost that a split must save at once
 constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
 constexpr double surely_lost = 0.02;       // of a part's area: such a child needs its own map
@@ -72,8 +72,8 @@ void make_children(const CutSurface& whole, const PartPointer& part, Split& spli
         split.children.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, part}));
 }
 
-/// The gain by the maps of the children, or by forecasts for children without a map. Cutting off a crumb must pay by
-/// itself, without hope for later splits: otherwise crumbs would go one after the other.
+/// The gain by the maps of the children, or by forecasts for children without a map. Cutting off a small part must pay
+/// by itself, without hope for later splits: otherwise small parts would be cut off one after the other.
 double gain_of(const Split& split, const Part& part, const SplitOptions& options)
 {
     const double price =
@@ -87,8 +87,8 @@ double gain_of(const Split& split, const Part& part, const SplitOptions& options
         expected += expected_cost(cost, options.part_price);
     }
     const double before = cost_of(part.map);
-    const bool is_crumb = largest > crumb_leaves * part.mesh.area;
-    return is_crumb && before - left < least_return * price ? -price : before - expected - price;
+    const bool leaves_little = largest > nearly_all * part.mesh.area;
+    return leaves_little && before - left < least_return * price ? -price : before - expected - price;
 }
 
 /// The splits that seem to pay, the best first.

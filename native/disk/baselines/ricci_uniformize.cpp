@@ -4,10 +4,10 @@
 #include "circles/moebius.h"
 #include "core/counted.h"
 #include "core/tolerances.h"
+#include "ears/ear_map.h"
 #include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
 #include "execution/stopwatch.h"
-#include "flaps/flap_map.h"
 #include "linear/dense_spd.h"
 #include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
@@ -71,9 +71,9 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 
     context.begin_stage("topology", 0.0, 0.05);
     const MapInput whole = prepare_input(vertices, triangles, options.common);
-    FlapCut cut = cut_flaps(whole.vertices, whole.surface, whole.loops);
+    EarCut cut = cut_ears(whole.vertices, whole.surface, whole.loops);
     std::optional<MapInput> core;
-    if (!cut.flaps.empty()) core = core_input(whole, cut);
+    if (!cut.ears.empty()) core = core_input(whole, cut);
     const MapInput& input = core ? *core : whole;
     result.outer_loop = input.outer_rank;
     result.seconds.topology = run.elapsed();
@@ -102,7 +102,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     context.begin_stage("finish", 0.9, 1.0);
     CircleMap map = in_normal_position(flow, input);
     const std::size_t own_flips = flipped_faces(input.surface.triangles, map.uv).size();
-    map = with_flaps(whole, cut, std::move(map), context);
+    map = with_ears(whole, cut, std::move(map), context);
     normalize(whole, map);
     // A surface that is not flat has no layout: flips are everywhere, and untangling them would be useless.
     const UntangleReport untangled = flow.curvature_error < flat ? remove_flips(whole, map, context) : UntangleReport{};
@@ -120,7 +120,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     if (own_flips > 0)
         result.warnings.push_back(
             {WarningKind::flow_flips, "faces flipped by the flow's own map: " + std::to_string(own_flips)});
-    for (Warning& warning : flip_warnings(whole, map.uv, cut.flaps, untangled, result.distortion))
+    for (Warning& warning : flip_warnings(whole, map.uv, cut.ears, untangled, result.distortion))
         result.warnings.push_back(std::move(warning));
     if (const MapFaults faults = find_faults(whole.surface.triangles, whole.loops, map.uv, map.circles); faults.any()) {
         result.converged = false;

@@ -16,7 +16,7 @@ struct RicciOptions {
 
 /// Maps a surface with holes to a circle domain by the discrete Ricci flow (baselines/ricci_flow.h).
 ///
-/// Before and after the flow it does the same as uniformize: cuts flaps off and hangs them back, untangles flipped
+/// Before and after the flow it does the same as uniformize: cuts ears off and attaches them again, untangles flipped
 /// faces, makes two loops concentric. Flips stay only where curvature remains. The flow's own map is neither put on
 /// circles nor balanced. Method and engine of the result are the options' and mean nothing. Warnings say by how much
 /// the packing has changed the metric, how many faces the flow's own map flips, and why it has not converged.

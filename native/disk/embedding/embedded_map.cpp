@@ -85,9 +85,9 @@ constexpr std::size_t steps_of_all = 60, most_for_small = 200000;
 class Embedding {
 public:
     Embedding(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-              const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places, const ExecutionContext& context)
+              const std::vector<Ear>& ears, const VectorXcd& rim, FixedPlaces places, const ExecutionContext& context)
         : loops_(loops),
-          map_(vertices, surface, loops, flaps, rim, places, context),
+          map_(vertices, surface, loops, ears, rim, places, context),
           off_(loops.size(), 0),
           roundness_(loops.size()),
           most_work_(steps_of_all * static_cast<std::size_t>(surface.triangles.rows()) + most_for_small)
@@ -220,10 +220,10 @@ private:
 }  // namespace
 
 CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-                       const std::vector<Flap>& flaps, const std::vector<Circle>& wanted, const VectorXcd& rim,
+                       const std::vector<Ear>& ears, const std::vector<Circle>& wanted, const VectorXcd& rim,
                        const ExecutionContext& context, FixedPlaces places)
 {
-    return Embedding(vertices, surface, loops, flaps, rim, places, context).run(wanted, context);
+    return Embedding(vertices, surface, loops, ears, rim, places, context).run(wanted, context);
 }
 
 PlanarPoints freely_embedded(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "circles/circle_map.h"
+#include "ears/ears.h"
 #include "embedding/fixed_places.h"
 #include "execution/execution.h"
-#include "flaps/flaps.h"
 #include "mesh/topology.h"
 
 #include <vector>
@@ -18,12 +18,12 @@ namespace koebe {
 /// the wanted circles get other circles that fit their present places. If vertices are still off their circles, all
 /// loops get such circles. The attempt with the fewest vertices off their circles counts. As the holes' fans stay
 /// upright too, no loop crosses itself or another loop.
-/// @param flaps of the surface: their rims are not pulled to the circles of inner loops
+/// @param ears of the surface: their rims are not pulled to the circles of inner loops
 /// @param wanted the circles of the loops, apart from each other; empty: circles that fit the map before it is pulled
 /// @param rim (n) points of the outer loop on the unit circle, in order, all different
 /// @param places of vertices with fixed places; if faces would turn over with the centre at 0, it lies near 0
 CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-                       const std::vector<Flap>& flaps, const std::vector<Circle>& wanted, const VectorXcd& rim,
+                       const std::vector<Ear>& ears, const std::vector<Circle>& wanted, const VectorXcd& rim,
                        const ExecutionContext& context, FixedPlaces places = {});
 
 /// Makes a map that is one to one, without wanted circles for the inner loops, in a small part of the steps.

@@ -32,7 +32,7 @@ constexpr double with_room = 0.3, hardest_pull = 1e12;  // dimensionless: weight
 }  // namespace
 
 FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-                     const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places,
+                     const std::vector<Ear>& ears, const VectorXcd& rim, FixedPlaces places,
                      const ExecutionContext& context)
     : vertices_(vertices),
       surface_(surface),
@@ -52,8 +52,8 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
             pulled_[v] = k > 0;
             if (k == 0) now_.mobility[v] = v == places.point ? Mobility::held : Mobility::sliding;
         }
-    for (const Flap& flap : flaps)
-        for (const Index v : flap.rim) pulled_[v] = 0;
+    for (const Ear& ear : ears)
+        for (const Index v : ear.rim) pulled_[v] = 0;
     for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
         for (const Index v : filled_.triangles.row(f)) around_[v].push_back(static_cast<Index>(f));
     std::iota(faces_.begin(), faces_.end(), 0);

@@ -3,10 +3,10 @@
 
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
+#include "ears/ears.h"
 #include "embedding/convex_embedding.h"
 #include "embedding/fixed_places.h"
 #include "execution/execution.h"
-#include "flaps/flaps.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "mesh/topology.h"
@@ -31,11 +31,10 @@ public:
     };
 
     /// Starts from convex_embedding. The rim gets more room where faces have too little (widened_rim.h).
-    /// @param flaps the rims of flaps are not pulled to the circles of inner loops
+    /// @param ears the rims of ears are not pulled to the circles of inner loops
     /// @param places vertices with fixed places; the centre is not at 0 if its faces would turn over there
     FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-              const std::vector<Flap>& flaps, const VectorXcd& rim, FixedPlaces places,
-              const ExecutionContext& context);
+              const std::vector<Ear>& ears, const VectorXcd& rim, FixedPlaces places, const ExecutionContext& context);
 
     /// Lowers the angle error of the surface's faces, and the pulls, by some Newton steps (foldover_free.h, strict).
     void relax(Pull pull, int iterations, const ExecutionContext& context);

@@ -6,20 +6,11 @@
 
 namespace koebe {
 
-struct DiskPatchOptions {
-    /// In mean edges of the rim, or of a rim of 128 edges if this one has more. 1 keeps second order up to that (the
-    /// paper gives no value); the disk of loop 0 may then have more faces than the surface. With 1.5 the error is up to
-    /// ten times larger, with 3 it stops falling.
-    double longest_edge = 1.0;
-    double gradation = 0.25;   ///< growth of the edge length per distance from the rim, dimensionless
-    double worst_angle = 0.5;  ///< a mesh is made anew when its smallest angle falls below this share of its first one
-};
-
 /// A disk of triangles. Its first vertices are the loop's vertices in the loop's order.
 class DiskPatch {
 public:
     /// Makes the fan around the mean of the loop's vertices. @param loop (m, 3) positions, the surface on the left
-    explicit DiskPatch(const Vertices& loop, const DiskPatchOptions& options = {});
+    explicit DiskPatch(const Vertices& loop);
 
     /// Fills a polygon with flat triangles. A fan is replaced by a Delaunay mesh of the polygon. Later polygons get the
     /// harmonic image of that mesh in its present metric, as long as its triangles stay good.
@@ -40,7 +31,6 @@ private:
     void mesh(const VectorXcd& rim);
     VectorXcd harmonic_image(const VectorXcd& rim) const;
 
-    DiskPatchOptions options_;
     Triangles triangles_;
     EdgeLengths lengths_;
     Index rim_size_ = 0, vertex_count_ = 0;

@@ -6,6 +6,7 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "iteration/convergence.h"
+#include "iteration/disk_patch.h"
 #include "surface/deepest_vertex.h"
 #include "surface/harmonic_map.h"
 #include "surface/loop_edges.h"
@@ -91,7 +92,7 @@ public:
             const VectorXd edges = loop_edges(vertices, loop);
             weights_.push_back(vertex_weights(edges));
             angles_.push_back(centered_angles(arc_length_angles(edges), weights_.back()));
-            patches_.emplace_back(vertices(loop, Eigen::all), options.patch);
+            patches_.emplace_back(vertices(loop, Eigen::all));
         }
     }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "conformal/annulus_map.h"
-#include "iteration/disk_patch.h"
 #include "iteration/sweep_order.h"
 
 #include <vector>
@@ -27,7 +26,6 @@ struct KoebeMeshOptions {
     /// Yamabe flow (abstract). The flow needs one metric on the whole, so it excludes Metric::first.
     AnnulusBackend annulus = AnnulusBackend::harmonic;
     bool record_steps = false;  ///< keep each step's own image (KoebeOutcome::step_images)
-    DiskPatchOptions patch;
 };
 
 }  // namespace koebe

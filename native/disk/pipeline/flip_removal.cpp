@@ -1,6 +1,6 @@
 #include "pipeline/flip_removal.h"
 
-#include "flaps/flap_map.h"
+#include "ears/ear_map.h"
 #include "pipeline/normalization.h"
 
 #include <algorithm>
@@ -63,13 +63,13 @@ UntangleReport search(const MapInput& whole, CircleMap& map, ExecutionContext& c
 
 }  // namespace
 
-CircleMap with_flaps(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context)
+CircleMap with_ears(const MapInput& whole, const EarCut& cut, CircleMap map, ExecutionContext& context)
 {
-    if (cut.flaps.empty()) return map;
+    if (cut.ears.empty()) return map;
     const PlanarPoints core_uv = std::move(map.uv);
     map.uv = PlanarPoints::Zero(whole.vertices.rows(), 2);
     map.uv(cut.vertices, Eigen::all) = core_uv;
-    map.off_circle = lay_flaps(whole.vertices, whole.surface.triangles, cut.flaps, whole.loops, map.uv, context);
+    map.off_circle = lay_ears(whole.vertices, whole.surface.triangles, cut.ears, whole.loops, map.uv, context);
     std::sort(map.off_circle.begin(), map.off_circle.end());
     return map;
 }

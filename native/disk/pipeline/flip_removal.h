@@ -2,16 +2,16 @@
 #pragma once
 
 #include "circles/circle_map.h"
+#include "ears/ears.h"
 #include "execution/execution.h"
-#include "flaps/flaps.h"
 #include "foldover/untangle.h"
 #include "pipeline/map_input.h"
 
 namespace koebe {
 
-/// Adds the flaps to the map of the core (lay_flaps). Leaves flips as they are.
-/// @param map of the core's vertices; without flaps, of the surface's own vertices
-CircleMap with_flaps(const MapInput& whole, const FlapCut& cut, CircleMap map, ExecutionContext& context);
+/// Adds the ears to the map of the core (lay_ears). Leaves flips as they are.
+/// @param map of the core's vertices; without ears, of the surface's own vertices
+CircleMap with_ears(const MapInput& whole, const EarCut& cut, CircleMap map, ExecutionContext& context);
 
 /// Turns flipped faces back (untangle). The surface's centre and point do not move. Circles shrink where the faces
 /// between them find no place to be upright, and then the search starts again with its full effort. If up to 16 faces

@@ -5,7 +5,7 @@
 #include "circles/circle_fit.h"
 #include "circles/circle_projection.h"
 #include "circles/crowded_circles.h"
-#include "flaps/least_arcs.h"
+#include "ears/least_arcs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ bool is_lost(const Circle& circle, const VectorXcd& image)
 }
 
 /// Puts the images on their circles: (m, 2), loop after loop. Notes their roundness.
-MatrixXd points_on_circles(const MapInput& input, const FlapCut& cut, const std::vector<VectorXcd>& images,
+MatrixXd points_on_circles(const MapInput& input, const EarCut& cut, const std::vector<VectorXcd>& images,
                            CircleMap& map)
 {
     std::size_t boundary_count = 0;
@@ -45,7 +45,7 @@ MatrixXd points_on_circles(const MapInput& input, const FlapCut& cut, const std:
         map.roundness.push_back(roundness(images[k], map.circles[k]));
         const VectorXcd projected =
             k == 0 ? project_onto_circle(map.circles[k], images[k], 1,
-                                         least_arcs(input.surface, input.loops[0], cut.flaps, cut.vertices))
+                                         least_arcs(input.surface, input.loops[0], cut.ears, cut.vertices))
                    : project_onto_circle(map.circles[k], images[k], -1);
         boundary.middleRows(row, projected.size()) << projected.real(), projected.imag();
         row += projected.size();
@@ -62,7 +62,7 @@ bool extend(const MapSolver& solver, MatrixXd& boundary, AnnulusPosition annulus
 
 }  // namespace
 
-std::optional<CircleMap> map_from_loops(const MapSolver& solver, const FlapCut& cut, const KoebeOutcome& outcome)
+std::optional<CircleMap> map_from_loops(const MapSolver& solver, const EarCut& cut, const KoebeOutcome& outcome)
 {
     CircleMap map;
     map.circles.emplace_back();

@@ -20,9 +20,9 @@ struct MapSolver {
 
 /// Fits circles, makes two loops concentric, puts the boundary on its circles, makes the interior harmonic
 /// (balance_flux).
-/// @param cut the flaps that will lie on the rim
+/// @param cut the ears that will lie on the rim
 /// @return a map of the surface's vertices; nothing if circles leave the disk or meet, or no finite map extends them
-std::optional<CircleMap> map_from_loops(const MapSolver& solver, const FlapCut& cut, const KoebeOutcome& outcome);
+std::optional<CircleMap> map_from_loops(const MapSolver& solver, const EarCut& cut, const KoebeOutcome& outcome);
 
 /// Moves the map by an automorphism of the disk: its circles and the boundary on them; the interior is harmonic again.
 /// @return nothing if circles leave the disk or meet, or no finite map extends them

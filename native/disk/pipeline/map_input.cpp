@@ -143,7 +143,7 @@ bool is_polygon(const MapInput& input)
     return input.loops.size() == 1 && input.surface.vertex_count == static_cast<Index>(input.loops[0].size());
 }
 
-MapInput core_input(const MapInput& whole, FlapCut& cut)
+MapInput core_input(const MapInput& whole, EarCut& cut)
 {
     MapInput core;
     core.surface = std::move(cut.core);

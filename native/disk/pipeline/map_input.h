@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/types.h"
-#include "flaps/flaps.h"
+#include "ears/ears.h"
 #include "mesh/topology.h"
 #include "pipeline/options.h"
 
@@ -42,7 +42,7 @@ MapInput prepare_input(const Vertices& vertices, const Triangles& triangles, con
 /// @param vertices (V, 3) of the input, as many as before @throws InputError
 void move_input(MapInput& input, const Vertices& vertices);
 
-/// The surface without its flaps. Moves the surface out of the cut.
-MapInput core_input(const MapInput& whole, FlapCut& cut);
+/// The surface without its ears. Moves the surface out of the cut.
+MapInput core_input(const MapInput& whole, EarCut& cut);
 
 }  // namespace koebe

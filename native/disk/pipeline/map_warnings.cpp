@@ -26,26 +26,26 @@ std::vector<Index> input_faces(const MapInput& whole, const std::vector<Index>& 
     return result;
 }
 
-Warning flap_warning(const MapInput& whole, const std::vector<Flap>& flaps)
+Warning ear_warning(const MapInput& whole, const std::vector<Ear>& ears)
 {
     std::vector<Index> faces;
     std::size_t rim = 0, inner = 0;
-    const Flap* first = nullptr;
-    for (const Flap& flap : flaps) {
-        faces.insert(faces.end(), flap.faces.begin(), flap.faces.end());
-        if (flap.loop == 0) continue;
-        rim += flap.rim.size();
+    const Ear* first = nullptr;
+    for (const Ear& ear : ears) {
+        faces.insert(faces.end(), ear.faces.begin(), ear.faces.end());
+        if (ear.loop == 0) continue;
+        rim += ear.rim.size();
         ++inner;
-        if (!first) first = &flap;
+        if (!first) first = &ear;
     }
-    std::string text = "hanging on a loop by one edge: " + counted(flaps.size(), "part") + " with " +
+    std::string text = "joined to a loop by one edge: " + counted(ears.size(), "part") + " with " +
                        counted(faces.size(), "face") + ", the first by the edge " +
-                       std::to_string(whole.original[flaps[0].first]) + "-" +
-                       std::to_string(whole.original[flaps[0].last]) + "; ";
+                       std::to_string(whole.original[ears[0].first]) + "-" +
+                       std::to_string(whole.original[ears[0].last]) + "; ";
     text += inner == 0 ? "drawn along the unit circle"
                        : counted(inner, "part") + " drawn inside their hole, with " + counted(rim, "vertex") +
                              " off the circle, the first " + std::to_string(whole.original[first->rim[0]]);
-    return {WarningKind::flaps, text, input_faces(whole, faces)};
+    return {WarningKind::ears, text, input_faces(whole, faces)};
 }
 
 /// Connected faces that are too small to be stored, at least one of them flipped.
@@ -168,7 +168,7 @@ std::vector<Warning> iteration_warnings(const KoebeOutcome& outcome, bool no_cir
     return warnings;
 }
 
-std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
+std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv, const std::vector<Ear>& ears,
                                    const UntangleReport& untangled, const Distortion& distortion)
 {
     std::vector<Warning> warnings;
@@ -182,7 +182,7 @@ std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv
                  " on loops. Faces reach from loop to loop, and the map is far from conformal (mean angle "
                  "error " +
                  figure(distortion.angle_error_deg.mean) + " degrees). Subdivide the mesh"});
-    if (!flaps.empty()) warnings.push_back(flap_warning(whole, flaps));
+    if (!ears.empty()) warnings.push_back(ear_warning(whole, ears));
     // What the repair did, and what it could not.
     std::vector<Index> freed;
     for (const Index v : untangled.freed) freed.push_back(whole.original[v]);

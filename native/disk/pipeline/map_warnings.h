@@ -3,7 +3,7 @@
 
 #include "circles/circle_map.h"
 #include "core/warning.h"
-#include "flaps/flaps.h"
+#include "ears/ears.h"
 #include "foldover/untangle.h"
 #include "iteration/koebe_outcome.h"
 #include "pipeline/map_input.h"
@@ -22,10 +22,10 @@ std::vector<Warning> input_warnings(const MapInput& whole);
 /// Warns of an iteration that failed. @param no_circles whether it led to no map at all
 std::vector<Warning> iteration_warnings(const KoebeOutcome& outcome, bool no_circles);
 
-/// Warns of coarse meshes, flaps, vertices off their circle, flips and limbs that shrank too far. Each sentence has a
+/// Warns of coarse meshes, ears, vertices off their circle, flips and limbs that shrank too far. Each sentence has a
 /// number and the input's first element. For regions below the resolution of 32-bit UVs it names the tip of each
 /// region, the nearest loop and the size.
-std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv, const std::vector<Flap>& flaps,
+std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv, const std::vector<Ear>& ears,
                                    const UntangleReport& untangled, const Distortion& distortion);
 
 }  // namespace koebe

@@ -25,18 +25,18 @@ Circle image_of(const Circle& circle, const Moebius& moebius)
     return {moebius(circle).center, radius};
 }
 
-/// The centre's place in a map of the solver's surface. If it lies in a flap, the flap is drawn first.
-Complex center_of(const MapInput& whole, const FlapCut& cut, const CircleMap& map, ExecutionContext& context)
+/// The centre's place in a map of the solver's surface. If it lies in an ear, the ear is drawn first.
+Complex center_of(const MapInput& whole, const EarCut& cut, const CircleMap& map, ExecutionContext& context)
 {
-    if (cut.flaps.empty()) return complex_at(map.uv, whole.center);
+    if (cut.ears.empty()) return complex_at(map.uv, whole.center);
     const auto kept = std::ranges::find(cut.vertices, whole.center);
     if (kept != cut.vertices.end()) return complex_at(map.uv, static_cast<Index>(kept - cut.vertices.begin()));
-    return complex_at(with_flaps(whole, cut, map, context).uv, whole.center);
+    return complex_at(with_ears(whole, cut, map, context).uv, whole.center);
 }
 
 }  // namespace
 
-CircleMap with_center_moved(const MapSolver& solver, const MapInput& whole, const FlapCut& cut, const CircleMap& map,
+CircleMap with_center_moved(const MapSolver& solver, const MapInput& whole, const EarCut& cut, const CircleMap& map,
                             ExecutionContext& context)
 {
     CircleMap best = map;

@@ -14,9 +14,9 @@ namespace koebe {
 /// Moves the map by z -> (z - a) / (1 - conj(a) z) on its circles, makes the interior harmonic again, and so brings the
 /// surface's centre to 0. A Moebius map commutes with the extension only up to the mesh's resolution, so a is found in
 /// a few rounds. In this way a strong automorphism turns no thin faces over, and the rotation does not change.
-/// @param solver of the core, or of the whole surface without flaps @param map of the solver's surface
+/// @param solver of the core, or of the whole surface without ears @param map of the solver's surface
 /// @return the best map found, or `map` itself if no other is better
-CircleMap with_center_moved(const MapSolver& solver, const MapInput& whole, const FlapCut& cut, const CircleMap& map,
+CircleMap with_center_moved(const MapSolver& solver, const MapInput& whole, const EarCut& cut, const CircleMap& map,
                             ExecutionContext& context);
 
 /// Moves each vertex by an automorphism of the disk, exactly. @param map of the whole surface, changed in place

@@ -50,7 +50,7 @@ int better_outer_loop(const MapInput& input, const CircleMap& map)
                                map.circles, longest);
 }
 
-void put_outside(int loop, MapInput& whole, FlapCut& cut, std::optional<MapInput>& core)
+void put_outside(int loop, MapInput& whole, EarCut& cut, std::optional<MapInput>& core)
 {
     for (MapInput* input : {&whole, core ? &*core : nullptr}) {
         if (!input) continue;
@@ -60,11 +60,11 @@ void put_outside(int loop, MapInput& whole, FlapCut& cut, std::optional<MapInput
     whole.outer_rank = rank_by_lowest_vertex(whole, whole.loops[0]);
     if (core) core->outer_rank = whole.outer_rank;
     move_to_front(cut.loops, loop);
-    for (Flap& flap : cut.flaps) {
-        if (flap.loop == loop)
-            flap.loop = 0;
-        else if (flap.loop < loop)
-            ++flap.loop;
+    for (Ear& ear : cut.ears) {
+        if (ear.loop == loop)
+            ear.loop = 0;
+        else if (ear.loop < loop)
+            ++ear.loop;
     }
 }
 

@@ -20,7 +20,7 @@ int balanced_outer_loop(const FaceScales& scales, const std::vector<Circle>& cir
 int better_outer_loop(const MapInput& input, const CircleMap& map);
 
 /// Puts a loop first in the lists of loops. The others follow in their present order.
-/// @param loop its place in them @param core the surface without flaps, if there are flaps
-void put_outside(int loop, MapInput& whole, FlapCut& cut, std::optional<MapInput>& core);
+/// @param loop its place in them @param core the surface without ears, if there are ears
+void put_outside(int loop, MapInput& whole, EarCut& cut, std::optional<MapInput>& core);
 
 }  // namespace koebe

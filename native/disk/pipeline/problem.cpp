@@ -14,10 +14,10 @@
 namespace koebe {
 namespace {
 
-/// A polygon without inner vertices stays whole on the circle: of two equal halves neither is a flap.
-FlapCut flaps_of(const MapInput& whole)
+/// A polygon without inner vertices stays whole on the circle: of two equal halves neither is an ear.
+EarCut ears_of(const MapInput& whole)
 {
-    return is_polygon(whole) ? FlapCut{} : cut_flaps(whole.vertices, whole.surface, whole.loops);
+    return is_polygon(whole) ? EarCut{} : cut_ears(whole.vertices, whole.surface, whole.loops);
 }
 
 VectorXd shape_of(const Problem& problem)
@@ -58,8 +58,8 @@ Problem prepare_problem(const Vertices& vertices, const Triangles& triangles, co
     problem.whole = prepare_input(vertices, triangles, options);
     if (options.engine == Engine::mesh)
         require_possible(options.mesh, static_cast<int>(problem.whole.loops.size()), options.method);
-    problem.cut = flaps_of(problem.whole);
-    if (!problem.cut.flaps.empty()) problem.core = core_input(problem.whole, problem.cut);
+    problem.cut = ears_of(problem.whole);
+    if (!problem.cut.ears.empty()) problem.core = core_input(problem.whole, problem.cut);
     return problem;
 }
 
@@ -77,10 +77,10 @@ bool move_problem(Problem& problem, const Vertices& vertices)
     if (!problem.assembled.boundary) return whole.vertices == before;
     if (!goes_by_length(whole)) return false;
     const std::vector<Index> kept = std::move(problem.cut.vertices);
-    problem.cut = flaps_of(whole);
+    problem.cut = ears_of(whole);
     if (problem.cut.vertices != kept) return false;
     problem.core.reset();
-    if (!problem.cut.flaps.empty()) problem.core = core_input(whole, problem.cut);
+    if (!problem.cut.ears.empty()) problem.core = core_input(whole, problem.cut);
     if (!problem.assembled.move_metric(problem.input())) return false;
     if (problem.outcome.converged && !problem.outcome.angles.empty())
         problem.outcome.angles = problem.forecast.angles_for(shape_of(problem));

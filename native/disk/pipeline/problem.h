@@ -1,8 +1,8 @@
 // A surface being mapped, and the data that stays when its vertices move.
 #pragma once
 
+#include "ears/ears.h"
 #include "execution/execution.h"
-#include "flaps/flaps.h"
 #include "iteration/angle_forecast.h"
 #include "pipeline/loop_images.h"
 #include "pipeline/map_from_loops.h"
@@ -17,8 +17,8 @@ namespace koebe {
 /// The surface of a run, its matrices and the last outcome.
 struct Problem {
     MapInput whole;
-    FlapCut cut;
-    std::optional<MapInput> core;  ///< without the flaps, if there are flaps
+    EarCut cut;
+    std::optional<MapInput> core;  ///< without the ears, if there are ears
     AssembledInput assembled;      ///< of input()
     KoebeOutcome outcome;          ///< of the last run; the next one starts from it
     AngleForecast forecast;        ///< of the first angles, from the last runs
@@ -38,7 +38,7 @@ bool chooses_outer_loop(const UniformizeOptions& options, const MapInput& input)
 /// Moves the vertices of the surface. Topology, outer loop, triangulation, order of elimination and the angles of the
 /// last maps stay.
 /// @param vertices (V, 3) as many as before
-/// @return false if the problem must be prepared anew to give the same map as a new problem: other flaps, another order
+/// @return false if the problem must be prepared anew to give the same map as a new problem: other ears, another order
 /// of the holes' lengths, or a triangulation far from Delaunay. Then the problem is unusable
 /// @throws InputError
 bool move_problem(Problem& problem, const Vertices& vertices);

@@ -45,7 +45,7 @@ VectorXd least_steps(Eigen::Index count)
 
 /// Makes the map that is one to one from the start (embedded_map), on the iteration's circles if it found any.
 /// @param failed the map from the iteration, if any
-CircleMap embed(const MapInput& whole, const FlapCut& cut, const std::optional<CircleMap>& failed, FixedPlaces places,
+CircleMap embed(const MapInput& whole, const EarCut& cut, const std::optional<CircleMap>& failed, FixedPlaces places,
                 ExecutionContext& context)
 {
     const VectorXcd even = unit_circle_points(arc_length_angles(whole.edges[0]));
@@ -56,7 +56,7 @@ CircleMap embed(const MapInput& whole, const FlapCut& cut, const std::optional<C
             rim[i] = {failed->uv(v, 0), failed->uv(v, 1)};
         }
     rim = project_onto_circle(Circle{}, rim.allFinite() ? rim : even, 1, least_steps(whole.edges[0].size()));
-    CircleMap map = embedded_map(whole.vertices, whole.surface, whole.loops, cut.flaps,
+    CircleMap map = embedded_map(whole.vertices, whole.surface, whole.loops, cut.ears,
                                  failed && circles_apart(failed->circles) ? failed->circles : std::vector<Circle>{},
                                  rim, context, places);
     if (!failed) return map;
@@ -103,7 +103,7 @@ public:
     void map_core();
     void change_outer_loop();
     void normalize_core();
-    void attach_flaps();
+    void attach_ears();
     void remove_flips();
     void embed_where_it_failed();
     void polish();
@@ -123,7 +123,7 @@ private:
     ExecutionContext& context_;
     Stopwatch total_, stage_;
     Problem* problem_ = nullptr;
-    std::optional<CircleMap> map_;  // of the core up to attach_flaps, then of the whole surface
+    std::optional<CircleMap> map_;  // of the core up to attach_ears, then of the whole surface
     MapFaults faults_;              // of the map of the whole surface
     UntangleReport untangled_;
     std::vector<Warning> iteration_warnings_, late_warnings_;
@@ -163,7 +163,7 @@ void MapRun::map_core()
     map_core(0.15, again ? 0.5 : 0.9);
     if (map_ && options_.balance == Balance::area)
         result_.unbalanced_area = measure_distortion(whole().vertices, whole().surface.triangles,
-                                                     with_flaps(whole(), problem_->cut, *map_, context_).uv)
+                                                     with_ears(whole(), problem_->cut, *map_, context_).uv)
                                       .area;
 }
 
@@ -228,11 +228,11 @@ void MapRun::normalize_core()
     result_.step_images = on_input(outcome.step_images, problem_->input(), result_.vertex_count);
 }
 
-void MapRun::attach_flaps()
+void MapRun::attach_ears()
 {
     context_.begin_stage("finish", 0.9, 1.0);
     if (!map_) return;
-    map_ = with_flaps(whole(), problem_->cut, *std::move(map_), context_);
+    map_ = with_ears(whole(), problem_->cut, *std::move(map_), context_);
     normalize(whole(), *map_);
     context_.advance(0.2);
 }
@@ -305,7 +305,7 @@ UniformizeResult MapRun::report(const Vertices& vertices, const Triangles& trian
     append(result_.warnings, circle_warnings(*map_));
     append(result_.warnings, input_warnings(whole()));
     append(result_.warnings, std::move(iteration_warnings_));
-    append(result_.warnings, flip_warnings(whole(), map_->uv, problem_->cut.flaps, untangled_, result_.distortion));
+    append(result_.warnings, flip_warnings(whole(), map_->uv, problem_->cut.ears, untangled_, result_.distortion));
     append(result_.warnings, std::move(late_warnings_));
     result_.overlaps = static_cast<Index>(faults_.crossings.size());
     if (faults_.any()) {
@@ -330,12 +330,12 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
     fix_product_blocks();
     const ThreadShare threads(options.threads);
     MapRun run(options, context);
-    run.prepare(prepare);         // S of genus 0, the loops g_0 ... g_n in the order of the iteration, flaps cut off
+    run.prepare(prepare);         // S of genus 0, the loops g_0 ... g_n in the order of the iteration, ears cut off
     run.take_metric();            // K, the cotan Laplacian: u' K u = integral of |grad u|^2 (section 4.1)
     run.map_core();               // Sigma, Koebe's iteration (sections 4.2 to 4.4), circles, harmonic inside
     run.change_outer_loop();      // with another loop as g_0, if the texels then are more even: w = r / (z - c)
     run.normalize_core();         // z -> (z - a) / (1 - conj(a) z), with even texels or a vertex at 0 (section 4.3)
-    run.attach_flaps();           // each inside its hole, or along the unit circle
+    run.attach_ears();            // each inside its hole, or along the unit circle
     run.remove_flips();           // det Dz > 0 in each face, as UVs of 32 bits store it
     run.embed_where_it_failed();  // Tutte's theorem: one to one, not conformal
     run.polish();                 // least sum of |angle errors|, the circles kept

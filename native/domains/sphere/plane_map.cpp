@@ -39,8 +39,8 @@ PlaneMap holed_plane_map(const Vertices& vertices, const Triangles& triangles, c
         for (const Index v : loop.off_circle) map.off_circle.push_back(number[v]);
     }
     std::ranges::sort(map.off_circle);
-    for (Flap& flap : cut_flaps(domain.vertices, domain.surface, domain.loops).flaps)
-        if (flap.loop == static_cast<int>(map.outer)) map.flaps.push_back(std::move(flap));
+    for (Ear& ear : cut_ears(domain.vertices, domain.surface, domain.loops).ears)
+        if (ear.loop == static_cast<int>(map.outer)) map.ears.push_back(std::move(ear));
     map.converged = disk.converged;
     map.sweeps = disk.sweeps;
     map.seconds = disk.seconds;

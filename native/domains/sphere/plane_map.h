@@ -3,8 +3,8 @@
 
 #include "circles/circle_fit.h"
 #include "core/warning.h"
+#include "ears/ears.h"
 #include "execution/execution.h"
-#include "flaps/flaps.h"
 #include "quality/report.h"
 #include "sphere/sphere_map.h"
 #include "surface/periodic_surface.h"
@@ -21,7 +21,7 @@ struct PlaneMap {
     std::vector<Roundness> roundness;  ///< of the loops
     std::vector<Index> off_circle;     ///< of the domain, ascending
     std::size_t outer = 0;             ///< number of the outer loop
-    std::vector<Flap> flaps;           ///< flaps on the outer loop
+    std::vector<Ear> ears;             ///< ears on the outer loop
     bool converged = false;
     int sweeps = 0;
     std::vector<double> changes;

@@ -49,23 +49,23 @@ constexpr Index most_drawn_faces = 5000;
 constexpr double least_angle = 1e-7;           // between neighbours on a circle, seen from its middle
 constexpr std::size_t further_effort = 30000;  // of the repair of each further version (sphere_repair.h)
 
-/// Hangs a flap into its hole, mirrored at its hinge. In the disk the unit circle is convex, and the flap lies behind
-/// its hinge; on the sphere it would lie over its neighbours.
-void hang_into_hole(const PeriodicSurface& domain, const Flap& flap, SphericalMap& sphere)
+/// Attaches an ear inside its hole, mirrored at its hinge. In the disk the unit circle is convex, and the ear lies
+/// behind its hinge; on the sphere it would lie over its neighbours.
+void attach_in_hole(const PeriodicSurface& domain, const Ear& ear, SphericalMap& sphere)
 {
     const Triangles& triangles = domain.surface.triangles;
     std::size_t flipped = 0;
-    for (const Index f : flap.faces) flipped += upright_on_sphere(triangles, sphere.points, f) ? 0 : 1;
+    for (const Index f : ear.faces) flipped += upright_on_sphere(triangles, sphere.points, f) ? 0 : 1;
     const SpherePoint normal =
-        SpherePoint(sphere.points.row(flap.first)).cross(SpherePoint(sphere.points.row(flap.last)));
-    if (2 * flipped <= flap.faces.size() || !(normal.norm() > 0.0)) return;
+        SpherePoint(sphere.points.row(ear.first)).cross(SpherePoint(sphere.points.row(ear.last)));
+    if (2 * flipped <= ear.faces.size() || !(normal.norm() > 0.0)) return;
     const Eigen::RowVector3d across = normal.normalized().transpose();
-    for (const auto* vertices : {&flap.rim, &flap.interior})
+    for (const auto* vertices : {&ear.rim, &ear.interior})
         for (const Index v : *vertices) {
             const Eigen::RowVector3d at = sphere.points.row(v);
             sphere.points.row(v) = (at - 2.0 * at.dot(across) * across).normalized();
         }
-    sphere.off_circle.insert(sphere.off_circle.end(), flap.rim.begin(), flap.rim.end());
+    sphere.off_circle.insert(sphere.off_circle.end(), ear.rim.begin(), ear.rim.end());
 }
 
 /// Puts the vertices of a loop on its cap's circle in their order round it. Moves two apart that rounding has exchanged
@@ -110,12 +110,12 @@ SphericalMap lifted_to_sphere(const PeriodicSurface& domain, const PlaneMap& map
             if (!std::ranges::binary_search(map.off_circle, v)) on.push_back(v);
         put_onto_circle(on, sphere.caps[k], sphere.points);
     }
-    for (const Flap& flap : map.flaps) hang_into_hole(domain, flap, sphere);
+    for (const Ear& ear : map.ears) attach_in_hole(domain, ear, sphere);
     sort_unique(sphere.off_circle);
     return sphere;
 }
 
-/// Lifts a map to the sphere by stereographic projection, with loops on the circles of their caps, and flaps of the
+/// Lifts a map to the sphere by stereographic projection, with loops on the circles of their caps, and ears of the
 /// outer loop in its cap. Balances it without flipping faces. A balanced surface of few faces may need faces of half
 /// the sphere. It is drawn together round the middle of the outer circle's other side instead, where no such face is
 /// needed.

@@ -268,7 +268,7 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
         context.begin_stage("finish", 0.9, 1.0);
         return ring_tile(vertices, triangles, domain, options, shape, bounds, std::move(ring), context);
     };
-    // A tube without holes needs no circles. But harmonic functions lay parts that hang on a rim by one edge flat along
+    // A tube without holes needs no circles. But harmonic functions lay ears on a rim flat along
     // it; the disk with round holes has a place for these.
     std::optional<TileResult> result;
     if (bounds.tight) {

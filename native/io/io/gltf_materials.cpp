@@ -89,6 +89,7 @@ int tangent_set(Json& file, const Json& primitive)
 
 std::vector<Warning> take_transforms_off(Json& file, const GltfPlaces& primitives, int set)
 {
+    // Materials of the mapped primitives, and those that others share.
     std::set<std::size_t> own, of_others;
     for (std::size_t m = 0; m < file["meshes"].size(); ++m) {
         const Json of_mesh = file["meshes"][m].value("primitives", Json::array());
@@ -96,6 +97,7 @@ std::vector<Warning> take_transforms_off(Json& file, const GltfPlaces& primitive
             for (const std::size_t material : materials_of(of_mesh[k]))
                 (primitives.contains({m, k}) ? own : of_others).insert(material);
     }
+    // A transform is taken off if no other primitive and no animation needs it.
     const std::string pointers = animated(file);
     std::size_t taken = 0, left = 0;
     for (const std::size_t material : own) {

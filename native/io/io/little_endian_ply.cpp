@@ -84,6 +84,7 @@ bool read_faces(const PlyElement& element, std::string_view data, PolygonMesh& m
         if (length_bytes == 4) return number_at<std::uint32_t>(item + offset);
         return length_bytes == 1 ? number_at<std::uint8_t>(item + offset) : number_at<std::uint16_t>(item + offset);
     };
+    // A face's place depends on all lengths before it: first the lengths, one after another, then the corners.
     mesh.face_begin.resize(element.count + 1);
     std::size_t corners = 0;
     for (std::size_t f = 0; f < element.count; ++f) {

@@ -142,6 +142,7 @@ void write_obj_with_groups(AtomicFile& file, const PolygonMesh& mesh, const std:
         text.add('\n');
     };
     Index first_vertex = 0, first_face = 0;
+    // The file's own statements first, as they are; then what is new.
     if (!filed.bytes.empty()) {
         const io::ObjText own(filed.bytes);
         const io::ObjChange change{.mesh = mesh, .texture = {}};

@@ -97,7 +97,9 @@ std::vector<CirclePath> paths_between(const std::vector<Circle>& begin, const st
         paths.emplace_back(begin, end, std::move(bows));
         rooms.push_back(paths.back().room());
     };
+    // Straight paths, and paths that all bend to one side.
     for (const double bow : {0.0, equal_bow, -equal_bow}) add(std::vector<double>(count, bow));
+    // Otherwise bend single paths at random as long as the circles get more room.
     if (std::ranges::max(rooms) < enough_room && count > 2) {
         const auto best = static_cast<std::size_t>(std::ranges::max_element(rooms) - rooms.begin());
         std::vector<double> bows = paths[best].bows();
@@ -116,6 +118,7 @@ std::vector<CirclePath> paths_between(const std::vector<Circle>& begin, const st
         }
         add(std::move(bows));
     }
+    // The paths without a meeting, the widest first.
     std::vector<std::size_t> order(paths.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return std::min(rooms[i], enough_room); });

@@ -107,6 +107,7 @@ Eigen::MatrixXcd quadratic_differentials(const DomainForms& all, const Triangles
         return std::ranges::any_of(all.marked.poles[static_cast<std::size_t>(j - holes)],
                                    [&](Index v) { return std::ranges::find(here, v) != here.end(); });
     };
+    // For each form the partners that overlap most. Two forms with one pole would have a double pole.
     std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
     for (Eigen::Index i = 0; i < count; ++i) {
         std::vector<std::pair<double, Eigen::Index>> others;
@@ -120,6 +121,7 @@ Eigen::MatrixXcd quadratic_differentials(const DomainForms& all, const Triangles
     }
     std::ranges::sort(pairs);
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    // q = f g, and forms with a pole times measures that vanish there; all have the norm 1.
     const auto of_a_pole = all.poles.empty() ? 0 : holes - 2;
     const auto squares = static_cast<Eigen::Index>(pairs.size());
     Eigen::MatrixXcd products(forms.rows(), squares + of_a_pole * static_cast<Eigen::Index>(all.poles.size()));
@@ -160,6 +162,7 @@ DilatationBounds dilatation_bounds(const Triangles& triangles, const PlanarPoint
     const DomainForms forms = domain_forms(triangles, uv, circles, loops, marks, area);
     const Eigen::MatrixXcd products = quadratic_differentials(forms, triangles, area);
     if (products.cols() == 0 || !products.allFinite()) return bounds;
+    // Re of the integral of mu q / (1 - |mu|^2), for each product q.
     VectorXd pairing(products.cols());
     for (Eigen::Index k = 0; k < products.cols(); ++k) {
         double sum = 0.0;
@@ -169,6 +172,7 @@ DilatationBounds dilatation_bounds(const Triangles& triangles, const PlanarPoint
     }
     VectorXd size = marks.empty() ? VectorXd(forms.measures.cwiseAbs2().rowwise().sum())
                                   : VectorXd(products.cwiseAbs().rowwise().sum());
+    // Maximize it over the norm of q: least squares with weights 1 / |q|, again and again.
     for (int i = 0; i < reweightings; ++i) {
         const double mean = area.dot(size) / area.sum();
         const VectorXd root = (area.array() / (size.array().square() + std::pow(flat_q * mean, 2)).sqrt()).sqrt();

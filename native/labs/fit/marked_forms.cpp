@@ -136,6 +136,7 @@ MarkedForms marked_forms(const Triangles& triangles, const PlanarPoints& uv, con
 {
     const std::vector<Wanted> wanted = wanted_forms(uv, circles, loops, marks, middle);
     MarkedForms result;
+    // Boundary values of the wanted functions, with a minus sign: harmonic functions take them off inside.
     std::vector<Index> rim;
     std::vector<Eigen::Index> first_row;
     for (const VertexLoop& loop : loops) {
@@ -154,6 +155,7 @@ MarkedForms marked_forms(const Triangles& triangles, const PlanarPoints& uv, con
         const DirichletSolver solver = harmonic_solver(triangles, lengths, static_cast<Index>(uv.rows()), rim);
         result.forms = forms_of(triangles, uv, area, solver.solve(given));
     }
+    // Add the functions themselves, at the faces' centroids.
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         result.poles.push_back(wanted[i].poles);
         for (Eigen::Index f = 0; f < triangles.rows(); ++f) {

@@ -41,7 +41,7 @@ struct TeichmuellerOptions {
 
 /// The map of a's domain to b's with the least largest |mu|, as near as the mesh comes: circles move to their places
 /// without meeting (bend_between), and then sums of |mu| to rising powers are minimized, up to the 128th. Rim vertices
-/// slide. K is told by Reich's and Strebel's inequalities (dilatation_bounds), and for a ring by the two moduli.
+/// slide. K is bounded by Reich's and Strebel's inequalities (dilatation_bounds), and for a ring by the two moduli.
 /// The Teichmueller distance is log(K) / 2. How holes wind around each other is chosen as in fit_circles.
 ///
 /// Landmarks are held (map_with_landmarks), also those on rims. Four on the rim of a surface without holes are the

@@ -85,6 +85,7 @@ double score(const VectorXd& module)
 /// The best order with this outer loop, and its score.
 std::pair<double, std::vector<int>> best_order(const std::vector<Circle>& circles, int outer)
 {
+    // By separation from the outer loop, which no Moebius map changes.
     std::vector<int> order;
     for (std::size_t k = 0; k < circles.size(); ++k)
         if (static_cast<int>(k) != outer) order.push_back(static_cast<int>(k));
@@ -95,6 +96,7 @@ std::pair<double, std::vector<int>> best_order(const std::vector<Circle>& circle
     const std::vector<std::size_t> runs = runs_of_alike(keys);
     order.insert(order.begin(), outer);
 
+    // Among loops that are alike, try all orders, if there are not too many.
     double orders = 1.0;
     for (std::size_t r = 0; r + 1 < runs.size(); ++r) {
         std::sort(order.begin() + 1 + static_cast<std::ptrdiff_t>(runs[r]),

@@ -116,6 +116,7 @@ DomainAlignment align_domains(const std::vector<Circle>& source, const std::vect
                               std::vector<int> match, const ExecutionContext& context)
 {
     DomainAlignment result;
+    // The corresponding loops, as given or by the least distance of the modules.
     if (match.empty()) {
         const LoopMatch found = match_loops(source, target, false, context);
         match.resize(source.size());
@@ -135,6 +136,7 @@ DomainAlignment align_domains(const std::vector<Circle>& source, const std::vect
     result.misses.assign(source.size(), 0.0);
     if (source.size() == 1) return result;
 
+    // The loops nearest to the outer one tell most: exact maps of these start the fit of all.
     std::vector<std::size_t> largest(source.size() - 1);
     std::iota(largest.begin(), largest.end(), std::size_t{1});
     std::ranges::stable_sort(largest, {}, [&](std::size_t k) {
@@ -145,6 +147,7 @@ DomainAlignment align_domains(const std::vector<Circle>& source, const std::vect
     for (const Moebius& start : starts(source, matched, largest))
         if (const Fit fit = improve(source, matched, start, context); fit.squares < best.squares) best = fit;
 
+    // The misses of all loops but the outer one.
     const VectorXd left = differences(source, matched, best.map);
     result.map = best.map;
     result.iterations = best.iterations;

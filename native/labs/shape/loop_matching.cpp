@@ -119,6 +119,7 @@ std::vector<Start> starts(const View& a, const View& b, const ExecutionContext& 
         int first, second;
         double mismatch;
     };
+    // Pairs with the most similar separations, from the outer loop and from each other.
     const int one = a.inner[0], two = a.inner[1];
     const double between = conformal_separation(a.circles[one], a.circles[two]);
     std::vector<Candidate> candidates;
@@ -132,6 +133,7 @@ std::vector<Start> starts(const View& a, const View& b, const ExecutionContext& 
     std::ranges::stable_sort(candidates, {}, &Candidate::mismatch);
     candidates.resize(std::min(candidates.size(), most_starts));
 
+    // A lower bound of each start's cost: each loop takes its cheapest partner.
     std::vector<Start> result;
     for (const Candidate& pair : candidates) {
         context.checkpoint();

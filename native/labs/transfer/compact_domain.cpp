@@ -10,6 +10,7 @@ namespace koebe {
 CompactDomain compact(const MappedSurface& surface)
 {
     CompactDomain domain;
+    // Vertices in faces get numbers without gaps.
     std::vector<Index> place(static_cast<std::size_t>(surface.uv.rows()), -1);
     for (Eigen::Index i = 0; i < surface.triangles.size(); ++i) place[surface.triangles.data()[i]] = 0;
     for (std::size_t v = 0; v < place.size(); ++v)
@@ -20,6 +21,7 @@ CompactDomain compact(const MappedSurface& surface)
     domain.surface.triangles = surface.triangles.unaryExpr([&](Index v) { return place[v]; });
     domain.surface.vertices = surface.vertices(domain.original, Eigen::all);
     domain.surface.uv = surface.uv(domain.original, Eigen::all);
+    // Loops, circles and areas in these numbers.
     domain.surface.loops = surface.loops;
     for (LoopReport& loop : domain.surface.loops) {
         for (Index& v : loop.vertices) v = place[v];

@@ -187,6 +187,7 @@ AlignedDomain lay_by_landmarks(const Triangles& triangles, const PlanarPoints& u
         return points;
     };
     const auto folded = [&](const PlanarPoints& points) { return folded_faces(triangles, points).size(); };
+    // The largest share of the hyperbolic way that folds no more faces than no way at all.
     const PlanarPoints whole = with_share(1.0);
     if (length == 0.0) return {whole, whole};
     const std::size_t most = folded(with_share(0.0));

@@ -57,6 +57,7 @@ std::vector<Pin> landmark_pins(const CutMesh& mesh, const Triangles& triangles, 
     for (std::size_t i = 0; i < mesh.vertex.size(); ++i) {
         const Index number = static_cast<Index>(i), v = mesh.vertex[i];
         if (v >= count && lies_on_rim_edge(mesh.added[v - count], triangles, loops)) on_edges.push_back(number);
+        // A landmark of loop k lies on circle k, and on no other circle.
         const int k = v < count ? loop_with(loops, v, &LoopReport::vertices) : -1;
         Complex place = places[number];
         bool fits = k < 0 || !std::ranges::binary_search(loops[k].off_circle, v);
@@ -67,6 +68,7 @@ std::vector<Pin> landmark_pins(const CutMesh& mesh, const Triangles& triangles, 
         }
         if (!fits) off_rims.push_back(number);
         if (k >= 0) place = circles[k].center + std::polar(circles[k].radius, std::arg(place - circles[k].center));
+        // Landmarks at one point must have one place, and the reverse.
         bool known = false;
         for (const Pin& pin : pins) {
             const bool same_point = pin.vertex == v;

@@ -130,6 +130,7 @@ std::vector<PlanarPoints> allowance_rings(const std::vector<VertexLoop>& loops, 
     const bg::strategy::buffer::side_straight side;
     const bg::strategy::buffer::end_round end(corners);
     const bg::strategy::buffer::point_circle circle(corners);
+    // The buffer fails for some outlines: simpler outlines and other corners follow.
     for (std::size_t k = 0; k < tries; ++k) {
         const bg::strategy::buffer::join_round join(corners + 3 * k);
         Polygons grown;

@@ -59,7 +59,7 @@ void require_one_to_one(FlatPart& part, ExecutionContext& context)
 }
 
 /// Takes pieces away that nobody can cut out. @param unit mm @return their faces, rising
-std::vector<Index> leave_out_crumbs(std::vector<FlatPart>& parts, double unit)
+std::vector<Index> leave_out_tiny_pieces(std::vector<FlatPart>& parts, double unit)
 {
     std::vector<Index> faces;
     double lost = 0.0, largest = 0.0;
@@ -157,7 +157,7 @@ PatternPiece report_piece(const FlatPart& part, const PlanarPoints& at, int shee
 }
 
 std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<LeftOutFace>& without_area,
-                                 const std::vector<Index>& crumbs)
+                                 const std::vector<Index>& tiny)
 {
     std::vector<Warning> warnings;
     if (!without_area.empty()) {
@@ -166,10 +166,9 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<Le
         warnings.push_back({WarningKind::collapsed_faces,
                             counted(faces.size(), "face") + " of no area or like another, in no piece", faces});
     }
-    if (!crumbs.empty())
+    if (!tiny.empty())
         warnings.push_back({WarningKind::left_out,
-                            counted(crumbs.size(), "face") + " left out, in pieces under a tenth of a millimetre",
-                            crumbs});
+                            counted(tiny.size(), "face") + " left out, in pieces under a tenth of a millimetre", tiny});
     warn_reoriented(layout.reoriented, warnings);
     if (!layout.not_even.empty()) warn_not_even(layout.not_even, warnings);
     return warnings;
@@ -197,10 +196,12 @@ FlattenResult compute(const Vertices& vertices, const Triangles& triangles, cons
 {
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
+    // Cut, lay flat, and leave out pieces that nobody can cut out.
     FlatMesh mesh = cut_and_flat(vertices, triangles, options, context);
     const double unit = millimetres(options.units) * length_of_unit();
     std::vector<FlatPart>& parts = mesh.parts;
-    const std::vector<Index> crumbs = leave_out_crumbs(parts, unit);
+    const std::vector<Index> tiny = leave_out_tiny_pieces(parts, unit);
+    // Allowances around the pieces, places on the pages, and seams that both sides show.
     context.begin_stage("pack", 0.9, 1.0);
     side_by_side(parts.size(), options.threads, context,
                  [&](std::size_t k, ExecutionContext& own) { require_one_to_one(parts[k], own); });
@@ -212,6 +213,7 @@ FlattenResult compute(const Vertices& vertices, const Triangles& triangles, cons
     mark_seams(seams, parts, placed);
     number_pieces(parts, placed);
 
+    // Report seams and pieces in mm.
     FlattenResult result;
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
@@ -223,6 +225,7 @@ FlattenResult compute(const Vertices& vertices, const Triangles& triangles, cons
         result.pieces.push_back(report_piece(parts[k], placed.points[k], placed.sheet[k]));
         result.darts += static_cast<Index>(parts[k].tips.size());
     }
+    // UVs of the input's corners, and their distortion.
     const std::vector<LeftOutFace> left_out = mesh.left_out;
     PartsLayout layout = layout_at(std::move(mesh), placed.points);
     measure_stretch(layout, unit, result);
@@ -231,12 +234,12 @@ FlattenResult compute(const Vertices& vertices, const Triangles& triangles, cons
         if (layout.part[f] >= 0) mapped.push_back(static_cast<Index>(f));
     const ComputedDistortion distortion = distortion_of_parts(layout, layout.uv / layout.uv.maxCoeff(), mapped);
     const VectorXd areas = face_areas(layout.vertices, layout.triangles);
-    result.distortion = {distortion, {areas(crumbs).sum(), distortion.angle_error_deg, {}, {}}};
+    result.distortion = {distortion, {areas(tiny).sum(), distortion.angle_error_deg, {}, {}}};
     result.uv = uv_of_input(layout, triangles);
     result.turned = layout.reoriented;
     result.even = layout.even;
     result.converged = true;
-    result.warnings = warnings_of(layout, left_out, crumbs);
+    result.warnings = warnings_of(layout, left_out, tiny);
     result.part = std::move(layout.part);
     result.pattern = std::move(placed.pattern);
     result.peak_memory_mb = peak_memory_mb();

@@ -96,6 +96,7 @@ void mark_seams(const std::vector<Seam>& seams, const std::vector<FlatPart>& par
             sides.emplace_back(side, parts[side.part], placed.points[side.part]);
             least = std::min({least, share_of_seam * sides.back().length(), share_of_piece * roots[side.part]});
         }
+        // Notches at the same shares of both sides, and the seam's number beside the middle one.
         const std::vector<double> shares = notches(sides.front().length(), seams[s].closed);
         const double tick = std::min(notch, least), text = std::max(std::min(seam_text, least), least_text);
         for (std::size_t i = 0; i < sides.size(); ++i) {

@@ -214,6 +214,7 @@ BentMesh bent_mesh(const FlatSheet& sheet, const Vertices& mesh, const Triangles
         flat[v] = turn * Complex(mesh(row, 0), mesh(row, 1));
     }
     for (Eigen::Index c = 0; c < triangles.size(); ++c) used.push_back(flat[triangles.data()[c]]);
+    // The mesh in the plane, and its frame in the UVs.
     const PlaneBox box = box_around(used);
     const double width = box.size().real();
     if (!(width > 0.0 && box.size().imag() > 0.0 && std::isfinite(width) && std::isfinite(box.size().imag())))
@@ -223,6 +224,7 @@ BentMesh bent_mesh(const FlatSheet& sheet, const Vertices& mesh, const Triangles
     if (triangles.rows() * static_cast<Eigen::Index>(frame.centres.size()) > most_bent_faces)
         throw InputError("the repeated mesh has over four million faces");
 
+    // Bend a copy at each centre.
     const double size = frame.width * frame.scale;
     const std::vector<Index> part = parts_of_mesh(triangles, static_cast<Index>(mesh.rows()));
     Bending bending(sheet, mesh, triangles, heights * size / width);

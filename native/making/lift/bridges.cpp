@@ -132,6 +132,7 @@ private:
 
     void collect_ways()
     {
+        // Boxes of edges at openings, grown by half of the width: nearer edges have boxes that meet.
         std::vector<Box> boxes;
         for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h) {
             if (!at_edge(h)) continue;
@@ -145,6 +146,7 @@ private:
             if (++pairs % 65536 == 0) context_.checkpoint();
             if (pairs > most_pairs)
                 throw InputError("the bridge is too wide to be checked: give one that is narrower than the outlines");
+            // Keep the shortest ways of each pair of openings that do not touch.
             Index h = first.info(), g = second.info();
             if (opening_[h] > opening_[g]) std::swap(h, g);
             if (opening_[h] == opening_[g] || opening_[h] >= outlines) return;
@@ -188,11 +190,13 @@ private:
         const Eigen::Vector3d from = start(way.from) + way.from_share * (end(way.from) - start(way.from));
         const Eigen::Vector3d to = start(way.to) + way.to_share * (end(way.to) - start(way.to));
         const std::vector<Index> begin = faces_at(way.from, way.from_share), last = faces_at(way.to, way.to_share);
+        // Both points in one face.
         for (const Index f : begin)
             if (std::ranges::find(last, f) != last.end()) {
                 faces = {f};
                 return (to - from).norm();
             }
+        // Leave the first face where the plane goes farthest towards the other point.
         const Eigen::Vector3d plane = (to - from).cross(normal(face_of(way.from)) + normal(face_of(way.to)));
         const auto side = [&](Index v) { return plane.dot(at(v) - from) >= 0.0; };
         const auto crosses = [&](Index h) {
@@ -210,6 +214,7 @@ private:
                 const double forward = (crossing(h) - from).dot(to - from);
                 if (forward > ahead) std::tie(ahead, exit) = std::pair(forward, h);
             }
+        // Cross one edge after another, up to the other opening or the last face.
         double length = 0.0;
         Eigen::Vector3d place = from;
         while (exit != no_twin) {

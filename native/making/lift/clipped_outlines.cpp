@@ -67,7 +67,7 @@ public:
         return found;
     }
 
-    /// Outlines at vertices where the faces of a set do not hang together. @param inside the set (F)
+    /// Outlines at vertices where the faces of a set are not connected. @param inside the set (F)
     std::vector<Index> pinching(const std::vector<char>& inside) const
     {
         std::vector<Index> leaving(overlay_.vertices.rows(), 0), found;

@@ -81,6 +81,7 @@ void measure(FlatSheet& sheet)
             sheet.normals.row(v) += std::atan2(area, a.dot(b)) / area * normal;
         }
     }
+    // Scale: root of the area on the surface over the area in the UVs. Normals: weighted by angles.
     sheet.mean_scale = flat > 0.0 ? std::sqrt(sheet.area / flat) : 1.0;
     sheet.scale.resize(count);
     for (Eigen::Index v = 0; v < count; ++v) {

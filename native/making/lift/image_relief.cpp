@@ -15,7 +15,7 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_fine_faces = 4'000'000;
+constexpr double most_fine_faces = 4e6;
 constexpr double about_faces = 1e6;  // without a size
 
 /// Halves the longest edges first, so that no angle becomes small: a face is cut from the middle of its longest edge.
@@ -35,9 +35,8 @@ public:
 
     FineSheet run()
     {
-        while (halve_once())
-            if (corners_.size() / 3 > most_fine_faces)
-                throw InputError("the relief would have over four million faces: give a larger size");
+        require_few_faces(least_faces());
+        while (halve_once()) require_few_faces(static_cast<double>(face_.size()));
         require_stored();
         FineSheet fine;
         fine.vertices.resize(static_cast<Eigen::Index>(points_.size()), 3);
@@ -53,6 +52,18 @@ public:
     }
 
 private:
+    static void require_few_faces(double count)
+    {
+        if (count > most_fine_faces)
+            throw InputError("the relief would have over four million faces: give a larger size");
+    }
+
+    /// No face with edges up to l has more area than l^2 sqrt(3) / 4, and halving keeps the area.
+    double least_faces() const
+    {
+        return longest_ ? 4.0 * sheet_.area / (std::numbers::sqrt3 * *longest_ * *longest_) : 0.0;
+    }
+
     Triangles as_triangles() const
     {
         return Eigen::Map<const Triangles>(corners_.data(), static_cast<Eigen::Index>(corners_.size() / 3), 3);
@@ -142,6 +153,7 @@ private:
             const Index first = longest_edge(f), second = next_halfedge(first), third = next_halfedge(second);
             const auto at = [&](Index h) { return Corner{corners_[h], uv_[h]}; };
             const auto half = [&](Index h) { return Corner{middle[h], middle_in_uv(h)}; };
+            // A face is cut from the middle of its longest edge, and its halves at their marked edges.
             if (middle[first] < 0) {
                 add(at(first), at(second), at(third));
                 note();

@@ -73,6 +73,7 @@ KeptSheet kept_faces(const Overlay& overlay, const std::vector<char>& keep, Inde
         sheet.patch.push_back(overlay.in_pattern(f) ? 1 : 0);
         sheet.face.push_back(overlay.face[f]);
     }
+    // Number the vertices that are left, in their order.
     std::vector<Index> used;
     for (Index v = 0; v < count; ++v) {
         if (number[v] < 0) continue;

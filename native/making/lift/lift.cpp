@@ -33,7 +33,7 @@ namespace {
 constexpr double cells_across = 12.0;  // of the root of the area, if no size is given
 
 /// Checks loops and Euler characteristic of the sheet against what the outlines must have made of them.
-void require_foretold(const Surface& before, const KeptSheet& sheet, Index holes, LiftResult& result)
+void require_expected_topology(const Surface& before, const KeptSheet& sheet, Index holes, LiftResult& result)
 {
     const Surface after = analyze_surface(sheet.triangles, static_cast<Index>(sheet.vertices.rows()));
     result.loops_before = static_cast<int>(before.loops.size());
@@ -147,6 +147,7 @@ RaisedSheet outlined_sheet(const FlatDomain& domain, std::vector<DrawnOutline> o
                            const LiftOptions& options, KeptSheet& sheet, LiftResult& result,
                            const ExecutionContext& context)
 {
+    // Draw the outlines into the faces.
     const std::vector<FlatSheet> charts = domain.sphere ? domain.sphere->charts : std::vector<FlatSheet>();
     ClippedOverlay drawn;
     if (domain.filled) {
@@ -164,6 +165,7 @@ RaisedSheet outlined_sheet(const FlatDomain& domain, std::vector<DrawnOutline> o
         throw InputError("no outline of the pattern fits the surface: give another size (left out at a hole, a rim or "
                          "a cut: " +
                          std::to_string(result.left_out.at_border) + ")");
+    // Keep the faces on the surface, without the outlines that are cut out.
     std::vector<char> keep(overlay.region.size(), 1);
     for (std::size_t f = 0; f < keep.size(); ++f)
         keep[f] = domain.walked().on_surface(overlay.face[f]) && !(options.perforate && overlay.region[f] >= 0);
@@ -171,7 +173,7 @@ RaisedSheet outlined_sheet(const FlatDomain& domain, std::vector<DrawnOutline> o
     if (options.perforate && options.bridge)
         warn_of_thin_bridges(domain, overlay, keep, *options.bridge, result, context);
     sheet = kept_faces(overlay, keep, static_cast<Index>(domain.sheet().vertices.rows()));
-    require_foretold(domain.surface, sheet, drawn.holes, result);
+    require_expected_topology(domain.surface, sheet, drawn.holes, result);
     return raised_sheet(sheet, options.height);
 }
 
@@ -237,11 +239,12 @@ void warn_of_crossings(const MeetingFaces& meeting, std::vector<Index> faces, Li
 void lift_outlines(const FlatDomain& domain, const Triangles& given, const PatternFile& file, const std::string& name,
                    const LiftOptions& options, LiftResult& result, ExecutionContext& context)
 {
+    // Raise the image, or draw the outlines and raise or cut them out.
     KeptSheet sheet;
     RaisedSheet raised;
     if (file.image) {
         raised = image_relief(domain, *file.image, options, sheet, result);
-        require_foretold(domain.surface, sheet, 0, result);
+        require_expected_topology(domain.surface, sheet, 0, result);
     } else {
         std::vector<DrawnOutline> outlines = file.drawing ? outlines_of(*file.drawing, domain, options, result)
                                                           : built_in_outlines(domain, name, options, result);
@@ -250,6 +253,7 @@ void lift_outlines(const FlatDomain& domain, const Triangles& given, const Patte
                                 result, context);
     }
     context.checkpoint();
+    // Close the sheet to a solid, if it has a thickness.
     const std::size_t outer = raised.patch.size();
     const std::vector<Index> source = raised.source;
     if (options.thickness)
@@ -258,6 +262,7 @@ void lift_outlines(const FlatDomain& domain, const Triangles& given, const Patte
         finish_sheet(sheet, std::move(raised), options, result);
     tell_places(sheet, domain.sheet().vertices, given, source, outer, result);
     warn_of_left_out(result);
+    // A relief or a solid may cross itself.
     if (!options.thickness && !options.height) return;
     context.checkpoint();
     const MeetingFaces meeting = meeting_faces(result.vertices, result.triangles, context);
@@ -278,6 +283,7 @@ void lift_mesh(const FlatDomain& domain, const PatternMesh& mesh, const LiftOpti
                          "rim or a cut. Give another size",
                          ElementKind::faces, std::move(bent.left_at));
     context.checkpoint();
+    // Report parts and faces that were left out or are turned over.
     result.size = bent.size;
     result.loops_before = static_cast<int>(domain.surface.loops.size());
     result.euler_before = domain.surface.euler_characteristic;
@@ -298,6 +304,7 @@ void lift_mesh(const FlatDomain& domain, const PatternMesh& mesh, const LiftOpti
     result.patch.assign(bent.uv.size() / 3, 0);
     result.original.assign(result.vertices.rows(), -1);
     result.uv = planar_points(bent.uv);
+    // Faces that meet on the surface, and did not in the pattern.
     const auto meeting_of = [&](const Vertices& vertices, const Triangles& triangles) {
         const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
         return meeting_faces(vertices, joined_corners(vertices, triangles, 1e-9 * diagonal), context);

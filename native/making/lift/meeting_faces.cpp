@@ -73,6 +73,7 @@ bool neighbours(const Triangles& triangles, Index f, Index g)
 
 MeetingFaces meeting_faces(const Vertices& vertices, const Triangles& triangles, const ExecutionContext& context)
 {
+    // Pairs whose boxes meet are tested exactly, until there are too many.
     std::vector<FaceBox> boxes;
     boxes.reserve(static_cast<std::size_t>(triangles.rows()));
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) {

@@ -178,11 +178,13 @@ PlacedDrawing placed_drawing(const FlatSheet& sheet, const FlatSheet& filled, co
     const SvgDrawing drawing = in_unit_width(given, place.turn);
     const PlacedFrame frame = placed_frame(sheet, drawing.high.imag() - drawing.low.imag(), place, "drawing");
     const double tolerance = std::clamp(of_mean_edge * mean_uv_edge(sheet) / frame.width, least_of_drawing, of_drawing);
+    // The areas that the drawing fills, once.
     std::vector<FilledBoundary> boundaries = drawn_boundaries(drawing, tolerance);
     if (cut_out) drop_areas_in_holes(boundaries);
     if (boundaries.size() * frame.centres.size() > most_corners)
         throw InputError("the repeated drawing has over " + std::to_string(most_corners) + " outlines");
 
+    // Copies of them at all centres of the frame.
     PlacedDrawing placed;
     placed.size = frame.width * frame.scale;
     Index group = 0;

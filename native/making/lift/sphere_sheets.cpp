@@ -81,8 +81,8 @@ public:
             const int side = height < 0.0 ? 1 : 0;
             south_.push_back(fits(f, side) || !fits(f, 1 - side) ? side : 1 - side);
         }
-        join_crumbs(0);
-        join_crumbs(1);
+        join_small_parts(0);
+        join_small_parts(1);
     }
 
     const std::vector<int>& south() const { return south_; }
@@ -95,6 +95,7 @@ public:
             if (!fits(f, south_[f]) && longest(f) > 1e-5) faults.push_back(f);
         Index count = 0;
         const std::vector<Index> part = connected_pieces(twin_, south_, count);
+        // Each half: its rims do not cross, are not nested, and run round it once.
         for (const int side : {0, 1}) {
             PlanarPoints points(static_cast<Eigen::Index>(places_[side].size()), 2);
             for (std::size_t v = 0; v < places_[side].size(); ++v) {
@@ -137,7 +138,7 @@ private:
     bool at_rim(Index h) const { return twin_[h] == no_twin || south_[face_of(twin_[h])] != south_[face_of(h)]; }
 
     /// Small parts of a half that lie in the other half go over to it.
-    void join_crumbs(int side)
+    void join_small_parts(int side)
     {
         Index count = 0;
         const std::vector<Index> part = connected_pieces(twin_, south_, count);
@@ -242,6 +243,7 @@ private:
 SphereSheets sphere_sheets(const Vertices& vertices, const Triangles& triangles, const Vertices& points,
                            std::optional<Index> around)
 {
+    // Stereographic projections from both poles; each face belongs to one half.
     Eigen::Matrix3d south = Eigen::Matrix3d::Identity();
     south(1, 1) = south(2, 2) = -1.0;
     const std::array<std::vector<Complex>, 2> places{projected(points, Eigen::Matrix3d::Identity()),
@@ -251,6 +253,7 @@ SphereSheets sphere_sheets(const Vertices& vertices, const Triangles& triangles,
         throw InputError("faces are too large on the sphere: subdivide the mesh", ElementKind::faces,
                          std::move(faults));
 
+    // Both halves as disks of one size, beside each other in the UV square.
     double reach = 1.0;
     const auto place_of = [&](Index f, int k) { return places[halves.south()[f]][triangles(f, k)]; };
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)

@@ -354,7 +354,7 @@ private:
         add_clips(group, size, depth);
     }
 
-    /// Appends to a group the clips that cut it. A clip that cannot be drawn stays an attribute, which is told of.
+    /// Appends to a group the clips that cut it. A clip that cannot be drawn stays an attribute, which is reported.
     void add_clips(SvgNode& group, const Size& size, int depth)
     {
         if (const auto port = ports_.find(&group); port != ports_.end())

@@ -39,6 +39,7 @@ std::optional<std::vector<Compound>> selector_of(std::string_view text)
             ++at;
             continue;
         }
+        // A child, or a descendant after blanks, begins the next compound.
         if (c == '>') {
             selector.back().child = true;
             gap = true;
@@ -50,6 +51,7 @@ std::optional<std::vector<Compound>> selector_of(std::string_view text)
             gap = false;
         }
         begun = true;
+        // A type, .class, #id or *.
         const bool has_mark = c == '.' || c == '#';
         const std::size_t from = at + (has_mark ? 1 : 0);
         const std::size_t end = std::min(text.find_first_of(".#>:[+~* \t\r\n\f", from), text.size());

@@ -102,6 +102,7 @@ void require_shallow(std::string_view text)
         } else if (rest.starts_with("<!")) {
             at += 2;
         } else {
+            // An element: its end is a > outside of quotes.
             char quote = 0;
             for (++at; at < text.size() && (quote != 0 || text[at] != '>'); ++at)
                 if (quote != 0 ? text[at] == quote : text[at] == '"' || text[at] == '\'')

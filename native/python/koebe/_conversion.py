@@ -86,7 +86,7 @@ class _Map(MapReport):
 class _Conversion:
     def __init__(self, command: str, folder: str, words: list[str]) -> None:
         self._command, self._folder = command, Path(folder)
-        self._shown: dict[str, str] = {}  # what is told of: temporary file -> the user's
+        self._shown: dict[str, str] = {}  # shown in place of: temporary file -> the user's
         self._sources: list[Source] = []
         self._words, self._region = _without_region(words)
 

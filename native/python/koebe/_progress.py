@@ -35,10 +35,10 @@ class Run:
 
     def part(self, begin: float, end: float) -> "Run":
         """A part of the call, from one fraction of its progress to another."""
-        told = self.progress
-        if told is None:
+        report = self.progress
+        if report is None:
             return self
-        return Run(lambda fraction, stage: told((1.0 - fraction) * begin + fraction * end, stage), self.cancel)
+        return Run(lambda fraction, stage: report((1.0 - fraction) * begin + fraction * end, stage), self.cancel)
 
     def at(self, fraction: float, stage: str) -> None:
         """Tells the progress. Raises Cancelled if the caller asked to stop."""

@@ -9,6 +9,7 @@ from ._native import _koebe
 
 # The kind of a warning's elements, by the warning's kind: "vertices", "faces", "loops" or "none".
 WARNING_ELEMENTS: dict[str, str] = dict(_koebe.warning_elements)
+_RENAMED = {"flaps": "ears"}  # kinds of results that 1.0 saved; to be read in 1.1 only
 
 
 class Warning(Mapping[str, Any], UserWarning, RuntimeWarning):
@@ -23,6 +24,8 @@ class Warning(Mapping[str, Any], UserWarning, RuntimeWarning):
 
     def __init__(self, entries: Mapping[str, Any] | None = None, **more: Any) -> None:
         self._entries = {**(entries or {}), **more}
+        if (kind := self._entries.get("kind")) in _RENAMED:
+            self._entries["kind"] = _RENAMED[kind]
         super().__init__(self._entries.get("text", ""))
 
     def __getitem__(self, name: str) -> Any:

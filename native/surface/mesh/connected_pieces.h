@@ -1,4 +1,4 @@
-// Parts of a surface that hang together.
+// Connected components of a surface.
 #pragma once
 
 #include "core/types.h"

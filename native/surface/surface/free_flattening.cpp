@@ -63,7 +63,7 @@ VectorXcd flatten_freely(const Vertices& vertices, const Triangles& triangles, c
     system.setFromTriplets(entries.begin(), entries.end());
     const ComplexMatrix normal = system.adjoint() * system;
     Eigen::SimplicialLDLT<ComplexMatrix> solver(normal);
-    if (solver.info() != Eigen::Success) throw SolverError("a part that hangs by an edge cannot be flattened");
+    if (solver.info() != Eigen::Success) throw SolverError("a part joined by one edge cannot be flattened");
     const VectorXcd solution = solver.solve(system.adjoint() * right);
     for (Index v = 0; v < vertex_count; ++v)
         if (unknown[v] >= 0) image[v] = solution[unknown[v]];

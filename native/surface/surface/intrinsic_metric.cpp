@@ -170,7 +170,7 @@ IntrinsicMetric metric_of_mesh(const Vertices& vertices, const Surface& surface,
     metric.triangles = surface.triangles;
     metric.lengths = edge_lengths(vertices, surface.triangles);
     metric.twin = surface.twin;
-    if (options.mollify) metric.mollification = mollify(metric.lengths, options.margin);
+    metric.mollification = mollify(metric.lengths, options.margin);
     return metric;
 }
 

@@ -10,7 +10,6 @@
 namespace koebe {
 
 struct IntrinsicMetricOptions {
-    bool mollify = true;
     bool delaunay = true;
     double margin = 1e-6;  ///< a + b > c must hold by this much, in mean edge lengths (Sharp and Crane 2020)
 };

@@ -96,6 +96,7 @@ int run_compare(const CompareRequest& request)
     require_writable_files(request.files(), true);
     const ShapeInput a = read_shape(request.first, request.options, token);
     const ShapeInput b = read_shape(request.second, request.options, token);
+    // Match the loops, and measure the distance of the modules, or of the extremal map.
     ExecutionContext context({}, token);
     const LoopMatch match = run_detachable<LoopMatch>(context, [request, a, b](ExecutionContext& own) {
         return request.loops == "length" ? by_length(a, b) : match_loops(a.circles, b.circles, request.any_outer, own);
@@ -110,6 +111,7 @@ int run_compare(const CompareRequest& request)
         distance = map.distance();
         extremal = teichmueller_json(map);
     }
+    // Write the report; the line goes to stdout unless the report does.
     if (request.with_json) {
         nlohmann::ordered_json report{
             {"distance", distance}, {"a", module_json(a, match.order_a)}, {"b", module_json(b, match.order_b)}};

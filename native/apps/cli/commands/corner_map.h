@@ -82,7 +82,6 @@ class PieceMapKind : public CornerMapKind<Result, Options> {
 public:
     using CornerMapKind<Result, Options>::CornerMapKind;
 
-    bool many_pieces() const override { return true; }
     Result compute(const MeshInput& input, ExecutionContext& context) const override
     {
         Result result = CornerMapKind<Result, Options>::compute(input, context);
@@ -129,6 +128,7 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
             ->type_name("FILE");
     add_report_options(*options, *request, help.picture);
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
+    // Checks run while the words are read; files of weights are read by the run.
     options->callback([request, name = help.name, check = help.check] {
         check(*request);
         if (!request->sphere.empty()) required_format(request->sphere);

@@ -3,7 +3,6 @@
 
 #include "cli/files/mesh_input.h"
 #include "cli/options/map_request.h"
-#include "cli/process/roomy_heap.h"
 #include "core/warning.h"
 #include "io/atomic_file.h"
 #include "quality/distortion.h"
@@ -24,7 +23,6 @@ public:
 
     virtual bool any_polygon() const { return false; }  ///< see ReadOptions
     virtual bool takes_uvs() const { return false; }    ///< whether it needs the file's own texture coordinates
-    virtual bool many_pieces() const { return false; }  ///< threads work on several pieces side by side
     /// Computes the map. All numbers in the result are the file's.
     virtual Result compute(const MeshInput&, ExecutionContext&) const = 0;
     /// Writes the mesh. Returns warnings about replaced or lost contents of the file.
@@ -43,7 +41,6 @@ public:
 template <typename Result>
 ReadOptions begin_run(const MapRequest& request, const MapKind<Result>& kind)
 {
-    if (!kind.many_pieces()) take_roomy_heap();
     require_writable_files(map_files(request), !request.quiet);
     return {.any_polygon = kind.any_polygon(),
             .hash = !request.json.empty(),

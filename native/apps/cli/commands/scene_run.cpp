@@ -144,6 +144,7 @@ int finish_scene(const MapRequest& request, const SceneInput& scene, std::vector
     std::vector<Warning> warnings = scene_warnings(scene, mapped);
     GlbWithUvs made = glb_with_corner_uvs(scene.file.bytes, scene.meshes, uvs, request.of_files.uv_channel);
     std::ranges::move(made.warnings, std::back_inserter(warnings));
+    // All files are written before one of them is renamed.
     std::vector<AtomicFile> files;
     files.emplace_back(request.output).write(made.bytes);
     if (!request.svg.empty()) files.emplace_back(request.svg).write(mapped.front().picture);

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 namespace koebe::cli {
 namespace {
@@ -103,52 +104,57 @@ void require_csv(const FamilyRequest& request)
     if (request.csv.empty() && !request.reference.empty()) throw CLI::ValidationError("--reference", "needs --csv");
 }
 
+std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }
+
+/// The place of the named reference, or of the first file that can be mapped, and its shape.
+std::pair<std::size_t, ShapeInput> reference_of(const FamilyRequest& request, const std::vector<std::string>& files,
+                                                const CancelToken& token)
+{
+    if (!request.reference.empty()) {
+        const auto found = std::ranges::find(files, request.reference, name_of);
+        if (found == files.end()) throw InputError("the reference " + request.reference + " is not among the files");
+        return {static_cast<std::size_t>(found - files.begin()), read_shape(*found, request.options, token)};
+    }
+    for (std::size_t first = 0;; ++first) try {
+            return {first, read_shape(files[first], request.options, token)};
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const KoebeError&) {
+            if (first + 1 == files.size()) throw;
+        }
+}
+
+FamilyRow row_of(const std::string& file, const ShapeInput& shape, const std::vector<int>& order,
+                 const ShapeOptions& options)
+{
+    FamilyRow row{name_of(file), true, conformal_module(shape.circles, order), {}, {}};
+    if (options.with_error) row.error = module_error(row.module, conformal_module(shape.refined, order));
+    if (options.rims == RimKind::polygonal) row.note = "polygonal rims";
+    if (!shape.converged) row.note = "not converged";
+    for (const Warning& warning : shape.warnings)
+        if (warning.kind == WarningKind::reoriented_faces)
+            row.note += (row.note.empty() ? "" : "; ") + warning.sentence;
+    return row;
+}
+
 ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::string>& files,
                         const std::function<std::vector<int>(const ShapeInput&)>& order, const CancelToken& token)
 {
-    const auto name = [](const std::string& path) { return fs::path(path).filename().string(); };
-    const auto read = [&](const std::string& file) { return read_shape(file, request.options, token); };
-    std::size_t first = 0;
-    ShapeInput reference;
-    if (!request.reference.empty()) {
-        const auto found =
-            std::ranges::find_if(files, [&](const auto& file) { return name(file) == request.reference; });
-        if (found == files.end()) throw InputError("the reference " + request.reference + " is not among the files");
-        first = static_cast<std::size_t>(found - files.begin());
-        reference = read(files[first]);
-    } else {
-        for (;; ++first) try {
-                reference = read(files[first]);
-                break;
-            } catch (const Cancelled&) {
-                throw;
-            } catch (const KoebeError&) {
-                if (first + 1 == files.size()) throw;
-            }
-    }
+    const auto [first, reference] = reference_of(request, files, token);
     const std::vector<int> wanted = order(reference);
-
     ShapeFamily family{module_names(wanted.size()), {}, true};
     for (std::size_t i = 0; i < files.size(); ++i) {
-        FamilyRow row{name(files[i]), false, {}, {}, {}};
+        FamilyRow row;
         try {
-            const ShapeInput shape = i == first ? reference : read(files[i]);
-            const std::vector<int> own = i == first ? wanted : like(reference, shape, wanted, token);
-            row.module = conformal_module(shape.circles, own);
-            if (request.options.with_error) row.error = module_error(row.module, conformal_module(shape.refined, own));
-            row.known = true;
-            if (request.options.rims == RimKind::polygonal) row.note = "polygonal rims";
-            if (!shape.converged) row.note = "not converged";
-            for (const Warning& warning : shape.warnings)
-                if (warning.kind == WarningKind::reoriented_faces)
-                    row.note += (row.note.empty() ? "" : "; ") + warning.sentence;
+            const ShapeInput shape = i == first ? reference : read_shape(files[i], request.options, token);
+            row = row_of(files[i], shape, i == first ? wanted : like(reference, shape, wanted, token), request.options);
             family.converged = family.converged && shape.converged;
         } catch (const Cancelled&) {
             throw;
         } catch (const OutOfMemory&) {
             throw;
         } catch (const KoebeError& error) {
-            row = {name(files[i]), false, {}, {}, error_line(error)};
+            row = {name_of(files[i]), false, {}, {}, error_line(error)};
         }
         family.rows.push_back(std::move(row));
     }

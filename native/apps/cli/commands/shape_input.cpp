@@ -17,13 +17,13 @@ namespace koebe::cli {
 
 namespace {
 
-constexpr double told_change = 0.005;  // of a radius: about the bars of coarse meshes (docs/shapes.md)
+constexpr double reported_change = 0.005;  // of a radius: about the bars of coarse meshes (docs/shapes.md)
 
 /// Warns if polygons in place of smooth curves would change a radius by more than its error bar, or without bars by
 /// more than 0.5 %.
 void warn_about_rims(ShapeInput& shape, const VectorXd& change)
 {
-    VectorXd allowed = VectorXd::Constant(change.size(), told_change);
+    VectorXd allowed = VectorXd::Constant(change.size(), reported_change);
     if (!shape.refined.empty()) {
         const VectorXd module = conformal_module(shape.circles);
         const VectorXd bars = module_error(module, conformal_module(shape.refined));

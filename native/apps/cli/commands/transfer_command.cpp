@@ -127,6 +127,7 @@ int run_transfer(const TransferRequest& request)
     const auto a = std::make_shared<const MappedInput>(read_and_map(request.first, request, token));
     const auto b = std::make_shared<const MappedInput>(read_and_map(request.second, request, token));
     const ExecutionContext context({}, token);
+    // Landmarks as points of the mapped surfaces.
     CorrespondenceOptions options{
         .match = {}, .fit_holes = !request.aligned_only, .landmarks = {}, .extremal = request.extremal};
     for (NamedPoint& point : named.on_a) point.vertex = a->mesh.mapped(point.vertex);
@@ -137,6 +138,7 @@ int run_transfer(const TransferRequest& request)
         for (std::size_t i = 0; i < on_a.size(); ++i) options.landmarks.push_back({on_b[i], on_a[i]});
     }
     const Correspondence found = found_correspondence(a, b, options, request.quiet, token);
+    // A with its points on B, and the report.
     std::vector<AtomicFile> files;
     PolygonMesh moved = a->mesh.polygons;
     moved.vertices = found.points;

@@ -232,7 +232,7 @@ def _color(key: int, colors: Mapping[int, Color]) -> Color:
 
 
 def _save_annot(place: str, labels: np.ndarray, names: dict[int, str], colors: dict[int, Color]) -> None:
-    """Labels are told apart by their colours in this format, so each has a colour of its own, none of them black."""
+    """Labels are distinguished by their colours in this format, so each has a colour of its own, none of them black."""
     keys = range(max(names, default=0) + 1)  # the format numbers labels without gaps
     taken: set[tuple[int, ...]] = {(0, 0, 0)}
     table = np.zeros((len(keys), 5), np.int64)

@@ -98,13 +98,13 @@ def by_fields(
     areas: np.ndarray,
     fields: tuple[np.ndarray, np.ndarray],
     free: bool,
-    told: Callable[[float], None],
+    report: Callable[[float], None],
 ) -> np.ndarray:
     """The map of greatest correlation of the fields. All rotations are tried, then small steps.
 
     look_up    the values of the first fields (V_a, k) at points of the sphere
     points, areas    (V_b, 3) of the second sphere, and (V_b,)
-    told       called with the share of the work that is done, and ends the work by an exception
+    report     called with the share of the work that is done, and ends the work by an exception
     """
     weight = np.where(np.isfinite(fields[1]).any(axis=1), areas, 0.0)
     random = np.random.default_rng(0)
@@ -118,16 +118,16 @@ def by_fields(
     rotations = np.concatenate([_rotations(_quaternions(_ROTATIONS)), np.eye(3)[None]])
     scores: list[float] = []
     for some in np.array_split(rotations, 40):
-        told(0.5 * len(scores) / len(rotations))
+        report(0.5 * len(scores) / len(rotations))
         looked_up = table[_cells((there[:_SAMPLES] @ some.transpose(0, 2, 1)).reshape(-1, 3))]
         scores += correlation(looked_up.reshape(len(some), -1, wanted.shape[1]), wanted[:_SAMPLES]).tolist()
     start = [_turned(rotation) for rotation in rotations]
     best = [start[k] for k in np.argsort(scores)[::-1][:_BEST]]
     climbed: list[np.ndarray] = []
     for matrix in best:
-        told(0.5 + 0.3 * len(climbed) / _BEST)
+        report(0.5 + 0.3 * len(climbed) / _BEST)
         climbed.append(_climbed(lambda m: similarity(m, _SAMPLES), matrix, 3, 0.1, 0.02))
-    told(0.8)
+    report(0.8)
     matrix = max(climbed, key=lambda m: similarity(m, len(there)))
     return _climbed(lambda m: similarity(m, len(there)), matrix, 6 if free else 3, 0.05, 5e-4)
 

@@ -78,11 +78,11 @@ class SphereCorrespondence:
     def __repr__(self) -> str:
         turn = nearest_rotation(self.alignment[1:, 1:])
         angle = np.degrees(np.arccos(np.clip(0.5 * (np.trace(turn) - 1.0), -1.0, 1.0)))
-        told = "" if self.bending is None else f", bent by |mu| {self.bending['beltrami']['mean']:.3g} in the mean"
+        bent = "" if self.bending is None else f", bent by |mu| {self.bending['beltrami']['mean']:.3g} in the mean"
         if len(self.misses_deg):
-            told += f", {len(self.misses_deg)} landmarks miss by up to {self.misses_deg.max():.3g} deg"
+            bent += f", {len(self.misses_deg)} landmarks miss by up to {self.misses_deg.max():.3g} deg"
         like = "" if self.similarity is None else f", fields correlate by {self.similarity:.3g}"
-        return f"<koebe.SphereCorrespondence {len(self.points)} points, turned by {angle:.3g} deg{told}{like}>"
+        return f"<koebe.SphereCorrespondence {len(self.points)} points, turned by {angle:.3g} deg{bent}{like}>"
 
     def __call__(self, directions: Any) -> np.ndarray:
         """The points (n, 3) of a's sphere at points (n, 3) of b's sphere."""
@@ -166,15 +166,15 @@ def sphere_transfer(
     points = np.einsum("vk,vkc->vc", weights, a.vertices[a.triangles[faces]])
     misses = np.degrees(2.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(sphere[on_b] - a.points[on_a], axis=1), 0.0, 1.0)))
     similarity = None if both is None else _similarity(located, sphere, b, both)
-    told = []
+    warnings = []
     if bending is not None and not bending["settled"]:
         text = "the bending ended before it settled: a greater stiffness settles sooner"
-        told.append(Warning(kind="not_converged", elements=[], text=text))
-        python_warnings.warn(told[0], stacklevel=3)
+        warnings.append(Warning(kind="not_converged", elements=[], text=text))
+        python_warnings.warn(warnings[0], stacklevel=3)
     run.at(1.0, "finish")
     return SphereCorrespondence(
         faces, weights, points, sphere, matrix, misses, similarity, bending, a.triangles, a.vertex_count, b.points,
-        b.triangles, told,
+        b.triangles, warnings,
     )  # fmt: skip
 
 

@@ -130,4 +130,4 @@ def lift(
     if not isinstance(pattern, str | os.PathLike):
         raise TypeError(f"pattern must be a name or a file's path, not {pattern!r}")
     native = source.call(_koebe.lift, os.fspath(pattern), options, progress, cancel)
-    return LiftResult({**source.told(native.report()), "options": said}, native)
+    return LiftResult({**source.with_input_warnings(native.report()), "options": said}, native)

@@ -43,7 +43,7 @@ class CutResult(MapReport):
     seconds: Seconds
 
     def __init__(self, report: dict[str, Any], uv: np.ndarray, flipped_faces: np.ndarray, source: Source) -> None:
-        self._report = report = source.told(report)
+        self._report = report = source.with_input_warnings(report)
         self._source = source
         vars(self).update(figures_of(report))
         self.uv = uv.reshape(-1, 3, 2)

@@ -25,7 +25,7 @@ class DomainMap(MapReport):
     seconds: Seconds
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
-        self._report = report = source.told(report)
+        self._report = report = source.with_input_warnings(report)
         self._source = source
         vars(self).update(figures_of(report))
         self.uv = native.uv.reshape(-1, 3, 2)

@@ -68,7 +68,7 @@ class PartsResult(MapReport):
     def __init__(
         self, report: dict[str, Any], uv: np.ndarray, part: np.ndarray, flipped_faces: np.ndarray, source: Source
     ) -> None:
-        self._report = report = source.told(report)
+        self._report = report = source.with_input_warnings(report)
         self._source = source
         vars(self).update(figures_of(report))
         self.uv = uv.reshape(-1, 3, 2)

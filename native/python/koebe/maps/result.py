@@ -127,7 +127,7 @@ class Source:
         """(F,) int32: the number of each triangle in the input."""
         return np.arange(len(self.triangles), dtype=np.int32) if self.kept is None else self.kept
 
-    def told(self, report: dict[str, Any]) -> dict[str, Any]:
+    def with_input_warnings(self, report: dict[str, Any]) -> dict[str, Any]:
         """The report, without vertices that have a face in the input, and with a warning of vertices in one place."""
         warnings = report["warnings"]
         if self.kept is not None or self.first is not None:
@@ -394,7 +394,7 @@ class UniformizeResult(MapReport):
         source: Source,
         conformal_uv: np.ndarray | None = None,
     ) -> None:
-        self._report = report = source.told(report)
+        self._report = report = source.with_input_warnings(report)
         self._source = source
         loops = report["loops"]
         vars(self).update(figures_of(report))

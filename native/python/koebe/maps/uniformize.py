@@ -168,18 +168,18 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any
 
 def _loops_of(_: np.ndarray, __: np.ndarray, faces: np.ndarray, count: int) -> Any:
     loops = _koebe.boundary_loops(faces, count)
-    _tell(_koebe.surface_warnings(faces, count), 4)
+    _warn(_koebe.surface_warnings(faces, count), 4)
     return loops
 
 
-def _tell(entries: list[dict[str, Any]], level: int = 2) -> None:
+def _warn(entries: list[dict[str, Any]], level: int = 2) -> None:
     """Python warnings of a function without a report. level: how far up its caller is."""
     for entry in entries:
         warnings.warn(Warning(entry), stacklevel=level + 1)
 
 
-def _tell_turned(source: Source) -> None:
-    _tell(_koebe.surface_warnings(source.triangles, len(source.vertices)), 3)
+def _warn_turned(source: Source) -> None:
+    _warn(_koebe.surface_warnings(source.triangles, len(source.vertices)), 3)
 
 
 def disk_map(vertices: Any, triangles: Any = None, *, mask: Any = None) -> np.ndarray:
@@ -196,7 +196,7 @@ def disk_map(vertices: Any, triangles: Any = None, *, mask: Any = None) -> np.nd
     """
     source = surface_of(vertices, triangles, mask=mask)
     points = source.outside_nan(source.call(_koebe.disk_map))
-    _tell_turned(source)
+    _warn_turned(source)
     return points
 
 
@@ -219,7 +219,7 @@ def annulus_map(
     chosen = choice(backend, "backend", _koebe.AnnulusBackend)
     source = surface_of(vertices, triangles, mask=mask)
     points, radius = source.call(_koebe.annulus_map, chosen)
-    _tell_turned(source)
+    _warn_turned(source)
     return source.outside_nan(points), radius
 
 
@@ -251,8 +251,8 @@ def fill_holes(
     if weld is not None:
         source = surface_of(vertices, triangles, mask=mask, weld=number(weld, rows("parts")["weld"]))
     ranks = None if loops is None else as_indices(loops, "loops", source.triangles.size, "loops")
-    points, faces, label, told = source.call(_koebe.fill_holes, ranks, flag(fair, "fair"))
-    _tell(told)
+    points, faces, label, found = source.call(_koebe.fill_holes, ranks, flag(fair, "fair"))
+    _warn(found)
     own = len(source.triangles)
     return (
         points, np.concatenate([given.triangles, faces[own:]]),

@@ -1,4 +1,4 @@
-#include "flaps/least_arcs.h"
+#include "ears/least_arcs.h"
 
 #include "core/connectivity.h"
 
@@ -8,9 +8,9 @@
 namespace koebe {
 namespace {
 
-constexpr double least_of_mean = 1e-3;     // dimensionless
-constexpr double drawable = 1e-3;          // radians: s^2 / 2 is eight roundings of 32-bit UVs
-constexpr double most = std::numbers::pi;  // radians that all such edges may take together
+constexpr double least_of_mean = 1e-3;          // dimensionless
+constexpr double drawable = 1e-3;               // radians: s^2 / 2 is eight roundings of 32-bit UVs
+constexpr double most_room = std::numbers::pi;  // radians that all such edges may take together
 
 /// Marks the edges of the shorter side of every chord of the loop.
 void mark_pockets(const Surface& core, const VertexLoop& outer, const std::vector<Index>& place,
@@ -29,7 +29,7 @@ void mark_pockets(const Surface& core, const VertexLoop& outer, const std::vecto
 
 }  // namespace
 
-VectorXd least_arcs(const Surface& core, const VertexLoop& outer, const std::vector<Flap>& flaps,
+VectorXd least_arcs(const Surface& core, const VertexLoop& outer, const std::vector<Ear>& ears,
                     const std::vector<Index>& core_vertices)
 {
     const Index n = static_cast<Index>(outer.size());
@@ -41,13 +41,13 @@ VectorXd least_arcs(const Surface& core, const VertexLoop& outer, const std::vec
     VectorXd extra = VectorXd::Zero(n);
     for (Index i = 0; i < n; ++i)
         if (pocket[i]) extra[i] = drawable;
-    for (const Flap& flap : flaps) {
-        if (flap.loop != 0 || flap.rim.size() < 2) continue;  // a single ear is thickened later (untangle)
-        const auto first = std::lower_bound(core_vertices.begin(), core_vertices.end(), flap.first);
+    for (const Ear& ear : ears) {
+        if (ear.loop != 0 || ear.rim.size() < 2) continue;  // a single ear is thickened later (untangle)
+        const auto first = std::lower_bound(core_vertices.begin(), core_vertices.end(), ear.first);
         extra[place[static_cast<Index>(first - core_vertices.begin())]] =
-            drawable * static_cast<double>(flap.rim.size() + 1);
+            drawable * static_cast<double>(ear.rim.size() + 1);
     }
-    if (extra.sum() > most) extra *= most / extra.sum();
+    if (extra.sum() > most_room) extra *= most_room / extra.sum();
     return extra.cwiseMax(least_of_mean * 2.0 * std::numbers::pi / static_cast<double>(n));
 }
 

@@ -1,5 +1,5 @@
 #include "circle_domain.h"
-#include "flap_domain.h"
+#include "ear_domain.h"
 #include "pipeline/uniformize.h"
 #include "planar/planar_predicates.h"
 
@@ -40,7 +40,7 @@ void expect_one_to_one(const UniformizeResult& result)
 
 }  // namespace
 
-TEST(FlapMap, an_ear_hangs_into_its_hole_in_its_own_shape)
+TEST(EarMap, an_ear_hangs_into_its_hole_in_its_own_shape)
 {
     CircleDomain domain = make_circle_domain(five_circles(), 1000);
     const Index a = domain.loops[1][3], b = domain.loops[1][4];
@@ -59,7 +59,7 @@ TEST(FlapMap, an_ear_hangs_into_its_hole_in_its_own_shape)
         << result.warnings[0].text();
 }
 
-TEST(FlapMap, ears_that_would_meet_across_the_hole_are_made_flatter)
+TEST(EarMap, ears_that_would_meet_across_the_hole_are_made_flatter)
 {
     CircleDomain domain = make_circle_domain(five_circles(), 1000);
     const VertexLoop loop = domain.loops[3];
@@ -70,7 +70,7 @@ TEST(FlapMap, ears_that_would_meet_across_the_hole_are_made_flatter)
         EXPECT_TRUE(report.off_circle.empty() || report.off_circle.size() == loop.size());
 }
 
-TEST(FlapMap, on_the_outer_loop_flaps_lie_along_the_unit_circle)
+TEST(EarMap, on_the_outer_loop_ears_lie_along_the_unit_circle)
 {
     CircleDomain domain = make_circle_domain(five_circles(), 1000);
     const Index a = domain.loops[0][7], b = domain.loops[0][8];
@@ -82,7 +82,7 @@ TEST(FlapMap, on_the_outer_loop_flaps_lie_along_the_unit_circle)
     for (const LoopReport& report : result.loops) EXPECT_TRUE(report.off_circle.empty());
 }
 
-TEST(FlapMap, a_strip_without_inner_vertices_becomes_a_convex_polygon)
+TEST(EarMap, a_strip_without_inner_vertices_becomes_a_convex_polygon)
 {
     CircleDomain strip = strip_of_triangles();
     expect_one_to_one(map_flat(strip));
@@ -93,7 +93,7 @@ TEST(FlapMap, a_strip_without_inner_vertices_becomes_a_convex_polygon)
     expect_one_to_one(map_flat(strip));
 }
 
-TEST(FlapMap, segments_that_touch_or_lie_on_each_other_meet)
+TEST(EarMap, segments_that_touch_or_lie_on_each_other_meet)
 {
     EXPECT_TRUE(segments_meet({0, 0}, {2, 2}, {0, 2}, {2, 0}));
     EXPECT_TRUE(segments_meet({0, 0}, {2, 0}, {1, 0}, {1, 5}));

@@ -1,6 +1,6 @@
 #include "circle_domain.h"
-#include "flap_domain.h"
-#include "flaps/flaps.h"
+#include "ear_domain.h"
+#include "ears/ears.h"
 
 #include <gtest/gtest.h>
 
@@ -11,22 +11,22 @@ using namespace koebe::test;
 
 namespace {
 
-FlapCut cut(const CircleDomain& domain)
+EarCut cut(const CircleDomain& domain)
 {
     const Surface surface = require_bordered_genus_zero(domain.triangles, static_cast<Index>(domain.points.size()));
-    return cut_flaps(lift(domain.points, Lift::plane), surface, domain.loops);
+    return cut_ears(lift(domain.points, Lift::plane), surface, domain.loops);
 }
 
 }  // namespace
 
-TEST(Flaps, a_mesh_without_chords_has_none)
+TEST(Ears, a_mesh_without_chords_has_none)
 {
-    const FlapCut result = cut(make_circle_domain(five_circles(), 1000));
-    EXPECT_TRUE(result.flaps.empty());
+    const EarCut result = cut(make_circle_domain(five_circles(), 1000));
+    EXPECT_TRUE(result.ears.empty());
     EXPECT_TRUE(result.vertices.empty());
 }
 
-TEST(Flaps, nested_ears_of_a_loop_are_one_flap_and_the_rest_is_the_domain_without_them)
+TEST(Ears, nested_ears_of_a_loop_are_one_ear_and_the_rest_is_the_domain_without_them)
 {
     const CircleDomain plain = make_circle_domain(five_circles(), 1000);
     CircleDomain domain = plain;
@@ -34,33 +34,33 @@ TEST(Flaps, nested_ears_of_a_loop_are_one_flap_and_the_rest_is_the_domain_withou
     const Index tip = glue_ear(domain, 1, a, b, 0.5);
     const Index second = glue_ear(domain, 1, a, tip, 0.3);
 
-    const FlapCut result = cut(domain);
-    ASSERT_EQ(result.flaps.size(), 1u);
-    const Flap& flap = result.flaps[0];
-    EXPECT_EQ(flap.loop, 1);
-    EXPECT_EQ(flap.first, a);
-    EXPECT_EQ(flap.last, b);
-    EXPECT_EQ(flap.rim, (std::vector<Index>{second, tip}));
-    EXPECT_TRUE(flap.interior.empty());
-    EXPECT_EQ(flap.faces.size(), 2u);
+    const EarCut result = cut(domain);
+    ASSERT_EQ(result.ears.size(), 1u);
+    const Ear& ear = result.ears[0];
+    EXPECT_EQ(ear.loop, 1);
+    EXPECT_EQ(ear.first, a);
+    EXPECT_EQ(ear.last, b);
+    EXPECT_EQ(ear.rim, (std::vector<Index>{second, tip}));
+    EXPECT_TRUE(ear.interior.empty());
+    EXPECT_EQ(ear.faces.size(), 2u);
     EXPECT_EQ((result.core.triangles - plain.triangles).cwiseAbs().maxCoeff(), 0);
     EXPECT_EQ(result.loops, plain.loops);
 }
 
-TEST(Flaps, of_a_strip_of_triangles_the_largest_one_stays)
+TEST(Ears, of_a_strip_of_triangles_the_largest_one_stays)
 {
     const CircleDomain strip = strip_of_triangles();
-    const FlapCut result = cut(strip);
-    ASSERT_EQ(result.flaps.size(), 2u);
+    const EarCut result = cut(strip);
+    ASSERT_EQ(result.ears.size(), 2u);
     EXPECT_EQ(result.vertices, (std::vector<Index>{2, 3, 4}));
     EXPECT_EQ(result.loops[0].size(), 3u);
     std::vector<Index> faces;
-    for (const Flap& flap : result.flaps) faces.insert(faces.end(), flap.faces.begin(), flap.faces.end());
+    for (const Ear& ear : result.ears) faces.insert(faces.end(), ear.faces.begin(), ear.faces.end());
     std::sort(faces.begin(), faces.end());
     EXPECT_EQ(faces, (std::vector<Index>{0, 1, 3, 4}));
 }
 
-TEST(Flaps, what_has_another_loop_behind_its_edge_is_none)
+TEST(Ears, what_has_another_loop_behind_its_edge_is_none)
 {
     // Two annuli that share one edge of their outer loops.
     const CircleDomain one = make_round_annulus(0.5, 12, 3);
@@ -75,5 +75,5 @@ TEST(Flaps, what_has_another_loop_behind_its_edge_is_none)
         for (int k = 0; k < 3; ++k) both.triangles(one.triangles.rows() + f, k) = renamed(one.triangles(f, k));
     const Surface surface = require_bordered_genus_zero(both.triangles, 2 * n);
     EXPECT_EQ(surface.loops.size(), 3u);
-    EXPECT_TRUE(cut_flaps(lift(both.points, Lift::plane), surface, surface.loops).flaps.empty());
+    EXPECT_TRUE(cut_ears(lift(both.points, Lift::plane), surface, surface.loops).ears.empty());
 }

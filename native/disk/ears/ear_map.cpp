@@ -1,4 +1,4 @@
-#include "flaps/flap_map.h"
+#include "ears/ear_map.h"
 
 #include "linear/sparse_cholesky.h"
 #include "planar/planar_predicates.h"
@@ -18,21 +18,21 @@ constexpr double least_share = 0.3;  // of the mean edge along a rim
 constexpr double lens_reach = 0.9;   // of the way from the hinge to the middle of the hole
 constexpr double lens_aspect = 1.0;  // height of the lens's control point over the hinge's length
 
-/// A flap with its own vertex numbers: the ends of the hinge, the rim, the interior.
-struct PlacedFlap {
-    PlacedFlap(const Vertices& positions, const Triangles& faces, const Flap& flap)
-        : loop(flap.loop), rim(static_cast<Index>(flap.rim.size())), names{flap.first, flap.last}
+/// An ear with its own vertex numbers: the ends of the hinge, the rim, the interior.
+struct PlacedEar {
+    PlacedEar(const Vertices& positions, const Triangles& faces, const Ear& ear)
+        : loop(ear.loop), rim(static_cast<Index>(ear.rim.size())), names{ear.first, ear.last}
     {
-        names.insert(names.end(), flap.rim.begin(), flap.rim.end());
-        names.insert(names.end(), flap.interior.begin(), flap.interior.end());
+        names.insert(names.end(), ear.rim.begin(), ear.rim.end());
+        names.insert(names.end(), ear.interior.begin(), ear.interior.end());
         std::vector<std::pair<Index, Index>> rank;
         for (std::size_t i = 0; i < names.size(); ++i) rank.emplace_back(names[i], static_cast<Index>(i));
         std::sort(rank.begin(), rank.end());
-        triangles.resize(static_cast<Eigen::Index>(flap.faces.size()), 3);
+        triangles.resize(static_cast<Eigen::Index>(ear.faces.size()), 3);
         for (Eigen::Index f = 0; f < triangles.rows(); ++f)
             for (int k = 0; k < 3; ++k)
                 triangles(f, k) =
-                    std::lower_bound(rank.begin(), rank.end(), std::pair(faces(flap.faces[f], k), Index{0}))->second;
+                    std::lower_bound(rank.begin(), rank.end(), std::pair(faces(ear.faces[f], k), Index{0}))->second;
         vertices = positions(names, Eigen::all);
         image = VectorXcd::Zero(static_cast<Eigen::Index>(names.size()));
     }
@@ -97,49 +97,49 @@ struct PlacedFlap {
     int level = 0;      // how often it has been flattened
 };
 
-void lay_on_rim(PlacedFlap& flap)
+void lay_on_rim(PlacedEar& ear)
 {
-    const double begin = std::arg(flap.image[0]);
-    double sweep = std::arg(flap.image[1] / flap.image[0]);
+    const double begin = std::arg(ear.image[0]);
+    double sweep = std::arg(ear.image[1] / ear.image[0]);
     if (sweep <= 0.0) sweep += 2.0 * std::numbers::pi;
-    flap.image.segment(2, flap.rim) = (Complex(0.0, 1.0) * (begin + sweep * flap.shares().array())).exp();
-    flap.fill();
+    ear.image.segment(2, ear.rim) = (Complex(0.0, 1.0) * (begin + sweep * ear.shares().array())).exp();
+    ear.fill();
 }
 
-/// Draws the flap as flat as its level says.
-void draw(PlacedFlap& flap, Complex middle)
+/// Draws the ear as flat as its level says.
+void draw(PlacedEar& ear, Complex middle)
 {
-    const Complex a = flap.image[0], b = flap.image[1];
-    if (flap.level < lens_level) {
-        for (Eigen::Index v = 2; v < flap.image.size(); ++v) {
-            const Complex local = (flap.natural[v] - a) / (b - a);
-            flap.image[v] = a + (b - a) * Complex(local.real(), flatter[flap.level] * local.imag());
+    const Complex a = ear.image[0], b = ear.image[1];
+    if (ear.level < lens_level) {
+        for (Eigen::Index v = 2; v < ear.image.size(); ++v) {
+            const Complex local = (ear.natural[v] - a) / (b - a);
+            ear.image[v] = a + (b - a) * Complex(local.real(), flatter[ear.level] * local.imag());
         }
         return;
     }
     const Complex foot = 0.5 * (a + b);
     const double reach = std::min(lens_reach, lens_aspect * std::abs(b - a) / std::abs(middle - foot));
     const Complex control = foot + reach * (middle - foot);
-    const VectorXd shares = flap.shares();
-    for (Index i = 0; i < flap.rim; ++i) {
+    const VectorXd shares = ear.shares();
+    for (Index i = 0; i < ear.rim; ++i) {
         const double t = shares[i];
-        flap.image[2 + i] = (1.0 - t) * (1.0 - t) * a + 2.0 * t * (1.0 - t) * control + t * t * b;
+        ear.image[2 + i] = (1.0 - t) * (1.0 - t) * a + 2.0 * t * (1.0 - t) * control + t * t * b;
     }
-    flap.fill();
+    ear.fill();
 }
 
-/// Whether the flap lies inside the hole: the core loop's polygon, convex, clockwise as the surface is on its left.
-bool inside_hole(const PlacedFlap& flap, const VectorXcd& hole)
+/// Whether the ear lies inside the hole: the core loop's polygon, convex, clockwise as the surface is on its left.
+bool inside_hole(const PlacedEar& ear, const VectorXcd& hole)
 {
-    for (Index i = 0; i < flap.rim; ++i)
+    for (Index i = 0; i < ear.rim; ++i)
         for (Eigen::Index e = 0; e < hole.size(); ++e) {
             const Complex from = hole[e], to = hole[(e + 1) % hole.size()];
-            if (!(cross(to - from, flap.image[2 + i] - from) < 0.0)) return false;
+            if (!(cross(to - from, ear.image[2 + i] - from) < 0.0)) return false;
         }
     return true;
 }
 
-bool chains_meet(const PlacedFlap& a, const PlacedFlap& b)
+bool chains_meet(const PlacedEar& a, const PlacedEar& b)
 {
     const auto p = a.chain(), q = b.chain();
     for (std::size_t i = 0; i + 1 < p.size(); ++i)
@@ -153,29 +153,29 @@ bool chains_meet(const PlacedFlap& a, const PlacedFlap& b)
     return false;
 }
 
-/// Flattens flaps until each is upright, inside the hole, and apart from the others.
-void settle(std::vector<PlacedFlap*>& flaps, const VectorXcd& hole, const ExecutionContext& context)
+/// Flattens ears until each is upright, inside the hole, and apart from the others.
+void settle(std::vector<PlacedEar*>& ears, const VectorXcd& hole, const ExecutionContext& context)
 {
     const Complex middle = hole.mean();
-    for (PlacedFlap* flap : flaps) {
-        flap->natural = flatten_freely(flap->vertices, flap->triangles, {0, 1}, {flap->image[0], flap->image[1]});
-        draw(*flap, middle);
+    for (PlacedEar* ear : ears) {
+        ear->natural = flatten_freely(ear->vertices, ear->triangles, {0, 1}, {ear->image[0], ear->image[1]});
+        draw(*ear, middle);
     }
-    const auto flatten = [&](PlacedFlap& flap) {
-        if (flap.level == lens_level) return false;
-        ++flap.level;
-        draw(flap, middle);
+    const auto flatten = [&](PlacedEar& ear) {
+        if (ear.level == lens_level) return false;
+        ++ear.level;
+        draw(ear, middle);
         return true;
     };
     for (bool changed = true; changed;) {
         changed = false;
-        for (std::size_t i = 0; i < flaps.size(); ++i) {
+        for (std::size_t i = 0; i < ears.size(); ++i) {
             context.checkpoint();
-            while (!(flaps[i]->upright() && inside_hole(*flaps[i], hole) && !chains_meet(*flaps[i], *flaps[i])))
-                if (!flatten(*flaps[i])) break;
+            while (!(ears[i]->upright() && inside_hole(*ears[i], hole) && !chains_meet(*ears[i], *ears[i])))
+                if (!flatten(*ears[i])) break;
             for (std::size_t j = 0; j < i; ++j)
-                while (chains_meet(*flaps[i], *flaps[j])) {
-                    const bool first = flatten(*flaps[i]), second = flatten(*flaps[j]);
+                while (chains_meet(*ears[i], *ears[j])) {
+                    const bool first = flatten(*ears[i]), second = flatten(*ears[j]);
                     if (!first && !second) break;
                     changed = true;
                 }
@@ -185,27 +185,27 @@ void settle(std::vector<PlacedFlap*>& flaps, const VectorXcd& hole, const Execut
 
 }  // namespace
 
-std::vector<Index> lay_flaps(const Vertices& vertices, const Triangles& triangles, const std::vector<Flap>& flaps,
-                             const std::vector<VertexLoop>& loops, PlanarPoints& uv, const ExecutionContext& context)
+std::vector<Index> lay_ears(const Vertices& vertices, const Triangles& triangles, const std::vector<Ear>& ears,
+                            const std::vector<VertexLoop>& loops, PlanarPoints& uv, const ExecutionContext& context)
 {
-    std::vector<PlacedFlap> placed;
+    std::vector<PlacedEar> placed;
     std::vector<char> cut(vertices.rows(), 0);
-    for (const Flap& flap : flaps) {
-        PlacedFlap& item = placed.emplace_back(vertices, triangles, flap);
-        item.image[0] = {uv(flap.first, 0), uv(flap.first, 1)};
-        item.image[1] = {uv(flap.last, 0), uv(flap.last, 1)};
-        for (const Index v : flap.rim) cut[v] = 1;
+    for (const Ear& ear : ears) {
+        PlacedEar& item = placed.emplace_back(vertices, triangles, ear);
+        item.image[0] = {uv(ear.first, 0), uv(ear.first, 1)};
+        item.image[1] = {uv(ear.last, 0), uv(ear.last, 1)};
+        for (const Index v : ear.rim) cut[v] = 1;
     }
-    // Flaps of the outer loop lie along the unit circle: a disk is convex. The others lie inside their hole, whose
-    // polygon the loop without its flaps is.
+    // Ears of the outer loop lie along the unit circle: a disk is convex. The others lie inside their hole, whose
+    // polygon the loop without its ears is.
     std::vector<Index> off_circle;
     for (std::size_t k = 0; k < loops.size(); ++k) {
-        std::vector<PlacedFlap*> of_loop;
-        for (PlacedFlap& flap : placed)
-            if (flap.loop == static_cast<int>(k)) of_loop.push_back(&flap);
+        std::vector<PlacedEar*> of_loop;
+        for (PlacedEar& ear : placed)
+            if (ear.loop == static_cast<int>(k)) of_loop.push_back(&ear);
         if (of_loop.empty()) continue;
         if (k == 0) {
-            for (PlacedFlap* flap : of_loop) lay_on_rim(*flap);
+            for (PlacedEar* ear : of_loop) lay_on_rim(*ear);
             continue;
         }
         VectorXcd hole(static_cast<Eigen::Index>(loops[k].size()));
@@ -214,12 +214,12 @@ std::vector<Index> lay_flaps(const Vertices& vertices, const Triangles& triangle
             if (!cut[v]) hole[corners++] = {uv(v, 0), uv(v, 1)};
         hole.conservativeResize(corners);
         settle(of_loop, hole, context);
-        for (const PlacedFlap* flap : of_loop)
-            off_circle.insert(off_circle.end(), flap->names.begin() + 2, flap->names.begin() + 2 + flap->rim);
+        for (const PlacedEar* ear : of_loop)
+            off_circle.insert(off_circle.end(), ear->names.begin() + 2, ear->names.begin() + 2 + ear->rim);
     }
-    for (const PlacedFlap& flap : placed)
-        for (std::size_t i = 2; i < flap.names.size(); ++i)
-            uv.row(flap.names[i]) << flap.image[i].real(), flap.image[i].imag();
+    for (const PlacedEar& ear : placed)
+        for (std::size_t i = 2; i < ear.names.size(); ++i)
+            uv.row(ear.names[i]) << ear.image[i].real(), ear.image[i].imag();
     return off_circle;
 }
 

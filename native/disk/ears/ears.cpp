@@ -1,4 +1,4 @@
-#include "flaps/flaps.h"
+#include "ears/ears.h"
 
 #include "core/connectivity.h"
 #include "core/sort_unique.h"
@@ -27,9 +27,9 @@ int joined(int a, int b)
     return b == no_loop || a == b ? a : several_loops;
 }
 
-class FlapCutter {
+class EarCutter {
 public:
-    FlapCutter(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops)
+    EarCutter(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops)
         : surface_(surface),
           loops_(loops),
           loop_of_(surface.vertex_count, no_loop),
@@ -47,14 +47,14 @@ public:
         peel();
     }
 
-    std::vector<Flap> flaps() const
+    std::vector<Ear> ears() const
     {
-        std::vector<Flap> result;
+        std::vector<Ear> result;
         if (!any_chord_) return result;
         for (std::size_t p = 0; p < parts_.size(); ++p)
             if (!parts_[p].peeled)
                 for (const Index h : parts_[p].chords)
-                    if (parts_[part_of_[face_of(surface_.twin[h])]].peeled) result.push_back(flap_behind(h));
+                    if (parts_[part_of_[face_of(surface_.twin[h])]].peeled) result.push_back(ear_behind(h));
         return result;
     }
 
@@ -119,15 +119,15 @@ private:
     }
 
     /// @param hinge a half-edge of the core, so that the core's loop runs along it
-    Flap flap_behind(Index hinge) const
+    Ear ear_behind(Index hinge) const
     {
-        Flap flap;
-        flap.first = origin(surface_.triangles, hinge);
-        flap.last = target(surface_.triangles, hinge);
-        flap.loop = loop_of_[flap.first];
-        const VertexLoop& loop = loops_[flap.loop];
-        for (std::size_t i = place_[flap.first] + 1; loop[i % loop.size()] != flap.last; ++i)
-            flap.rim.push_back(loop[i % loop.size()]);
+        Ear ear;
+        ear.first = origin(surface_.triangles, hinge);
+        ear.last = target(surface_.triangles, hinge);
+        ear.loop = loop_of_[ear.first];
+        const VertexLoop& loop = loops_[ear.loop];
+        for (std::size_t i = place_[ear.first] + 1; loop[i % loop.size()] != ear.last; ++i)
+            ear.rim.push_back(loop[i % loop.size()]);
 
         // All blocks behind the hinge, over the chords between them.
         std::vector<Index> reached{part_of_[face_of(surface_.twin[hinge])]};
@@ -135,19 +135,19 @@ private:
         for (std::size_t head = 0; head < reached.size(); ++head) {
             const Block& part = parts_[reached[head]];
             const Index entered_by = from[head];
-            flap.faces.insert(flap.faces.end(), part.faces.begin(), part.faces.end());
+            ear.faces.insert(ear.faces.end(), part.faces.begin(), part.faces.end());
             for (const Index h : part.chords)
                 if (h != entered_by) {
                     reached.push_back(part_of_[face_of(surface_.twin[h])]);
                     from.push_back(surface_.twin[h]);
                 }
         }
-        std::sort(flap.faces.begin(), flap.faces.end());
-        for (const Index f : flap.faces)
+        std::sort(ear.faces.begin(), ear.faces.end());
+        for (const Index f : ear.faces)
             for (int k = 0; k < 3; ++k)
-                if (const Index v = surface_.triangles(f, k); loop_of_[v] == no_loop) flap.interior.push_back(v);
-        sort_unique(flap.interior);
-        return flap;
+                if (const Index v = surface_.triangles(f, k); loop_of_[v] == no_loop) ear.interior.push_back(v);
+        sort_unique(ear.interior);
+        return ear;
     }
 
     const Surface& surface_;
@@ -161,18 +161,18 @@ private:
 
 }  // namespace
 
-FlapCut cut_flaps(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops)
+EarCut cut_ears(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops)
 {
-    FlapCut cut;
-    cut.flaps = FlapCutter(vertices, surface, loops).flaps();
-    if (cut.flaps.empty()) return cut;
+    EarCut cut;
+    cut.ears = EarCutter(vertices, surface, loops).ears();
+    if (cut.ears.empty()) return cut;
 
     std::vector<char> cut_face(surface.triangles.rows(), 0);
     std::vector<Index> rank(surface.vertex_count, 0);
-    for (const Flap& flap : cut.flaps) {
-        for (const Index f : flap.faces) cut_face[f] = 1;
-        for (const Index v : flap.rim) rank[v] = -1;
-        for (const Index v : flap.interior) rank[v] = -1;
+    for (const Ear& ear : cut.ears) {
+        for (const Index f : ear.faces) cut_face[f] = 1;
+        for (const Index v : ear.rim) rank[v] = -1;
+        for (const Index v : ear.interior) rank[v] = -1;
     }
     for (Index v = 0; v < surface.vertex_count; ++v)
         if (rank[v] == 0) {
@@ -184,7 +184,8 @@ FlapCut cut_flaps(const Vertices& vertices, const Surface& surface, const std::v
         for (const Index v : loop)
             if (rank[v] >= 0) cut.loops.back().push_back(rank[v]);
     }
-    // A flap is a disk that hangs by one edge. Without it the surface stays manifold, oriented and of the same genus.
+    // An ear is a disk that one edge joins to the rest. Without it the surface stays manifold, oriented and of the same
+    // genus.
     std::vector<Index> face_rank(surface.triangles.rows(), -1);
     Index faces = 0;
     for (std::size_t f = 0; f < cut_face.size(); ++f)
