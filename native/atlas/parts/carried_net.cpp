@@ -5,6 +5,8 @@
 #include "parts/tension.h"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double far_off = 4.0;         // price of an edge as far from a coarse edge as that is long, beside its length
 constexpr int most_orders = 6;          // of chains, until all have paths that are no darts
+constexpr std::size_t near_fork = 6;    // edges of a path on to which another one may turn
 constexpr double longest_detour = 3.0;  // length of a path over the length of its chain
 
 class PathFinder {
@@ -26,12 +29,15 @@ public:
         loop_of_.assign(taken_.size(), -1);
         for (std::size_t k = 0; k < fine_.surface.loops.size(); ++k)
             for (const Index v : fine_.surface.loops[k]) loop_of_[v] = static_cast<int>(k);
+        firm_ = taken_;
         open_edges_.assign(vertex_.size(), 0);
         for (Index h = 0; h < static_cast<Index>(net.open.size()); ++h) {
             if (!net.open[h]) continue;
             taken_[fine_origin(h)] = taken_[fine_target(h)] = 1;  // paths go through no vertex of another chain
             ++open_edges_[origin(coarse_.triangles, h)];
         }
+        for (std::size_t v = 0; v < open_edges_.size(); ++v)
+            if (open_edges_[v] > 0 && open_edges_[v] != 2) firm_[vertex_[v]] = 1;
         const auto may_cut = [&](Index h) { return mesh_.twin[h] != no_twin && !mesh_.whole[h]; };
         begin_.assign(taken_.size() + 1, 0);
         for (Index h = 0; h < mesh_.halfedge_count(); ++h)
@@ -74,13 +80,17 @@ public:
 
     std::optional<CarriedPath> carried(const Path& chain)
     {
-        auto path = path_along(chain);
+        auto path = path_along(chain, false);
+        if (!path && !is_dart(chain)) path = path_along(chain, true);
+        if (!path && !is_dart(chain)) path = path_onto_neighbour(chain);
+        if (!path && !is_dart(chain))
+            if (auto back = path_onto_neighbour(reversed(chain, coarse_))) path = reversed(*back, fine_.surface);
         if (!path || (is_dart(chain) && is_detour(*path, chain))) return {};
         for (const Index h : *path)
             for (const Index v : {origin(fine_.surface.triangles, h), target(fine_.surface.triangles, h)})
-                taken_[v] = on_path_[v] = 1;
-        note(chain.front(), path->front());
-        note(coarse_.twin[chain.back()], fine_.surface.twin[path->back()]);
+                taken_[v] = firm_[v] = on_path_[v] = 1;
+        note(chain.front(), *path);
+        note(coarse_.twin[chain.back()], reversed(*path, fine_.surface));
         return CarriedPath{chain, std::move(*path)};
     }
 
@@ -92,16 +102,60 @@ public:
     }
 
 private:
+    using Joins = std::function<bool(Index)>;
+
     bool is_detour(const Path& path, const Path& chain) const
     {
         return path_length(fine_.vertices, fine_.surface.triangles, path) > longest_detour * chain_length(chain);
     }
 
-    /// Notes that a path leaves the end of a chain, if it is there.
-    void note(Index coarse, Index fine)
+    static Path reversed(const Path& path, const Surface& surface)
     {
-        const Index v = origin(fine_.surface.triangles, fine);
-        if (v == fine_origin(coarse)) placed_[v].emplace_back(coarse, fine);
+        Path back;
+        for (const Index h : path) back.insert(back.begin(), surface.twin[h]);
+        return back;
+    }
+
+    /// Notes that a path leaves the end of a chain, if it is there.
+    void note(Index coarse, const Path& path)
+    {
+        const Index v = origin(fine_.surface.triangles, path.front());
+        if (v != fine_origin(coarse)) return;
+        placed_[v].emplace_back(coarse, path.front());
+        path_from_[path.front()] = path;
+    }
+
+    /// A path to the last vertex of a chain, or on to one of the two paths between which it would arrive there, from
+    /// the side between them: a fine vertex may have fewer edges than chains meet there.
+    std::optional<Path> path_onto_neighbour(const Path& chain) const
+    {
+        const Index arriving = coarse_.twin[chain.back()];
+        const auto found = placed_.find(fine_target(chain.back()));
+        if (found == placed_.end() || found->second.size() < 2) return {};
+        const std::vector<Index> ring = leaving_of(coarse_, arriving);
+        const auto turn = [&](Index h) {  // from the chain to another one, counter-clockwise
+            const auto place = std::ranges::find(ring, h) - std::ranges::find(ring, arriving);
+            return (place + static_cast<std::ptrdiff_t>(ring.size())) % static_cast<std::ptrdiff_t>(ring.size());
+        };
+        const auto& [left, right] =
+            std::ranges::minmax(found->second, {}, [&](const auto& own) { return turn(own.first); });
+        const Path &after = path_from_.at(left.second), &before = path_from_.at(right.second);
+        return path_along(chain, true, [&](Index h) { return joins(h, after, false) || joins(h, before, true); });
+    }
+
+    /// Whether a half-edge arrives at one of the first vertices of a path, on its left or right side.
+    bool joins(Index h, const Path& path, bool from_left) const
+    {
+        const Triangles& triangles = fine_.surface.triangles;
+        for (std::size_t i = 0; i + 1 < std::min(path.size(), near_fork); ++i) {
+            if (target(triangles, path[i]) != target(triangles, h)) continue;
+            if (loop_of_[target(triangles, h)] >= 0) return false;
+            const std::vector<Index> ring = leaving_of(fine_.surface, path[i + 1]);
+            const auto place = [&](Index own) { return std::ranges::find(ring, own) - ring.begin(); };
+            const auto own = place(fine_.surface.twin[h]), back = place(fine_.surface.twin[path[i]]);
+            return own != 0 && own != back && (own < back) == from_left;
+        }
+        return false;
     }
 
     /// Half-edges that leave a vertex, counter-clockwise; from the boundary on, if the vertex is there.
@@ -147,21 +201,29 @@ private:
         return sum;
     }
 
-    /// A short path near a chain, through its vertices.
-    std::optional<Path> path_along(const Path& chain) const
+    /// A short path near a chain, through its vertices. @param loose it may leave some of them out, and go through
+    /// vertices of other chains @param joins whether it may end with a half-edge; empty: only at the chain's end
+    std::optional<Path> path_along(const Path& chain, bool loose, const Joins& joins = {}) const
     {
-        std::vector<char> taken = taken_;
+        std::vector<char> taken = loose ? firm_ : taken_;
         Path path;
+        Index from = fine_origin(chain.front());
         for (std::size_t i = 0; i < chain.size(); ++i) {
-            const bool is_first = i == 0, is_last = i + 1 == chain.size();
-            const ChainEnds ends{is_first ? chain[i] : no_twin, is_last ? coarse_.twin[chain[i]] : no_twin};
-            std::optional<Path> step = path_between(chain[i], ends, taken, false);
-            if (!step && (is_first || is_last)) step = path_between(chain[i], ends, taken, true);
+            const bool is_first = path.empty(), is_last = i + 1 == chain.size();
+            const Index to = fine_target(chain[i]);
+            const ChainEnds ends{is_first ? chain.front() : no_twin, is_last ? coarse_.twin[chain[i]] : no_twin};
+            std::optional<Path> step;
+            if (is_last || !on_path_[to]) {
+                step = path_between(from, to, ends, taken, false, is_last ? joins : Joins{});
+                if (!step && (is_first || is_last)) step = path_between(from, to, ends, taken, true);
+            }
+            if (!step && loose && !is_last) continue;
             if (!step) return {};
             for (const Index h : *step) taken[target(fine_.surface.triangles, h)] = 1;
             path.insert(path.end(), step->begin(), step->end());
+            from = to;
         }
-        return path;
+        return path.empty() ? std::nullopt : std::optional(std::move(path));
     }
 
     /// Half-edges that leave the ends of a chain, no_twin for none.
@@ -169,12 +231,11 @@ private:
         Index first, last;
     };
 
-    /// The shortest path near a coarse half-edge. @param ends if the path is the first or last one of a chain @param
+    /// The shortest path near a straight line. @param ends if the path is the first or last one of a chain @param
     /// taken (V) 1: the path may not touch it @param anywhere ends on the boundary may be elsewhere on the same loop
-    std::optional<Path> path_between(Index coarse, const ChainEnds& ends, const std::vector<char>& taken,
-                                     bool anywhere) const
+    std::optional<Path> path_between(Index from, Index to, const ChainEnds& ends, const std::vector<char>& taken,
+                                     bool anywhere, const Joins& joins = {}) const
     {
-        const Index from = fine_origin(coarse), to = fine_target(coarse);
         const Triangles& triangles = fine_.surface.triangles;
         const Eigen::RowVector3d start = fine_.vertices.row(from), along = fine_.vertices.row(to) - start;
         NearestFirst nearest(fine_.surface.vertex_count);
@@ -184,14 +245,15 @@ private:
             for (const Index v : fine_.surface.loops[loop_of_[from]])
                 if (!on_path_[v]) nearest.reach(v, 0.0);
         const auto is_end = [&](Index v) {
-            return v == to || (anywhere && loop_of_[to] >= 0 && loop_of_[v] == loop_of_[to] &&
-                               loop_of_[to] != loop_of_[from] && !on_path_[v]);
+            return v == to || (joins && v != from && on_path_[v]) ||
+                   (anywhere && loop_of_[to] >= 0 && loop_of_[v] == loop_of_[to] && loop_of_[to] != loop_of_[from] &&
+                    !on_path_[v]);
         };
         Index end = nearest.take();
         for (Index v = end; v >= 0 && !is_end(v); v = end = nearest.take())
             for (std::size_t i = begin_[v]; i < begin_[v + 1]; ++i) {
                 const Index h = leaving_[i], w = target(triangles, h);
-                if (taken[w] && !is_end(w)) continue;
+                if (taken[w] && (joins && w != to ? !joins(h) : !is_end(w))) continue;
                 if (v == from && ends.first != no_twin && !keeps_order(ends.first, h)) continue;
                 if (w == to && ends.last != no_twin && !keeps_order(ends.last, fine_.surface.twin[h])) continue;
                 const Eigen::RowVector3d off = 0.5 * (fine_.vertices.row(v) + fine_.vertices.row(w)) - start;
@@ -211,11 +273,13 @@ private:
     const std::vector<Index>& vertex_;  // (V) coarse: the fine vertex
     const CoarseNet& net_;
     SeamedMesh mesh_;
-    std::vector<char> taken_, on_path_;  // (V) fine: on the boundary or on a path
-    std::vector<int> loop_of_;           // (V) fine; -1 inside
-    std::vector<int> open_edges_;        // (V) coarse: how many half-edges on boundaries leave it
+    std::vector<char> taken_, firm_,
+        on_path_;                  // (V) fine: on the boundary or a chain, the same but inside chains, on a path
+    std::vector<int> loop_of_;     // (V) fine; -1 inside
+    std::vector<int> open_edges_;  // (V) coarse: how many half-edges on boundaries leave it
     std::vector<std::size_t> begin_;
     std::unordered_map<Index, std::vector<std::pair<Index, Index>>> placed_;  // by the fine vertex: as they leave it
+    std::unordered_map<Index, Path> path_from_;                               // by its first half-edge
     std::vector<Index> leaving_;  // half-edges that may be cut, by the vertex that they leave
 };
 

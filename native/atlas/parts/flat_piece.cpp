@@ -106,7 +106,13 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
     const SplitOptions prices = prices_for(whole.areas.sum(), options.price, threads);
     std::vector<PartPointer> parts = even_parts(whole, std::move(first), prices, context, effort);
     const Mirror mirror = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon);
-    const bool is_symmetric = make_symmetric(whole, prices, mirror, parts, context, effort);
+    bool is_symmetric = make_symmetric(whole, prices, mirror, parts, context, effort);
+    if (!is_symmetric && !mirror.image.empty()) {  // begin with the sides of the plane
+        std::vector<PartPointer> own = even_parts(whole, faces_of_sides(whole, mirror), prices, context, effort);
+        is_symmetric =
+            make_symmetric(whole, prices, mirror, own, context, effort) && is_worth_symmetry(whole, prices, own, parts);
+        if (is_symmetric) parts = std::move(own);
+    }
     const std::vector<PartPointer> before = parts;
     hide_cuts(whole, prices, parts, context, effort);
     if (is_symmetric && !make_symmetric(whole, prices, mirror, parts, context, effort)) parts = before;

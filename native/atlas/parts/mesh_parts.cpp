@@ -9,6 +9,8 @@
 #include "parts/unfolding.h"
 #include "surface/ambient_visibility.h"
 #include "surface/importance.h"
+#include "surface/mirror.h"
+#include "surface/mirror_plane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +18,18 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-constexpr Index proxy_from = 6000;       // faces: larger meshes are decided on proxies,
-constexpr Index proxy_faces = 5500;      // with about so many faces,
-constexpr Index least_proxy = 300;       // and each piece has at least so many
+constexpr Index proxy_from = 6000;   // faces: larger meshes are decided on proxies,
+constexpr Index proxy_faces = 5500;  // with about so many faces,
+constexpr Index least_proxy = 300;   // and each piece has at least so many
+constexpr Index least_mirrored =
+    1500;  // faces of a mesh without a proxy that is its mirror image but for its faces: it
+constexpr double mirrored_share = 0.6;   // gets a mirrored proxy with this share of its faces
 constexpr double dearer_on_proxy = 2.0;  // cuts: coarse parts bend less, and so overrate them
 constexpr int rounds_on_proxy = 5;       // of relaxing with the void
 constexpr double seen_at_least = 0.05;   // added to the share that is seen of a vertex: what a hidden cut costs
@@ -94,6 +100,13 @@ void price_by_visibility(PieceInput& input)
     const double mean = seen_at_least + seen.dot(areas) / areas.sum();
     if (input.shown.empty()) input.shown.assign(static_cast<std::size_t>(seen.size()), 1.0);
     for (Eigen::Index v = 0; v < seen.size(); ++v) input.shown[v] *= (seen_at_least + seen[v]) / mean;
+}
+
+/// Whether a piece is its own mirror image, but not its triangulation.
+bool is_only_nearly_mirror(const PieceInput& input)
+{
+    const auto& [vertices, triangles] = std::tie(input.piece.vertices, input.piece.triangles);
+    return find_mirror(vertices, triangles, input.polygon).vertex.empty() && nearly_mirror(vertices, triangles);
 }
 
 /// Pieces, whose parts are decided one by one and made even together.
@@ -192,7 +205,7 @@ private:
         const Index faces = static_cast<Index>(own.input.piece.triangles.rows());
         const Index coarse =
             std::max(least_proxy, static_cast<Index>(proxy_faces * static_cast<double>(faces) / total_));
-        const bool by_proxy = total_ > proxy_from && faces > coarse && options_.slits.empty();
+        bool by_proxy = total_ > proxy_from && faces > coarse && options_.slits.empty();
         if (!by_proxy && faces <= proxy_from) price_by_visibility(own.input);
         PieceSurface surface = surface_of(own.input);
         std::optional<UnfoldedParts> true_to_size;
@@ -207,12 +220,19 @@ private:
         }
         if (by_proxy) {
             own.proxy = proxy_of(own.input, std::move(surface), coarse, context);
+        } else if (faces >= least_mirrored && options_.slits.empty() && is_only_nearly_mirror(own.input)) {
+            own.proxy = proxy_of(own.input, std::move(surface), static_cast<Index>(mirrored_share * faces), context);
+            by_proxy = own.proxy->is_mirrored;
+            if (!by_proxy) surface = std::move(own.proxy->fine);
+        }
+        if (by_proxy) {
             price_by_visibility(own.proxy->input);
             own.is_fine = false;
             own.parts =
                 flat_piece(own.proxy->input, surface_of(own.proxy->input), options_, threads, context, effort).parts;
             name_by_source(own.proxy->input.piece, own.parts);
         } else {
+            own.proxy.reset();
             own.parts = flat_piece(own.input, std::move(surface), options_, threads, context, effort).parts;
         }
         if (!true_to_size) return;

@@ -1,10 +1,14 @@
 #include "parts/proxy.h"
 
 #include "core/connectivity.h"
+#include "splitting/mirrored_coarse.h"
 #include "surface/mirror.h"
+#include "surface/mirror_plane.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace koebe {
 namespace {
@@ -34,10 +38,15 @@ std::vector<char> coarse_seams(const CutSurface& fine, const CoarseSurface& coar
 
 Proxy proxy_of(const PieceInput& input, PieceSurface fine, Index faces, ExecutionContext& context)
 {
-    Proxy proxy{std::move(fine), {}, {}, {}};
+    Proxy proxy{std::move(fine), {}, {}, false, {}};
     const CutSurface& whole = proxy.fine.whole;
-    const Mirror mirror = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon);
-    proxy.coarse = coarse_surface(whole.vertices, whole.surface.triangles, faces, mirror.vertex, context);
+    const std::vector<Index> image = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon).vertex;
+    proxy.coarse = coarse_surface(whole.vertices, whole.surface.triangles, faces, image, context);
+    if (const auto plane = nearly_mirror(proxy.coarse.vertices, proxy.coarse.triangles)) {
+        std::optional<CoarseSurface> mirrored = mirrored_coarse_surface(whole, *plane, image, faces, context);
+        proxy.is_mirrored = mirrored.has_value();
+        if (mirrored) proxy.coarse = std::move(*mirrored);
+    }
     proxy.surface = analyze_surface(proxy.coarse.triangles, static_cast<Index>(proxy.coarse.vertex.size()));
     proxy.input.piece = coarse_piece(proxy.coarse, proxy.surface, whole.areas.sum(), context);
     proxy.input.seam = coarse_seams(whole, proxy.coarse, proxy.surface);

@@ -9,9 +9,10 @@ namespace koebe {
 
 struct Proxy {
     PieceSurface fine;
-    CoarseSurface coarse;  ///< its vertices and faces come from the fine surface
-    Surface surface;       ///< of the coarse triangles
-    PieceInput input;      ///< the coarse piece: its sources are the coarse surface's numbers
+    CoarseSurface coarse;      ///< its vertices and faces come from the fine surface
+    Surface surface;           ///< of the coarse triangles
+    bool is_mirrored = false;  ///< whether the coarse surface was made of one side and its mirror image
+    PieceInput input;          ///< the coarse piece: its sources are the coarse surface's numbers
 };
 
 /// @param faces about so many @param fine of the input

@@ -26,10 +26,12 @@ OpenMesh::Vec3d normal(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const
 
 class Coarsening {
 public:
-    Coarsening(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& image)
+    Coarsening(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& image,
+               const std::vector<char>& border)
         : mesh(to_halfedge_mesh(vertices, triangles)),
           parent(static_cast<std::size_t>(vertices.rows())),
           image_(image),
+          border_(border),
           reach_(parent.size(), 0.0)
     {
         note_tips(vertices, triangles);
@@ -117,10 +119,32 @@ private:
         return true;
     }
 
+    bool on_border(Vertex v) const { return !border_.empty() && border_[v.idx()]; }
+
+    bool keeps_border(Halfedge h) const
+    {
+        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        if (on_border(from)) {
+            if (!on_border(to) || !mesh.is_boundary(mesh.edge_handle(h))) return false;
+            for (auto out = mesh.cvoh_iter(from); out.is_valid(); ++out)
+                if (mesh.is_boundary(mesh.edge_handle(*out)) && !on_border(mesh.to_vertex_handle(*out))) return false;
+        }
+        if (!on_border(to)) return true;
+        for (auto out = mesh.cvoh_iter(from); out.is_valid(); ++out) {
+            const Vertex other = mesh.to_vertex_handle(*out);
+            if (other == to || !on_border(other)) continue;
+            const Halfedge across = mesh.find_halfedge(to, other);
+            if (on_border(from) ? !mesh.is_boundary(mesh.edge_handle(*out))
+                                : !across.is_valid() || !mesh.is_boundary(mesh.edge_handle(across)))
+                return false;
+        }
+        return true;
+    }
+
     bool may_collapse(Halfedge h)
     {
         if (mesh.is_boundary(mesh.from_vertex_handle(h)) && !mesh.is_boundary(mesh.edge_handle(h))) return false;
-        return mesh.is_collapse_ok(h) && stays_upright(h);
+        return keeps_border(h) && mesh.is_collapse_ok(h) && stays_upright(h);
     }
 
     /// The mirror image of a half-edge; and whether it has none because its vertices have none.
@@ -148,6 +172,7 @@ private:
     }
 
     const std::vector<Index>& image_;  // (V)
+    const std::vector<char>& border_;  // (V)
     // (V) how far a vertex has drawn others: without it a vertex would go along a row of equal edges to its end.
     std::vector<double> reach_;
     Queue queue_;
@@ -157,9 +182,10 @@ private:
 }  // namespace
 
 CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
-                             const std::vector<Index>& image, ExecutionContext& context)
+                             const std::vector<Index>& image, ExecutionContext& context,
+                             const std::vector<char>& border)
 {
-    Coarsening coarsening(vertices, triangles, image);
+    Coarsening coarsening(vertices, triangles, image, border);
     coarsening.run(faces, context);
     const HalfedgeMesh& mesh = coarsening.mesh;
     std::vector<Index>& parent = coarsening.parent;
@@ -180,7 +206,6 @@ CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangle
             row[k] = own;
         }
         rows.push_back(row);
-        coarse.face.push_back(f);
     }
     coarse.vertices = vertices(coarse.vertex, Eigen::all);
     coarse.triangles.resize(static_cast<Eigen::Index>(rows.size()), 3);

@@ -12,7 +12,6 @@ struct CoarseSurface {
     Vertices vertices;
     Triangles triangles;
     std::vector<Index> vertex;     ///< for each coarse vertex the fine vertex that it is
-    std::vector<Index> face;       ///< for each coarse face the fine face from which it came
     std::vector<Index> vertex_at;  ///< (V) for each fine vertex the coarse vertex that it was moved to
 };
 
@@ -20,7 +19,10 @@ struct CoarseSurface {
 /// turns a face over. Keeps the topology and the number of loops.
 /// @param triangles (F, 3) manifold and oriented @param image (V) mirror images, -1 for none: an edge and its image go
 /// together; empty: there is no mirror
+/// @param border (V) 1 on a part of the boundary that stays: its edges become one only along it, its ends stay, and no
+/// edge goes across from one of its vertices to another; empty: there is none
 CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
-                             const std::vector<Index>& image, ExecutionContext& context);
+                             const std::vector<Index>& image, ExecutionContext& context,
+                             const std::vector<char>& border = {});
 
 }  // namespace koebe

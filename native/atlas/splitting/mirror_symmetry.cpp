@@ -1,6 +1,7 @@
 #include "splitting/mirror_symmetry.h"
 
 #include "core/connectivity.h"
+#include "mesh/connected_pieces.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -15,7 +16,7 @@
 namespace koebe {
 namespace {
 
-constexpr double worth = 1.5;    // symmetric parts may cost this times as much,
+constexpr double worth = 2.0;    // symmetric parts may cost this times as much,
 constexpr double little = 0.03;  // or this much more: a texel density that is 3 % off everywhere, which nobody sees
 
 double border_of(const CutSurface& whole, const std::vector<PartPointer>& parts)
@@ -37,6 +38,9 @@ double cost_of(const CutSurface& whole, const SplitOptions& options, const std::
     for (const PartPointer& part : parts) cost += part->map.overflow;
     return cost;
 }
+
+/// What symmetric parts may cost. @param cost of others
+double most_cost(double cost) { return std::max(worth * cost, cost + little); }
 
 /// Sets of faces: the parts of one side, and their images.
 std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mirror& mirror,
@@ -77,6 +81,23 @@ std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mi
 
 }  // namespace
 
+bool is_worth_symmetry(const CutSurface& whole, const SplitOptions& options, const std::vector<PartPointer>& symmetric,
+                       const std::vector<PartPointer>& others)
+{
+    return cost_of(whole, options, symmetric) < most_cost(cost_of(whole, options, others));
+}
+
+std::vector<std::vector<Index>> faces_of_sides(const CutSurface& whole, const Mirror& mirror)
+{
+    std::vector<int> side;
+    for (const Index group : mirror.group) side.push_back(mirror.side[group] > 0.0);
+    Index count = 0;
+    const std::vector<Index> piece = connected_pieces(whole.surface.twin, side, count);
+    std::vector<std::vector<Index>> faces(static_cast<std::size_t>(count));
+    for (std::size_t f = 0; f < piece.size(); ++f) faces[piece[f]].push_back(static_cast<Index>(f));
+    return faces;
+}
+
 bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,
                     std::vector<PartPointer>& parts, ExecutionContext& context, SplitEffort& effort)
 {
@@ -84,8 +105,7 @@ bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const 
     if (parts.size() < 2) return true;
     std::map<std::vector<Index>, PartPointer> known;
     for (const PartPointer& part : parts) known.emplace(part->mesh.faces, part);
-    const double cost_as_they_are = cost_of(whole, options, parts);
-    double best = std::max(worth * cost_as_they_are, cost_as_they_are + little);
+    double best = most_cost(cost_of(whole, options, parts));
     std::vector<PartPointer> chosen;
     for (const double side : {1.0, -1.0}) {
         std::vector<PartPointer> mirrored;

@@ -14,6 +14,13 @@ namespace koebe {
 bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,
                     std::vector<PartPointer>& parts, ExecutionContext& context, SplitEffort& effort);
 
+/// Whether symmetric parts cost at most a little more than others, or twice as much.
+bool is_worth_symmetry(const CutSurface& whole, const SplitOptions& options, const std::vector<PartPointer>& symmetric,
+                       const std::vector<PartPointer>& others);
+
+/// The faces of each connected piece on one side of the plane.
+std::vector<std::vector<Index>> faces_of_sides(const CutSurface& whole, const Mirror& mirror);
+
 /// Half-edges (3F) of the whole along which tubes should be opened, so that slits are mirror images: half-edges on the
 /// plane, and the images of slits.
 /// @param opened (3F) 1 for half-edges of slits

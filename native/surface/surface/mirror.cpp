@@ -1,8 +1,8 @@
 #include "surface/mirror.h"
 
 #include "core/sort_unique.h"
+#include "surface/mirror_plane.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -102,26 +102,6 @@ PolygonCorners polygon_corners(const Vertices& vertices, const Triangles& triang
     return found;
 }
 
-struct MirrorPlane {
-    Eigen::RowVector3d normal, center;
-    double distance(const Eigen::RowVector3d& point) const { return normal.dot(point - center); }
-    Eigen::RowVector3d image(const Eigen::RowVector3d& point) const { return point - 2.0 * distance(point) * normal; }
-};
-
-/// Planes across the coordinate axes and across the principal axes of some points, where these are distinct.
-std::vector<MirrorPlane> possible_mirrors(const Vertices& points)
-{
-    const Eigen::RowVector3d center = points.colwise().mean();
-    const Vertices arms = points.rowwise() - center;
-    const Eigen::Matrix3d spread = arms.transpose() * arms;
-    std::vector<MirrorPlane> planes;
-    for (int k = 0; k < 3; ++k) planes.push_back({Eigen::RowVector3d::Unit(k), center});
-    if (!spread.allFinite()) return planes;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-    for (int k = 0; k < 3; ++k) planes.push_back({axes.eigenvectors().col(k).transpose(), center});
-    return planes;
-}
-
 /// The polygon at the mirror image of each polygon, or nothing.
 std::vector<Index> mirrored_polygons(const PolygonCorners& polygons, const NearestPoint& nearest,
                                      const MirrorPlane& plane)
@@ -195,7 +175,7 @@ Mirror find_mirror(const Vertices& vertices, const Triangles& triangles, const s
     const double reach = off_mirror * polygons.diagonal;
     if (!(std::isfinite(reach) && reach > 0.0 && polygons.middles.allFinite())) return mirror;
     const NearestPoint nearest(polygons.middles, reach);
-    for (const MirrorPlane& plane : possible_mirrors(polygons.middles))
+    for (const MirrorPlane& plane : possible_mirrors(polygons.middles, VectorXd::Ones(polygons.middles.rows())))
         if (is_mirror(vertices, polygons, nearest, plane, reach, mirror)) break;
     return mirror;
 }
