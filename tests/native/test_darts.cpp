@@ -162,7 +162,10 @@ TEST(Proxy, keeps_loops_and_area_and_places_of_vertices)
     EXPECT_EQ(proxy.surface.loops.size(), 1U);
     EXPECT_NEAR(face_areas(proxy.input.piece.vertices, proxy.input.piece.triangles).sum(), area_of_cone, 1e-3);
     for (std::size_t v = 0; v < proxy.coarse.vertex.size(); ++v)
-        EXPECT_EQ(proxy.coarse.vertices.row(static_cast<Eigen::Index>(v)), fine.vertices.row(proxy.coarse.vertex[v]));
+        EXPECT_LT((proxy.coarse.vertices.row(static_cast<Eigen::Index>(v)) - fine.vertices.row(proxy.coarse.vertex[v]))
+                      .norm(),
+                  0.02)  // a mirrored proxy has vertices beside those of the fine surface, by less than an edge
+            << v;
 }
 
 // The cuts of a part of the proxy lie in the fine part where they lay, and let it lie flat as they did there.

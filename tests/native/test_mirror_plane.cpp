@@ -67,7 +67,7 @@ TEST(MirrorPlane, IsFoundWhateverTheTriangulation)
 
 TEST(MirrorPlane, ASkewBodyHasNone)
 {
-    const Body own = body(0.35);
+    const Body own = body(0.9);
     EXPECT_FALSE(nearly_mirror(own.vertices, own.triangles));
 }
 

@@ -42,7 +42,10 @@ Proxy proxy_of(const PieceInput& input, PieceSurface fine, Index faces, Executio
     const CutSurface& whole = proxy.fine.whole;
     const std::vector<Index> image = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon).vertex;
     proxy.coarse = coarse_surface(whole.vertices, whole.surface.triangles, faces, image, context);
-    if (const auto plane = nearly_mirror(proxy.coarse.vertices, proxy.coarse.triangles)) {
+    const std::optional<MirrorPlane> plane = image.empty()
+                                                 ? nearly_mirror(proxy.coarse.vertices, proxy.coarse.triangles)
+                                                 : plane_between(whole.vertices, image);
+    if (plane) {
         std::optional<CoarseSurface> mirrored = mirrored_coarse_surface(whole, *plane, image, faces, context);
         proxy.is_mirrored = mirrored.has_value();
         if (mirrored) proxy.coarse = std::move(*mirrored);

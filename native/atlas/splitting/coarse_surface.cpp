@@ -58,7 +58,7 @@ public:
             if (reach_after(h) != length) continue;
             if (!may_collapse(h)) {
                 h = mesh.opposite_halfedge_handle(h);
-                if (!may_collapse(h)) continue;
+                if (!may_collapse(h) || is_tip_of_border(h, length)) continue;
             }
             const auto [image, is_alone] = image_of(h);
             if (!is_alone && (!image.is_valid() || !may_collapse(image))) continue;
@@ -87,9 +87,12 @@ private:
                 angle[face[k]] += std::atan2(a.cross(b).norm(), a.dot(b));
                 around[face[k]] += a.norm();
             }
-        for (std::size_t v = 0; v < parent.size(); ++v)
-            if (!mesh.is_boundary(Vertex(static_cast<int>(v))))
-                reach_[v] = std::abs(1.0 - angle[v] / (2.0 * std::numbers::pi)) * around[v];
+        for (std::size_t v = 0; v < parent.size(); ++v) {
+            const Vertex own(static_cast<int>(v));
+            const double sides = on_border(own) ? 2.0 : 1.0;  // half of the faces round it are here
+            if (on_border(own) || !mesh.is_boundary(own))
+                reach_[v] = std::abs(1.0 - sides * angle[v] / (2.0 * std::numbers::pi)) * sides * around[v];
+        }
     }
 
     Halfedge first_choice(Edge e) const
@@ -117,6 +120,12 @@ private:
             if (!(OpenMesh::dot(before, after) > least_cosine * before.norm() * after.norm())) return false;
         }
         return true;
+    }
+
+    /// Whether a half-edge leaves a tip on the border, for which it is too short. @param reach of the opposite one
+    bool is_tip_of_border(Halfedge h, double reach) const
+    {
+        return on_border(mesh.from_vertex_handle(h)) && reach_after(h) > 2.0 * reach;
     }
 
     bool on_border(Vertex v) const { return !border_.empty() && border_[v.idx()]; }

@@ -16,9 +16,10 @@
 namespace koebe {
 namespace {
 
-constexpr int most_rounds = 30;      // of smoothing the border between the sides
-constexpr double least_side = 0.02;  // of the area: smaller pieces go to the other side
-constexpr int near_corners = 3;
+constexpr int most_rounds = 30;               // of smoothing the border between the sides
+constexpr double least_piece_of_side = 0.02;  // of the area: smaller pieces go to the other side
+constexpr double sharp_tip = 5.0;             // radians round a vertex: with less it is the tip of a cone
+constexpr int corners_near = 3;
 
 /// Which faces are on the first side. The border between the sides has no corner of one face, and no face or edge
 /// leads from one of its vertices to another.
@@ -105,7 +106,8 @@ private:
             if (first[k] && (!first[largest] || area[k] > area[largest])) largest = k;
         for (std::size_t f = 0; f < piece.size(); ++f) {
             const auto own = static_cast<std::size_t>(piece[f]);
-            if (first[own] ? own != largest : area[own] < least_side * whole_.areas.sum()) is_first[f] = !is_first[f];
+            if (first[own] ? own != largest : area[own] < least_piece_of_side * whole_.areas.sum())
+                is_first[f] = !is_first[f];
         }
     }
 
@@ -113,6 +115,27 @@ private:
     const Triangles& triangles_;
     const std::vector<Index>& twin_;
 };
+
+/// Whether the tip of a cone lies in the plane, but not on the border: it would become two tips.
+bool has_tip_beside(const CutSurface& whole, const MirrorPlane& plane, const std::vector<char>& border)
+{
+    const Triangles& triangles = whole.surface.triangles;
+    std::vector<char> beside = boundary_mask(whole.surface);
+    for (std::size_t v = 0; v < beside.size(); ++v) beside[v] = !beside[v] && !border[v];
+    VectorXd angle = VectorXd::Zero(static_cast<Eigen::Index>(beside.size())), longest = angle;
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
+        const Index v = origin(triangles, h);
+        const Eigen::RowVector3d a = whole.vertices.row(target(triangles, h)) - whole.vertices.row(v);
+        const Eigen::RowVector3d b =
+            whole.vertices.row(origin(triangles, previous_halfedge(h))) - whole.vertices.row(v);
+        angle[v] += std::atan2(a.cross(b).norm(), a.dot(b));
+        longest[v] = std::max(longest[v], a.norm());
+    }
+    for (Index v = 0; v < static_cast<Index>(beside.size()); ++v)
+        if (beside[v] && angle[v] < sharp_tip && std::abs(plane.distance(whole.vertices.row(v))) < longest[v])
+            return true;
+    return false;
+}
 
 /// Fine vertices for the mirror images of coarse vertices, each one once.
 class NamesOfImages {
@@ -160,7 +183,7 @@ private:
             for (Index v = 0; v < static_cast<Index>(outside_.size()); ++v)
                 if (outside_[v]) candidates.push_back(v);
         } else {
-            for (int k = 0; k < near_corners; ++k) {
+            for (int k = 0; k < corners_near; ++k) {
                 const Index v = whole_.surface.triangles(face, k);
                 candidates.push_back(v);
                 candidates.insert(candidates.end(), around_[v].begin(), around_[v].end());
@@ -245,6 +268,7 @@ std::optional<CoarseSurface> mirrored_coarse_surface(const CutSurface& whole, co
     Sides sides(whole, plane);
     if (!sides.smooth()) return {};
     const std::vector<char> border_of_whole = sides.border_vertices();
+    if (has_tip_beside(whole, plane, border_of_whole)) return {};
     std::vector<Index> number(border_of_whole.size(), -1), vertex;
     std::vector<Index> own;
     for (Index f = 0; f < static_cast<Index>(sides.is_first.size()); ++f)

@@ -18,7 +18,7 @@ constexpr double most_off = 0.01;       // of the diagonal: mean distance of ima
 constexpr double worth_fitting = 0.06;  // the same, for a plane that is fitted
 constexpr double far_image = 0.02;      // of the diagonal: images as far count half
 constexpr double in_plane = 0.01;       // of the diagonal: samples nearer to the plane lie in it
-constexpr double most_in_plane = 0.5;   // share of the area
+constexpr double most_flat = 0.5;       // share of the area
 
 /// Middles of faces that are samples of the surface, and their areas.
 struct Samples {
@@ -104,7 +104,7 @@ bool lies_in(const MirrorPlane& plane, const Samples& samples, double diagonal)
     double area = 0.0;
     for (Eigen::Index i = 0; i < samples.points.rows(); ++i)
         if (std::abs(plane.distance(samples.points.row(i))) < in_plane * diagonal) area += samples.areas[i];
-    return area > most_in_plane * samples.areas.sum();
+    return area > most_flat * samples.areas.sum();
 }
 
 }  // namespace
@@ -120,6 +120,22 @@ std::vector<MirrorPlane> possible_mirrors(const Vertices& points, const VectorXd
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
     for (int k = 0; k < 3; ++k) planes.push_back({axes.eigenvectors().col(k).transpose(), center});
     return planes;
+}
+
+MirrorPlane plane_between(const Vertices& vertices, const std::vector<Index>& image)
+{
+    MirrorPlane plane{Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()};
+    double count = 0.0;
+    for (std::size_t v = 0; v < image.size(); ++v) {
+        if (image[v] < 0) continue;
+        const Eigen::RowVector3d here = vertices.row(static_cast<Eigen::Index>(v)), there = vertices.row(image[v]);
+        if ((here - there).norm() > plane.normal.norm()) plane.normal = here - there;
+        plane.center += 0.5 * (here + there);
+        count += 1.0;
+    }
+    plane.normal.normalize();
+    plane.center /= count;
+    return plane;
 }
 
 std::optional<MirrorPlane> nearly_mirror(const Vertices& vertices, const Triangles& triangles)

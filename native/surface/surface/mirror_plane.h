@@ -18,6 +18,9 @@ struct MirrorPlane {
 /// through the mean. @param points (n, 3) @param weights (n)
 std::vector<MirrorPlane> possible_mirrors(const Vertices& points, const VectorXd& weights);
 
+/// The plane between vertices and their mirror images. @param image (V) as in Mirror, not empty
+MirrorPlane plane_between(const Vertices& vertices, const std::vector<Index>& image);
+
 /// The plane in which a surface is most nearly its own mirror image, whatever its triangulation: points of the surface
 /// have their images on the surface, to 1 % of the bounding box's diagonal in the mean. Begins with possible_mirrors.
 /// @param vertices (V, 3) @param triangles (F, 3), F >= 1 @return no value if there is none
