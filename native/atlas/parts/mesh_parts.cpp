@@ -220,7 +220,7 @@ private:
         }
         if (by_proxy) {
             own.proxy = proxy_of(own.input, std::move(surface), coarse, context);
-        } else if (faces >= least_mirrored && options_.slits.empty() && is_only_nearly_mirror(own.input)) {
+        } else if (faces >= least_mirrored && may_carry() && is_only_nearly_mirror(own.input)) {
             own.proxy = proxy_of(own.input, std::move(surface), static_cast<Index>(mirrored_share * faces), context);
             by_proxy = own.proxy->is_mirrored;
             if (!by_proxy) surface = std::move(own.proxy->fine);
@@ -241,6 +241,13 @@ private:
         take_unfolded();
         own.proxy.reset();
         own.is_fine = true;
+    }
+
+    /// Whether parts that were decided on a proxy may keep their darts, and no form was chosen for loops or cuts.
+    bool may_carry() const
+    {
+        return options_.slits.empty() && !options_.round_cuts && options_.even != 0.0 &&
+               evening_of(options_, false, 1).loops == LoopForm::free;
     }
 
     /// The parts of all pieces. An element's name is its number and the number of elements in all pieces before.

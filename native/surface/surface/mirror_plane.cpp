@@ -17,7 +17,7 @@ constexpr int turns = 5;                // of fitting the plane
 constexpr double most_off = 0.01;       // of the diagonal: mean distance of images from the surface
 constexpr double worth_fitting = 0.06;  // the same, for a plane that is fitted
 constexpr double far_image = 0.02;      // of the diagonal: images as far count half
-constexpr double in_plane = 0.01;       // of the diagonal: samples nearer to the plane lie in it
+constexpr double near_plane = 0.01;     // of the diagonal: samples nearer to the plane lie in it
 constexpr double most_flat = 0.5;       // share of the area
 
 /// Middles of faces that are samples of the surface, and their areas.
@@ -103,7 +103,7 @@ bool lies_in(const MirrorPlane& plane, const Samples& samples, double diagonal)
 {
     double area = 0.0;
     for (Eigen::Index i = 0; i < samples.points.rows(); ++i)
-        if (std::abs(plane.distance(samples.points.row(i))) < in_plane * diagonal) area += samples.areas[i];
+        if (std::abs(plane.distance(samples.points.row(i))) < near_plane * diagonal) area += samples.areas[i];
     return area > most_flat * samples.areas.sum();
 }
 
