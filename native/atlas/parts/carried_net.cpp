@@ -112,7 +112,7 @@ private:
     static Path reversed(const Path& path, const Surface& surface)
     {
         Path back;
-        for (const Index h : path) back.insert(back.begin(), surface.twin[h]);
+        for (auto h = path.rbegin(); h != path.rend(); ++h) back.push_back(surface.twin[*h]);
         return back;
     }
 

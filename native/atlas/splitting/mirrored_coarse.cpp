@@ -19,7 +19,6 @@ namespace {
 constexpr int most_rounds = 30;               // of smoothing the border between the sides
 constexpr double least_piece_of_side = 0.02;  // of the area: smaller pieces go to the other side
 constexpr double sharp_tip = 5.0;             // radians round a vertex: with less it is the tip of a cone
-constexpr int corners_near = 3;
 
 /// Which faces are on the first side. The border between the sides has no corner of one face, and no face or edge
 /// leads from one of its vertices to another.
@@ -152,6 +151,8 @@ public:
         for (std::size_t f = 0; f < sides.is_first.size(); ++f)
             if (sides.is_first[f])
                 for (const Index v : whole.surface.triangles.row(static_cast<Eigen::Index>(f))) taken_[v] = 1;
+        for (Index v = 0; v < static_cast<Index>(outside_.size()); ++v)
+            if (outside_[v]) rims_.push_back(v);
         around_.resize(outside_.size());
         for (Index h = 0; h < static_cast<Index>(whole.surface.twin.size()); ++h)
             around_[origin(whole.surface.triangles, h)].push_back(target(whole.surface.triangles, h));
@@ -180,11 +181,9 @@ private:
         if (!image_.empty() && image_[vertex] >= 0 && !taken_[image_[vertex]]) return image_[vertex];
         std::vector<Index> candidates;
         if (outside_[vertex]) {
-            for (Index v = 0; v < static_cast<Index>(outside_.size()); ++v)
-                if (outside_[v]) candidates.push_back(v);
+            candidates = rims_;
         } else {
-            for (int k = 0; k < corners_near; ++k) {
-                const Index v = whole_.surface.triangles(face, k);
+            for (const Index v : whole_.surface.triangles.row(face)) {
                 candidates.push_back(v);
                 candidates.insert(candidates.end(), around_[v].begin(), around_[v].end());
             }
@@ -204,6 +203,7 @@ private:
     const CutSurface& whole_;
     const std::vector<Index>& image_;
     std::vector<char> outside_, taken_;       // (V)
+    std::vector<Index> rims_;                 // vertices on the boundary
     std::vector<Index> others_;               // faces of the other side
     std::vector<std::vector<Index>> around_;  // (V)
 };
