@@ -41,15 +41,20 @@ Proxy proxy_of(const PieceInput& input, PieceSurface fine, Index faces, Executio
     Proxy proxy{std::move(fine), {}, {}, false, {}};
     const CutSurface& whole = proxy.fine.whole;
     const std::vector<Index> image = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon).vertex;
-    proxy.coarse = coarse_surface(whole.vertices, whole.surface.triangles, faces, image, context);
-    const std::optional<MirrorPlane> plane = image.empty()
-                                                 ? nearly_mirror(proxy.coarse.vertices, proxy.coarse.triangles)
-                                                 : plane_between(whole.vertices, image);
-    if (plane) {
-        std::optional<CoarseSurface> mirrored = mirrored_coarse_surface(whole, *plane, image, faces, context);
-        proxy.is_mirrored = mirrored.has_value();
-        if (mirrored) proxy.coarse = std::move(*mirrored);
+    std::optional<MirrorPlane> plane;
+    if (image.empty()) {  // one that is not exact is found on the coarse surface
+        proxy.coarse = coarse_surface(whole.vertices, whole.surface.triangles, faces, image, context);
+        plane = nearly_mirror(proxy.coarse.vertices, proxy.coarse.triangles);
+    } else {
+        plane = plane_between(whole.vertices, image);
     }
+    std::optional<CoarseSurface> mirrored;
+    if (plane) mirrored = mirrored_coarse_surface(whole, *plane, image, faces, context);
+    proxy.is_mirrored = mirrored.has_value();
+    if (mirrored)
+        proxy.coarse = std::move(*mirrored);
+    else if (!image.empty())
+        proxy.coarse = coarse_surface(whole.vertices, whole.surface.triangles, faces, image, context);
     proxy.surface = analyze_surface(proxy.coarse.triangles, static_cast<Index>(proxy.coarse.vertex.size()));
     proxy.input.piece = coarse_piece(proxy.coarse, proxy.surface, whole.areas.sum(), context);
     proxy.input.seam = coarse_seams(whole, proxy.coarse, proxy.surface);
