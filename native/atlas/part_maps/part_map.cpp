@@ -21,6 +21,7 @@ namespace koebe {
 namespace {
 
 constexpr double least_edge = 1e-11;  // disk units: shorter ones are lost in the rounding of a map
+constexpr double rough = 1e-3;        // disk units: change of the circles in the last sweep of a map that judges
 constexpr double deep_hole = 1e-7;    // disk units: a map is precise round a smaller hole only if the hole is at 0
 
 double area_in_plane(Complex a, Complex b, Complex c) { return 0.5 * std::imag(std::conj(b - a) * (c - a)); }
@@ -116,12 +117,13 @@ bool map_annulus(const PartMesh& part, PartMap& map)
     return map.positions.allFinite() && map.positions.cwiseAbs().maxCoeff() < 1.0 + 1e-3;
 }
 
-void map_disk(const PartMesh& part, PartMap& map, ExecutionContext& context)
+void map_disk(const PartMesh& part, bool exact, PartMap& map, ExecutionContext& context)
 {
     ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
     UniformizeOptions options;
     options.outer = OuterLoop::longest;
     options.repair = false;
+    if (!exact) options.tolerance = rough;
     const UniformizeResult result = uniformize(part.vertices, part.surface.triangles, options, inner);
     map.positions = result.uv.col(0) + Complex(0.0, 1.0) * result.uv.col(1);
     map.outer = result.outer_loop;
@@ -182,7 +184,7 @@ void finish(const PartMesh& part, PartMap& map)
 
 const char* to_string(PartKind kind) noexcept { return word_of(kind, std::array{"disk", "tube", "cone"}); }
 
-PartMap map_part(const PartMesh& part, ExecutionContext& context)
+PartMap map_part(const PartMesh& part, bool exact, ExecutionContext& context)
 {
     PartMap map;
     bool done = false;
@@ -190,7 +192,7 @@ PartMap map_part(const PartMesh& part, ExecutionContext& context)
             done = map_annulus(part, map);
         } catch (const SolverError&) {
         }
-    if (!done) map_disk(part, map, context);
+    if (!done) map_disk(part, exact, map, context);
     finish(part, map);
     return map;
 }

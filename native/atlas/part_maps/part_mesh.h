@@ -19,6 +19,7 @@ struct CutSurface {
     std::vector<char> slit;      ///< (3F) 1 where tubes should be opened; empty: no wish
     std::vector<char> seam;      ///< (3F) 1 on a boundary that is a cut; empty: no boundary is
     std::vector<double> shown;   ///< (V) factor on the length of cuts, as they are seen there; empty: 1
+    bool exact = true;           ///< whether maps of its parts may be results; otherwise they only judge
 };
 
 /// The factors on the length of cuts at some vertices. @param show (V) from 0 to 1: how much cuts are to keep away;

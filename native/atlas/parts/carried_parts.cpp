@@ -56,6 +56,15 @@ FlatPart whole_part(const CutSurface& whole)
     return flat;
 }
 
+/// Turns faces upright, as far as that can be done.
+void make_storable(FlatPart& piece, ExecutionContext& context)
+{
+    PlanarPoints uv = (piece.points.rowwise() - piece.points.colwise().minCoeff()) / packed_side;
+    repair_flips(piece, uv, context);
+    embed_safely(piece, uv, context);
+    piece.points = packed_side * uv;
+}
+
 void map_by_itself(FlatPart& piece, ExecutionContext& context)
 {
     PartMesh mesh;
@@ -66,12 +75,9 @@ void map_by_itself(FlatPart& piece, ExecutionContext& context)
     mesh.areas = face_areas(piece.vertices, piece.surface.triangles);
     mesh.area = mesh.areas.sum();
     mesh.border.assign(piece.original.size(), 0);
-    const PartMap map = map_part(mesh, context);
+    const PartMap map = map_part(mesh, false, context);
     piece.points = flat_as_mapped(mesh, planar_points(map.positions)).points;
-    PlanarPoints uv = (piece.points.rowwise() - piece.points.colwise().minCoeff()) / packed_side;
-    repair_flips(piece, uv, context);
-    embed_safely(piece, uv, context);
-    piece.points = packed_side * uv;
+    make_storable(piece, context);
 }
 
 /// Gives a piece the places that its faces have in one part of the same surface. @return whether there is such a part
@@ -200,7 +206,9 @@ void start_by_itself(const std::vector<FlatPart>& uncut, FlatPart& piece, Execut
     };
     FlatPart by_itself = piece;
     map_by_itself(by_itself, context);
-    if (!take_places_in(uncut, piece) || !(energy(piece) < energy(by_itself))) piece = std::move(by_itself);
+    const bool has_places = take_places_in(uncut, piece);
+    if (has_places) make_storable(piece, context);
+    if (!has_places || !(energy(piece) < energy(by_itself))) piece = std::move(by_itself);
 }
 
 }  // namespace koebe

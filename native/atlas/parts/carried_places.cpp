@@ -23,6 +23,7 @@ namespace koebe {
 namespace {
 
 constexpr double least_cotangent = 0.05;  // of a face's weight in the courses of its edges: needles count, too
+constexpr int most_failures = 2;          // attempts whose loops are right, but not their faces
 constexpr double hold = 1e6;              // weight with which held vertices stay, over a cotangent
 
 /// An attempt to hold crossing loops at the part's loops.
@@ -114,6 +115,7 @@ public:
         const PlanarPoints freely = courses(piece, {});
         piece.points = freely;
         std::vector<char> is_held(piece.surface.loops.size(), 0);
+        int failures = 0;
         for (const auto& [share, bulge] : attempts) {
             if (share > 0.0) {
                 const std::vector<HeldVertex> by_rims = rims_of(piece, bulge);
@@ -126,6 +128,7 @@ public:
                              context) &&
                 lies_one_to_one(piece, piece.points) && survives_storing(piece))
                 return true;
+            if (++failures == most_failures) return false;
             is_held.assign(is_held.size(), 1);
         }
         return false;

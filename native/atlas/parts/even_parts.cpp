@@ -171,20 +171,21 @@ public:
 
     /// Relaxes parts with their cuts, at first only a little. If their angles are worse than the bounds allow, goes on
     /// with an E at which they may be no worse: angles go about with the third root of E.
-    EvenParts relax_carried(double even, const AngleBounds& bounds)
+    EvenParts relax_carried(double even, AngleBounds bounds)
     {
-        const double most = std::accumulate(bounds.most.begin(), bounds.most.end(), 0.0);
+        const auto most = [&] { return std::accumulate(bounds.most.begin(), bounds.most.end(), 0.0); };
         const auto done = [&](std::vector<std::size_t> worse) {
             return EvenParts{worse.size() < bounds.most.size() ? even : 0.0, left_, std::move(worse)};
         };
         for (auto next = less_even_with_darts.begin();;) {
             relax_cut(even, look);
-            if (bounds.most.empty() || angles() <= most_worse * most)
+            if (bounds.exact && angles() > most_worse * most()) bounds = bounds.exact();
+            if (bounds.most.empty() || angles() <= most_worse * most())
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
             if (bounds.most.empty()) return {even, left_};
             std::vector<std::size_t> worse = worst_groups(bounds);
             if (share_of(worse, bounds) <= few_worse) return done(std::move(worse));
-            const double times = angles() / most;
+            const double times = angles() / most();
             next = std::find_if(next, less_even_with_darts.end(), [&](double less) {
                 return less < even && less * std::pow(times, 3) < tolerant * even;
             });
@@ -232,8 +233,10 @@ private:
     }
 
     /// The groups that must go back to E = 0, so that angles are no worse than there: those that gain most.
-    std::vector<std::size_t> worst_groups(const AngleBounds& bounds) const
+    std::vector<std::size_t> worst_groups(AngleBounds& bounds) const
     {
+        if (bounds.exact && angles() > std::accumulate(bounds.most.begin(), bounds.most.end(), 0.0))
+            bounds = bounds.exact();
         std::vector<double> excess(bounds.most.size(), 0.0);
         for (std::size_t k = 0; k < parts_.size(); ++k) excess[bounds.group[k]] += sum_of_angle_errors(parts_[k].flat);
         std::ranges::transform(excess, bounds.most, excess.begin(), std::minus<>());
@@ -286,10 +289,10 @@ EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& optio
     return {even, even > 0.0 ? parts.left() : std::vector<std::size_t>{}};
 }
 
-EvenParts relax_carried(std::vector<FlatPart>& flats, double even, const AngleBounds& bounds,
-                        const EvenOptions& options, ExecutionContext& context)
+EvenParts relax_carried(std::vector<FlatPart>& flats, double even, AngleBounds bounds, const EvenOptions& options,
+                        ExecutionContext& context)
 {
-    return PartRelaxation(flats, options, context).relax_carried(even, bounds);
+    return PartRelaxation(flats, options, context).relax_carried(even, std::move(bounds));
 }
 
 double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, ExecutionContext& context)

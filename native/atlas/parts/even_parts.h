@@ -6,6 +6,7 @@
 #include "parts/flat_part.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,8 +31,9 @@ struct EvenParts {
 
 /// How large the angle errors of parts may be, together.
 struct AngleBounds {
-    std::vector<std::size_t> group;  ///< (parts) of parts that were one part before they were cut
-    std::vector<double> most;        ///< (groups) sum of angle errors at E = 0; empty: no bounds
+    std::vector<std::size_t> group;           ///< (parts) of parts that were one part before they were cut
+    std::vector<double> most;                 ///< (groups) sum of angle errors at E = 0; empty: no bounds
+    std::function<AngleBounds()> exact = {};  ///< these were measured roughly, and this measures well
 };
 
 /// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, it also
@@ -43,8 +45,8 @@ EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& optio
 /// Relaxes parts that were decided on a coarse surface. Takes a smaller E if angles are worse than the bounds allow, as
 /// a sum, unless few groups make them so: these are named, to be replaced by what they are at E = 0.
 /// @param even their E on the coarse surface @return E; 0: all groups are worse
-EvenParts relax_carried(std::vector<FlatPart>& flats, double even, const AngleBounds& bounds,
-                        const EvenOptions& options, ExecutionContext& context);
+EvenParts relax_carried(std::vector<FlatPart>& flats, double even, AngleBounds bounds, const EvenOptions& options,
+                        ExecutionContext& context);
 
 /// The cost of parts once they are even: their energy at this E, or at the E of parts with darts if none is given. To
 /// it come their boundary, half of which is a cut's or the surface's own, and one more part each, at the price of

@@ -2,9 +2,11 @@
 
 #include "core/connectivity.h"
 #include "execution/side_by_side.h"
+#include "mesh/connected_pieces.h"
 #include "parts/carried_parts.h"
 #include "parts/even_parts.h"
 #include "parts/hard_surface.h"
+#include "parts/pinholes.h"
 #include "parts/proxy.h"
 #include "parts/unfolding.h"
 #include "surface/ambient_visibility.h"
@@ -38,10 +40,18 @@ constexpr double few_cuts = 3.6;         // roots of a piece's area: a piece unf
 /// A piece and how far its parts are decided.
 struct MeshPiece : FlatPiece {
     std::optional<Proxy> proxy = {};            ///< on which the parts were decided
+    std::optional<PieceInput> filled = {};      ///< the piece without its pinholes: the proxy's fine surface is of it,
+    std::optional<PieceSurface> open = {};      ///< and this is the surface with its pinholes
     bool is_fine = true;                        ///< whether the parts name elements of the piece, not of the proxy
     std::vector<FlatPart> conformal = {};       ///< fine parts at E = 0, without darts, to compare with
+    bool is_measured = false;                   ///< whether these only compare: they are no result
     std::vector<std::size_t> group = {};        ///< (parts) parts of one group were one part before they were cut
     std::vector<std::size_t> uncut_group = {};  ///< (conformal)
+
+    /// The piece whose numbers parts may name.
+    const SurfacePiece& named() const { return filled ? filled->piece : input.piece; }
+    /// The piece as a surface that has its pinholes.
+    const PieceSurface& surface() const { return open ? *open : proxy->fine; }
 };
 
 /// For each part the number of the other part with its first face. @param faces of the surface
@@ -183,10 +193,10 @@ private:
         // Make the same parts of the fine surface. Where angles are worse than at 0, go back.
         if (even > 0.0) {
             for (std::size_t i = 0; i < pieces_.size(); ++i) note_uncut(pieces_[i], std::move(before[i]));
-            const AngleBounds bounds = angle_bounds();
             std::vector<FlatPart> parts = together();
-            const EvenParts relaxed = relax_carried(parts, even, bounds, evening, context_);
+            const EvenParts relaxed = relax_carried(parts, even, angle_bounds(), evening, context_);
             take_back(std::move(parts), relaxed);
+            for (MeshPiece& own : pieces_) open_pinholes(own);
             go_back(relaxed.worse);
             if (relaxed.even > 0.0) return relaxed.even;
         } else {
@@ -219,7 +229,12 @@ private:
             return;
         }
         if (by_proxy) {
-            own.proxy = proxy_of(own.input, std::move(surface), coarse, context);
+            own.filled = may_carry() ? without_pinholes(own.input, surface.whole.surface) : std::nullopt;
+            if (own.filled) {
+                own.open = std::move(surface);
+                surface = surface_of(*own.filled);
+            }
+            own.proxy = proxy_of(own.filled ? *own.filled : own.input, std::move(surface), coarse, context);
         } else if (faces >= least_mirrored && may_carry() && is_only_nearly_mirror(own.input)) {
             own.proxy = proxy_of(own.input, std::move(surface), static_cast<Index>(mirrored_share * faces), context);
             by_proxy = own.proxy->is_mirrored;
@@ -228,8 +243,9 @@ private:
         if (by_proxy) {
             price_by_visibility(own.proxy->input);
             own.is_fine = false;
-            own.parts =
-                flat_piece(own.proxy->input, surface_of(own.proxy->input), options_, threads, context, effort).parts;
+            PieceSurface coarse = surface_of(own.proxy->input);
+            coarse.whole.exact = false;
+            own.parts = flat_piece(own.proxy->input, std::move(coarse), options_, threads, context, effort).parts;
             name_by_source(own.proxy->input.piece, own.parts);
         } else {
             own.proxy.reset();
@@ -240,6 +256,7 @@ private:
         if (cost_when_even(true_to_size->parts, evening, context) > cost_when_even(own.parts, evening, context)) return;
         take_unfolded();
         own.proxy.reset();
+        own.filled.reset();
         own.is_fine = true;
     }
 
@@ -262,13 +279,13 @@ private:
                 for (const FlatPart& part : own.parts)
                     for (const Index v : part.original)
                         weights.push_back(
-                            importance[own.input.piece.source_vertex[own.is_fine ? v : own.proxy->coarse.vertex[v]]]);
+                            importance[own.named().source_vertex[own.is_fine ? v : own.proxy->coarse.vertex[v]]]);
             rename_elements(
                 own.parts, [&](Index v) { return v < 0 ? v : vertices + v; }, [&](Index f) { return faces + f; });
             std::ranges::move(own.parts, std::back_inserter(all));
             own.parts.clear();
-            vertices += static_cast<Index>(own.input.piece.vertices.rows());
-            faces += static_cast<Index>(own.input.piece.triangles.rows());
+            vertices += static_cast<Index>(own.named().vertices.rows());
+            faces += static_cast<Index>(own.named().triangles.rows());
         }
         ask_for_sizes(weights, all);
         return all;
@@ -279,7 +296,7 @@ private:
     {
         std::vector<Index> first{0};
         for (const MeshPiece& own : pieces_)
-            first.push_back(first.back() + static_cast<Index>(own.input.piece.triangles.rows()));
+            first.push_back(first.back() + static_cast<Index>(own.named().triangles.rows()));
         const auto piece_of = [&](Index face) {
             return static_cast<std::size_t>(std::ranges::upper_bound(first, face) - first.begin()) - 1;
         };
@@ -287,7 +304,8 @@ private:
         for (const std::size_t k : even.left)
             for (const Index face : parts[k].faces)
                 if (const MeshPiece& own = pieces_[piece_of(face)]; own.is_fine)
-                    result_.not_even.push_back(own.input.piece.source_face[face - first[piece_of(face)]]);
+                    if (const Index name = own.named().source_face[face - first[piece_of(face)]]; name >= 0)
+                        result_.not_even.push_back(name);
         std::ranges::sort(result_.not_even);
         for (FlatPart& part : parts) pieces_[piece_of(part.faces.front())].parts.push_back(std::move(part));
         Index vertices = 0;
@@ -295,7 +313,7 @@ private:
             rename_elements(
                 pieces_[i].parts, [&](Index v) { return v < 0 ? v : v - vertices; },
                 [&](Index f) { return f - first[i]; });
-            vertices += static_cast<Index>(pieces_[i].input.piece.vertices.rows());
+            vertices += static_cast<Index>(pieces_[i].named().vertices.rows());
         }
     }
 
@@ -311,7 +329,7 @@ private:
     void note_uncut(MeshPiece& own, std::vector<FlatPart> before)
     {
         if (own.is_fine) {
-            own.group = owners(own.parts, before, own.input.piece.triangles.rows());
+            own.group = owners(own.parts, before, own.named().triangles.rows());
             own.conformal = std::move(before);
             own.uncut_group.resize(own.conformal.size());
             std::iota(own.uncut_group.begin(), own.uncut_group.end(), 0);
@@ -328,9 +346,10 @@ private:
         std::vector<std::vector<Index>> faces(before.size());
         for (std::size_t k = 0; k < fine.size(); ++k)
             faces[own.group[k]].insert(faces[own.group[k]].end(), fine[k].faces.begin(), fine[k].faces.end());
-        own.conformal = laid(own, std::move(faces));
+        own.conformal = laid(own, faces, true);
         own.uncut_group = owners(own.conformal, fine, own.proxy->fine.whole.areas.size());
         for (std::size_t& group : own.uncut_group) group = own.group[group];
+        own.is_measured = true;
         side_by_side(fine.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& context) {
             if (!fine[k].is_near) start_by_itself(own.conformal, fine[k], context);
         });
@@ -338,18 +357,36 @@ private:
         own.is_fine = true;
     }
 
+    /// Makes parts that were only measured anew, as they would be stored.
+    void make_exact(MeshPiece& own)
+    {
+        if (!std::exchange(own.is_measured, false)) return;
+        std::vector<std::vector<Index>> faces;
+        for (const FlatPart& part : own.conformal) faces.push_back(part.faces);
+        std::vector<FlatPart> exact = laid(own, faces);
+        std::vector<std::size_t> group = owners(exact, own.conformal, own.proxy->fine.whole.areas.size());
+        for (std::size_t& k : group) k = own.uncut_group[k];
+        own.conformal = std::move(exact);
+        own.uncut_group = std::move(group);
+    }
+
     /// The angles of all groups at E = 0; no bounds, if E is given.
-    AngleBounds angle_bounds() const
+    AngleBounds angle_bounds()
     {
         AngleBounds bounds;
         if (options_.even) return bounds;
         for (const MeshPiece& own : pieces_) {
             const std::size_t first = bounds.most.size();
             for (const std::size_t group : own.group) bounds.group.push_back(first + group);
-            bounds.most.resize(first + *std::ranges::max_element(own.uncut_group) + 1, 0.0);
+            bounds.most.resize(first + groups_of(own), 0.0);
             for (std::size_t k = 0; k < own.conformal.size(); ++k)
                 bounds.most[first + own.uncut_group[k]] += sum_of_angle_errors(own.conformal[k]);
         }
+        if (std::ranges::any_of(pieces_, &MeshPiece::is_measured))
+            bounds.exact = [this] {
+                for (MeshPiece& own : pieces_) make_exact(own);
+                return angle_bounds();
+            };
         return bounds;
     }
 
@@ -358,7 +395,7 @@ private:
     {
         std::size_t first = 0;
         for (MeshPiece& own : pieces_) {
-            const std::size_t end = first + *std::ranges::max_element(own.uncut_group) + 1;
+            const std::size_t end = first + groups_of(own);
             std::vector<FlatPart> parts;
             const auto goes_back = [&](std::size_t group) { return std::ranges::count(groups, first + group) > 0; };
             for (std::size_t k = 0; k < own.parts.size(); ++k)
@@ -376,25 +413,37 @@ private:
         result_.not_even.erase(std::unique(result_.not_even.begin(), result_.not_even.end()), result_.not_even.end());
     }
 
-    /// Parts of the fine surface, each mapped by itself. @param faces of each part
-    std::vector<FlatPart> laid(const MeshPiece& own, std::vector<std::vector<Index>> faces) const
+    static std::size_t groups_of(const MeshPiece& own)
     {
-        SplitEffort effort;
-        const CutSurface& whole = own.proxy->fine.whole;
-        std::vector<PartPointer> parts;
-        for (std::vector<Index>& of_part : faces) {
-            std::ranges::sort(of_part);
-            parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(of_part)), {}, {}}));
-        }
-        return flat_parts(whole, find_mirror(whole.vertices, whole.surface.triangles, whole.polygon), parts,
-                          flat_options(own), options_.threads, context_, effort)
-            .parts;
+        return std::max(*std::ranges::max_element(own.group), *std::ranges::max_element(own.uncut_group)) + 1;
     }
 
-    FlatOptions flat_options(const MeshPiece& own) const
+    /// Parts of the fine surface with its pinholes, each mapped by itself. @param faces of each part; if only filled
+    /// pinholes join them, there are more parts @param measured they are no result
+    std::vector<FlatPart> laid(const MeshPiece& own, const std::vector<std::vector<Index>>& faces,
+                               bool measured = false) const
     {
-        const SplitOptions prices = prices_for(own.proxy->fine.whole.areas.sum(), options_.price, options_.threads);
-        return {prices.cut_price, prices.part_price, options_.round_cuts};
+        SplitEffort effort;
+        const CutSurface& whole = own.surface().whole;
+        const auto count = static_cast<Index>(whole.areas.size());
+        std::vector<int> label(static_cast<std::size_t>(count), -1);
+        for (std::size_t k = 0; k < faces.size(); ++k)
+            for (const Index f : faces[k])
+                if (f < count) label[f] = static_cast<int>(k);
+        Index pieces = 0;
+        const std::vector<Index> piece = connected_pieces(whole.surface.twin, label, pieces);
+        std::vector<std::vector<Index>> faces_of(static_cast<std::size_t>(pieces));
+        for (Index f = 0; f < count; ++f)
+            if (label[f] >= 0) faces_of[piece[f]].push_back(f);
+        std::vector<PartPointer> parts;
+        for (std::vector<Index>& of_part : faces_of)
+            if (!of_part.empty())
+                parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(of_part)), {}, {}}));
+        const SplitOptions prices = prices_for(whole.areas.sum(), options_.price, options_.threads);
+        return flat_parts(whole, find_mirror(whole.vertices, whole.surface.triangles, whole.polygon), parts,
+                          {prices.cut_price, prices.part_price, options_.round_cuts, measured}, options_.threads,
+                          context_, effort)
+            .parts;
     }
 
     /// Makes the proxy's parts of the fine surface, each mapped by itself. If they have no place there, the parts of
@@ -402,11 +451,27 @@ private:
     void lay_fine(MeshPiece& own)
     {
         SplitEffort effort;
-        std::vector<std::vector<Index>> faces = carried_faces(*own.proxy, own.parts, context_);
+        const std::vector<std::vector<Index>> faces = carried_faces(*own.proxy, own.parts, context_);
         own.is_fine = true;
         own.parts = faces.empty()
-                        ? flat_piece(own.input, own.proxy->fine, options_, options_.threads, context_, effort).parts
-                        : laid(own, std::move(faces));
+                        ? flat_piece(own.input, own.surface(), options_, options_.threads, context_, effort).parts
+                        : laid(own, faces);
+    }
+
+    /// Takes the faces away that fill pinholes.
+    static void open_pinholes(MeshPiece& own)
+    {
+        if (!own.filled) return;
+        std::vector<FlatPart> parts;
+        std::vector<std::size_t> group;
+        for (std::size_t k = 0; k < own.parts.size(); ++k)
+            for (FlatPart& part :
+                 with_pinholes(std::move(own.parts[k]), static_cast<Index>(own.input.piece.triangles.rows()))) {
+                parts.push_back(std::move(part));
+                group.push_back(own.group[k]);
+            }
+        own.parts = std::move(parts);
+        own.group = std::move(group);
     }
 
     std::vector<MeshPiece> pieces_;

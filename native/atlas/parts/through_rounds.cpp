@@ -15,6 +15,7 @@ namespace koebe {
 namespace {
 
 constexpr EvenEffort trial_effort{6, 2};
+constexpr double least_kept = 0.5;        // share of a forecast that the next trial may release
 constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room
 
 /// A cut as vertices of the whole: cuts of other parts have numbers of their own.
@@ -104,10 +105,13 @@ private:
     bool release_once(std::size_t k, double even, ExecutionContext& context)
     {
         std::optional<Trial> best;
+        double kept = 1.0;  // share of a forecast that a trial released
         for (const ThroughCut& cut : promising_through_cuts(pieces_[k].flat, even, price_)) {
-            if (best && best->surplus >= cut.forecast - cut.cost) break;  // the cuts come by falling forecasts
+            if (kept * cut.forecast - cut.cost <= (best ? best->surplus : 0.0))
+                break;  // they come by falling forecasts
             std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut));
             if (!trial || !release(*trial, even, context)) continue;
+            kept = std::clamp((trial->surplus + cut.cost) / cut.forecast, least_kept, 1.0);
             if (trial->surplus > (best ? best->surplus : 0.0)) best = std::move(trial);
         }
         if (best) take(std::move(*best));

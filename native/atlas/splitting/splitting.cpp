@@ -148,10 +148,10 @@ Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOp
 
 }  // namespace
 
-void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort)
+void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort, bool exact)
 {
     context.checkpoint();
-    part.map = map_part(part.mesh, context);
+    part.map = map_part(part.mesh, exact && whole.exact, context);
     effort.maps += static_cast<double>(part.mesh.faces.size()) / static_cast<double>(whole.areas.size());
 }
 

@@ -32,7 +32,7 @@ struct SplitEffort {
 };
 
 /// Maps a part anew.
-void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort);
+void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort, bool exact = true);
 
 /// Maps parts anew, side by side.
 void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threads, ExecutionContext& context,

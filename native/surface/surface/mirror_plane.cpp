@@ -7,18 +7,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace koebe {
 namespace {
 
 constexpr Eigen::Index most_samples = 800;
-constexpr int turns = 5;                // of fitting the plane
-constexpr double most_off = 0.01;       // of the diagonal: mean distance of images from the surface
-constexpr double worth_fitting = 0.06;  // the same, for a plane that is fitted
-constexpr double far_image = 0.02;      // of the diagonal: images as far count half
-constexpr double near_plane = 0.01;     // of the diagonal: samples nearer to the plane lie in it
-constexpr double most_flat = 0.5;       // share of the area
+constexpr Eigen::Index first_samples = 200;  // for planes that are not fitted yet
+constexpr int turns = 5;                     // of fitting the plane
+constexpr double most_off = 0.01;            // of the diagonal: mean distance of images from the surface
+constexpr double clearly = 0.002;            // the same, for a plane beside which no other one is looked for
+constexpr double worth_fitting = 0.06;       // the same, for a plane that is fitted
+constexpr double still_better = 0.95;        // of the distance before: the least gain for which fitting goes on
+constexpr double far_image = 0.02;           // of the diagonal: images as far count half
+constexpr double near_plane = 0.01;          // of the diagonal: samples nearer to the plane lie in it
+constexpr double most_flat = 0.5;            // share of the area
 
 /// Middles of faces that are samples of the surface, and their areas.
 struct Samples {
@@ -26,9 +30,9 @@ struct Samples {
     VectorXd areas;
 };
 
-Samples samples_of(const Vertices& vertices, const Triangles& triangles)
+Samples samples_of(const Vertices& vertices, const Triangles& triangles, Eigen::Index most)
 {
-    const Eigen::Index count = triangles.rows(), step = std::max<Eigen::Index>(1, count / most_samples);
+    const Eigen::Index count = triangles.rows(), step = std::max<Eigen::Index>(1, count / most);
     Samples all{Vertices((count + step - 1) / step, 3), VectorXd((count + step - 1) / step)};
     for (Eigen::Index f = 0, i = 0; f < count; f += step, ++i) {
         const Eigen::RowVector3d a = vertices.row(triangles(f, 0)), b = vertices.row(triangles(f, 1)),
@@ -140,24 +144,35 @@ MirrorPlane plane_between(const Vertices& vertices, const std::vector<Index>& im
 
 std::optional<MirrorPlane> nearly_mirror(const Vertices& vertices, const Triangles& triangles)
 {
-    const Samples samples = samples_of(vertices, triangles);
+    const Samples samples = samples_of(vertices, triangles, most_samples);
     const double diagonal = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
     if (!(samples.areas.sum() > 0.0)) return {};
+    const Samples few = samples_of(vertices, triangles, first_samples);
     std::vector<MirrorPlane> planes = possible_mirrors(samples.points, samples.areas);
+    std::vector<double> before(planes.size(), std::numeric_limits<double>::infinity());  // mean distances
     std::optional<MirrorPlane> best;
     double least = most_off * diagonal;
-    for (int turn = 0; !planes.empty(); ++turn) {
-        const std::vector<Images> images = images_in(planes, samples, vertices, triangles);
+    for (int turn = 0; turn <= turns && !planes.empty(); ++turn) {
+        const Samples& at = turn == 0 ? few : samples;
+        const std::vector<Images> images = images_in(planes, at, vertices, triangles);
         std::vector<MirrorPlane> next;
+        std::vector<double> now;
         for (std::size_t k = 0; k < planes.size(); ++k) {
-            if (!(images[k].off < worth_fitting * diagonal) || lies_in(planes[k], samples, diagonal)) continue;
-            if (images[k].off < least) {
-                least = images[k].off;
+            const double off = images[k].off;
+            if (!(off < worth_fitting * diagonal) || lies_in(planes[k], samples, diagonal)) continue;
+            if (turn > 0 && off < least) {
+                least = off;
                 best = planes[k];
             }
-            if (turn < turns) next.push_back(fitted(planes[k], samples, images[k], diagonal));
+            if (!(off < still_better * before[k])) {
+                if (off < clearly * diagonal) return best;
+                continue;
+            }
+            next.push_back(fitted(planes[k], at, images[k], diagonal));
+            now.push_back(off);
         }
         planes = std::move(next);
+        before = std::move(now);
     }
     return best;
 }
