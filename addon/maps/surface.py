@@ -74,6 +74,14 @@ class Island:
         return corner
 
 
+@dataclasses.dataclass(frozen=True)
+class Numbers:
+    """The solver's triangles (t,) and vertices (n,) in the surface's numbers."""
+
+    triangle_face: np.ndarray
+    source_vertex: np.ndarray
+
+
 def next_corners(surface: Surface) -> np.ndarray:
     """The corner (C,) that follows each corner in its face."""
     following = np.arange(1, len(surface.corner_vertex) + 1, dtype=np.int32)

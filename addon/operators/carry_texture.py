@@ -9,11 +9,11 @@ from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
 from ..jobs.shape_jobs import CarryJob
 from ..maps.carried_uv import Carried
-from ..maps.wording import few, lines
 from ..state import run_report
 from ..state.option_properties import option
 from ..state.run_report import report_of
 from ..state.shape_report import shapes_of
+from .answers import finished, refused
 from .modal_run import redraw
 from .shape_operator import ShapeOperator, in_object_mode
 from .tooltip import tooltip
@@ -52,8 +52,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
             job.write(run, self.material)
             done = [one for one in job.carried if one is not None]
             if not done:
-                self.report({"ERROR"}, lines("Koebe UV: nothing was carried.", job.failures))
-                return {"CANCELLED"}
+                return refused(self, "nothing was carried.", job.failures)
             shapes = shapes_of(context)
             note_group(run, shapes)
             note_group(run, report_of(context))
@@ -65,9 +64,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
             redraw(context)
             for one in done:
                 self.report({"WARNING" if one.message or len(one.flipped) else "INFO"}, _line(one))
-            if job.failures:
-                self.report({"WARNING"}, "Koebe UV: not carried. " + few(job.failures))
-            return {"FINISHED"}
+            return finished(self, "not carried", job.failures)
 
 
 def _line(one: Carried) -> str:

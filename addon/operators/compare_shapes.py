@@ -7,8 +7,8 @@ from ..blender.mesh_object import MeshObject
 from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
 from ..jobs.shape_jobs import MeasureJob
-from ..maps.wording import few
 from ..state.shape_report import shapes_of
+from .answers import finished
 from .modal_run import redraw
 from .shape_operator import ShapeOperator, in_object_mode
 from .tooltip import tooltip
@@ -52,9 +52,7 @@ class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
                 self.report({"INFO"}, f"{one.name}: {found}")
             if not job.comparisons[0].converged:
                 self.report({"WARNING"}, f"{job.names[0]}: not converged")
-            if job.failures:
-                self.report({"WARNING"}, "Koebe UV: not compared. " + few(job.failures))
-            return {"FINISHED"}
+            return finished(self, "not compared", job.failures)
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_compare_shapes,))

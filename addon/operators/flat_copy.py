@@ -17,8 +17,9 @@ from ..blender.transaction import transaction
 from ..jobs.flat_job import Flat, FlattenJob, read_flat
 from ..maps.flat_pattern import FlatPattern
 from ..maps.flat_svg import flat_svg
-from ..maps.wording import counted, few, lines
+from ..maps.wording import counted
 from ..solver.errors import NativeError
+from .answers import finished, refused
 from .modal_run import ModalRun
 from .polls import has_targets
 from .tooltip import tooltip
@@ -74,14 +75,11 @@ class FlatOperator(ModalRun):
 
     def _say(self, done: list[Flat], problems: list[str], where: str) -> set[str]:
         if not done:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was laid flat.", problems))
-            return {"CANCELLED"}
+            return refused(self, "nothing was laid flat.", problems)
         for flat in done:
             fine = flat.layout.is_true and not flat.layout.left_out
             self.report({"INFO"} if fine else {"WARNING"}, f"{flat.describe()}{where}")
-        if problems:
-            self.report({"WARNING"}, "Koebe UV: not flattened. " + few(problems))
-        return {"FINISHED"}
+        return finished(self, "not flattened", problems)
 
 
 class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
@@ -226,21 +224,17 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
     def _finish(self, context: bpy.types.Context, job: FlattenJob) -> set[str]:
         patterns = job.patterns()
         if not patterns:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was laid flat.", job.problems))
-            return {"CANCELLED"}
+            return refused(self, "nothing was laid flat.", job.problems)
         path, written = Path(self.filepath), []
         for number, (name, pattern) in enumerate(patterns):
             own = path if number == 0 else path.with_name(f"{path.stem} {bpy.path.clean_name(name)}{path.suffix}")
             try:
                 written.append(_write_pages(own, self._pages(pattern)))
             except OSError as error:
-                self.report({"ERROR"}, f"Koebe UV: {own}: {error.strerror or error}")
-                return {"CANCELLED"}
+                return refused(self, f"{own}: {error.strerror or error}")
         for (name, pattern), text in zip(patterns, written, strict=True):
             self.report({"INFO"}, f"{name}: {pattern.describe()}; {text}")
-        if job.problems:
-            self.report({"WARNING"}, "Koebe UV: not flattened. " + few(job.problems))
-        return {"FINISHED"}
+        return finished(self, "not flattened", job.problems)
 
     def _pages(self, pattern: FlatPattern) -> list[str]:
         return [pattern.result.dxf] if self.drawing == "DXF" else pattern.result.svg
@@ -253,8 +247,7 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
             try:
                 _write_whole(Path(self.filepath), text)
             except OSError as error:
-                self.report({"ERROR"}, f"Koebe UV: {self.filepath}: {error.strerror or error}")
-                return {"CANCELLED"}
+                return refused(self, f"{self.filepath}: {error.strerror or error}")
         return self._say(found, problems, f"; {self.filepath}")
 
 

@@ -14,11 +14,12 @@ from ..blender.targets import target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs.lift_job import LiftJob
 from ..maps.lifting import LiftOutcome
-from ..maps.wording import few, lines
+from ..maps.wording import lines
 from ..solver.errors import NativeError
 from ..state import run_report
 from ..state.lift_properties import SHOWN, LiftProperties, draw_lift_options, lift_choice_of
 from ..state.option_properties import settings_of
+from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .polls import has_targets
 from .tooltip import tooltip
@@ -90,16 +91,13 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
     def _say(self, job: LiftJob, done: list[LiftOutcome]) -> set[str]:
         problems = [*(f"{one.name}: {one.reason()}" for one in job.failures()), *job.problems]
         if not done:
-            self.report({"ERROR"}, lines("Koebe UV: no copy was made.", problems))
-            return {"CANCELLED"}
+            return refused(self, "no copy was made.", problems)
         for outcome in done:
             warnings = outcome.warnings()
             self.report({"WARNING"} if warnings else {"INFO"}, outcome.line(self.way == "perforate"))
             for text in warnings:
                 self.report({"WARNING"}, f"{outcome.name}: {text}")
-        if problems:
-            self.report({"WARNING"}, "Koebe UV: left out. " + few(problems))
-        return {"FINISHED"}
+        return finished(self, "left out", problems)
 
 
 def _hide(run: Transaction, obj: MeshObject) -> None:

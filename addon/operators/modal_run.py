@@ -9,6 +9,7 @@ import bpy
 
 from ..maps.errors import KnownError
 from ..solver.worker import Worker
+from .answers import refused
 
 # The status line's names for the stages of a computation.
 STAGES = {
@@ -142,8 +143,7 @@ class ModalRun(OperatorBase):
                 self._to_read, self._worker = None, Worker(self._running.compute)
 
     def _refuse(self, error: KnownError) -> set[str]:
-        self.report({"ERROR"}, f"Koebe UV: {error}")
-        return {"CANCELLED"}
+        return refused(self, str(error))
 
     def _end(self, context: bpy.types.Context) -> set[str]:
         assert self._worker is not None

@@ -11,9 +11,9 @@ from ..blender.errors import TransferError
 from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import transaction
 from ..jobs.pack_job import PackJob
-from ..maps.wording import few, lines
 from ..state.option_properties import option, shown_number
 from ..state.run_report import forget
+from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .polls import has_targets, native_or_error
 from .tooltip import tooltip
@@ -74,13 +74,10 @@ class UV_OT_koebe_pack(ModalRun, bpy.types.Operator):
 
     def _say(self, done: list[str], problems: list[str]) -> set[str]:
         if not done:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was packed.", problems))
-            return {"CANCELLED"}
+            return refused(self, "nothing was packed.", problems)
         for line in done:
             self.report({"INFO"}, line)
-        if problems:
-            self.report({"WARNING"}, "Koebe UV: not packed. " + few(problems))
-        return {"FINISHED"}
+        return finished(self, "not packed", problems)
 
 
 def _line(name: str, report: dict[str, Any]) -> str:

@@ -12,9 +12,10 @@ from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
 from ..maps.option_table import ROWS
 from ..maps.options import OptionError
-from ..maps.wording import failure_line, few, lines
+from ..maps.wording import failure_line
 from ..solver.errors import NativeError
 from ..state import run_report
+from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .select_from_report import select_offenders
 
@@ -132,8 +133,7 @@ class MapOperator(ModalRun):
         failures = [failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
         failures += [text for _, text in job.refused]
         if not job.mapped_any:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was mapped.", failures))
-            return {"CANCELLED"}
+            return refused(self, "nothing was mapped.", failures)
         for outcome in job.outcomes:
             if outcome.mapped:
                 self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.line())
@@ -141,6 +141,4 @@ class MapOperator(ModalRun):
                     self.report({"INFO"}, f"{outcome.name}: {note}")
                 for warning in dict.fromkeys([*outcome.said_warnings(), *outcome.remarks]):
                     self.report({"WARNING"}, f"{outcome.name}: {warning}")
-        if failures:
-            self.report({"WARNING"}, "Koebe UV: not mapped. " + few(failures))
-        return {"FINISHED"}
+        return finished(self, "not mapped", failures)

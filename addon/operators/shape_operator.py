@@ -40,10 +40,6 @@ class ShapeOperator(ModalRun):
         except ShapeError as error:
             return self._refuse(error)
 
-    def _refuse(self, error: ShapeError) -> set[str]:
-        self.report({"ERROR"}, f"Koebe UV: {error}")
-        return {"CANCELLED"}
-
 
 def in_object_mode(cls: type[bpy.types.Operator], context: bpy.types.Context, least: int) -> bool:
     """Whether so many objects are selected, the active one among them. If not, tells the user what to do."""
