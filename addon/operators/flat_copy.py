@@ -18,7 +18,6 @@ from ..jobs.flat_job import Flat, FlattenJob, read_flat
 from ..maps.flat_pattern import FlatPattern
 from ..maps.flat_svg import flat_svg
 from ..maps.wording import counted
-from ..solver.errors import NativeError
 from .answers import finished, refused
 from .modal_run import ModalRun
 from .polls import has_targets
@@ -56,14 +55,6 @@ class FlatOperator(ModalRun):
 
     def _as_they_are(self, context: bpy.types.Context) -> set[str]:
         raise NotImplementedError
-
-    def _flatten(self, context: bpy.types.Context, **options: Any) -> FlattenJob | None:
-        context.evaluated_depsgraph_get()  # updates the objects' world matrices
-        try:
-            return FlattenJob(target_objects(context), **options)
-        except NativeError as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return None
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -106,8 +97,8 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
         self.layout.prop(self, "pieces")
         self.layout.prop(self, "layer" if self.pieces == "UVS" else "numbers")
 
-    def _job(self, context: bpy.types.Context) -> FlattenJob | None:
-        return self._flatten(context)
+    def _job(self, context: bpy.types.Context) -> FlattenJob:
+        return FlattenJob(target_objects(context))
 
     def _finish(self, context: bpy.types.Context, job: FlattenJob) -> set[str]:
         flats = job.flats()
@@ -217,9 +208,9 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
     def _millimetres(self, context: bpy.types.Context) -> float:
         return 1000.0 * context.scene.unit_settings.scale_length * self.scale
 
-    def _job(self, context: bpy.types.Context) -> FlattenJob | None:
+    def _job(self, context: bpy.types.Context) -> FlattenJob:
         options = {"page": self.page, "allowance": self.allowance}
-        return self._flatten(context, millimetres=self._millimetres(context), **options)
+        return FlattenJob(target_objects(context), millimetres=self._millimetres(context), **options)
 
     def _finish(self, context: bpy.types.Context, job: FlattenJob) -> set[str]:
         patterns = job.patterns()

@@ -15,7 +15,6 @@ from ..blender.transaction import Transaction, transaction
 from ..jobs.lift_job import LiftJob
 from ..maps.lifting import LiftOutcome
 from ..maps.wording import lines
-from ..solver.errors import NativeError
 from ..state import run_report
 from ..state.lift_properties import SHOWN, LiftProperties, draw_lift_options, lift_choice_of
 from ..state.option_properties import settings_of
@@ -46,19 +45,13 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
         layout.use_property_decorate = False
         draw_lift_options(layout, self, SHOWN)
 
-    def _job(self, context: bpy.types.Context) -> LiftJob | None:
-        context.evaluated_depsgraph_get()  # updates the objects' world matrices
-        try:
-            if self.pattern == "file":
-                self._check_file()
-            drawing = curve_drawing(self.drawing) if self.pattern == "object" else None
-            job = LiftJob(target_objects(context), lift_choice_of(self), drawing)
-        except (NativeError, TransferError) as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return None
+    def _job(self, context: bpy.types.Context) -> LiftJob:
+        if self.pattern == "file":
+            self._check_file()
+        drawing = curve_drawing(self.drawing) if self.pattern == "object" else None
+        job = LiftJob(target_objects(context), lift_choice_of(self), drawing)
         if not job.outcomes:
-            self.report({"ERROR"}, lines("Koebe UV: no copy was made.", job.problems))
-            return None
+            raise TransferError(lines("no copy was made.", job.problems))
         return job
 
     def _check_file(self) -> None:

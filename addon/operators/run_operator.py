@@ -6,14 +6,11 @@ from typing import Any
 import bpy
 
 from ..blender import edit_mode
-from ..blender.errors import TransferError
 from ..blender.targets import target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
 from ..maps.option_table import ROWS
-from ..maps.options import OptionError
 from ..maps.wording import failure_line
-from ..solver.errors import NativeError
 from ..state import run_report
 from .answers import finished, refused
 from .modal_run import ModalRun, redraw
@@ -102,13 +99,8 @@ class MapOperator(ModalRun):
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> Job:
         raise NotImplementedError
 
-    def _job(self, context: bpy.types.Context) -> Job | None:
-        context.evaluated_depsgraph_get()  # updates the objects' world matrices
-        try:
-            return self._new_job(context, selected_only=context.mode == "EDIT_MESH")
-        except (NativeError, OptionError, TransferError) as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return None
+    def _job(self, context: bpy.types.Context) -> Job:
+        return self._new_job(context, selected_only=context.mode == "EDIT_MESH")
 
     def _finish(self, context: bpy.types.Context, job: Job) -> set[str]:
         """Write the results, each object completely or not at all, and report on them."""
