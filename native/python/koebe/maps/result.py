@@ -212,6 +212,7 @@ class MapReport(Saved):
     concave_polygons    count of polygons that are convex on the surface, but not in the UVs
     flipped_faces    int32 array of the faces that `flipped` counts, ascending
     even, overlaps   for maps with the option `even`: the E that was reached, and how often loops cross
+    loops            list of Loop: of the whole surface. Empty where parts or pieces have loops of their own
     seconds          of each stage
     peak_memory_mb   of the process
     warnings         list of Warning: kind, elements, text. A warning of too much lost area comes first
