@@ -8,7 +8,7 @@ from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, check_readable, reason, with_own_meshes
 from ..blender.transaction import Transaction
 from ..maps.carried_uv import Carried, carry, read_source
-from ..maps.outcomes import LATER, Progress
+from ..maps.outcomes import LATER, Progress, share_of
 from ..maps.shapes import Comparison, Shape, ShapeError, compare, map_shape, module
 from ..maps.surface import Surface
 from ..maps.wording import few
@@ -42,17 +42,9 @@ class _ShapeJob:
         """Read more of an object. A TransferError leaves the object out."""
 
     def _map(self, index: int, progress: Progress | None) -> Shape:
-        return map_shape(
-            self.koebe, self.names[index], self.surfaces[index], self._share(index, progress), self.cancel_token
-        )
-
-    def _share(self, index: int, progress: Progress | None) -> Progress | None:
-        """One surface's progress as a part of all surfaces' progress, by triangles."""
-        if progress is None:
-            return None
         sizes = [len(surface.triangle_face) for surface in self.surfaces]
-        done, total = sum(sizes[:index]), max(sum(sizes), 1)
-        return lambda fraction, stage: progress((done + fraction * sizes[index]) / total, stage)
+        share = share_of(progress, sum(sizes[:index]), sizes[index], sum(sizes))
+        return map_shape(self.koebe, self.names[index], self.surfaces[index], share, self.cancel_token)
 
 
 class MeasureJob(_ShapeJob):

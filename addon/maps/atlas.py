@@ -11,9 +11,9 @@ import numpy as np
 from .errors import MapError
 from .options import PartsChoice
 from .outcomes import LATER, Progress, Task
-from .parts import OTHERS, Numbers, PartsIsland, PartsOutcome, cut_into_parts
+from .parts import OTHERS, PartsIsland, PartsOutcome, cut_into_parts
 from .stored import LostAreaError
-from .surface import Surface
+from .surface import Numbers, Surface
 from .warning_words import of_solver
 from .wording import in_mesh
 

@@ -4,7 +4,7 @@
 import numpy as np
 
 from .connected_components import connected_components
-from .surface import Island, Surface, next_corners
+from .surface import Island, Surface, across, first_and_last, next_corners
 
 # Up to so many groups a mask for each is faster than a sort.
 FEW = 16
@@ -62,8 +62,9 @@ def cut_into_islands(surface: Surface) -> list[Island]:
         corners = at = np.flatnonzero(surface.selected[corner_face]).astype(np.int32)
     here, there = _neighbours(surface, corners, surface.corner_edge[at])
     next_corner = next_corners(surface)
-    joined = _same_vertex(surface.corner_vertex, next_corner, here, there)
-    corner_root = connected_components(len(surface.corner_vertex), *joined)
+    start, end = across(surface.corner_vertex, next_corner, here, there)
+    ends = np.append(here, next_corner[here]), np.append(start, end)
+    corner_root = connected_components(len(surface.corner_vertex), *ends)
     face_root = connected_components(len(surface.face_size), corner_face[here], corner_face[there])
     return _split(surface, corners, at, corner_face, corner_root, face_root)
 
@@ -83,10 +84,7 @@ def put_together(surface: Surface, islands: list[Island]) -> tuple[np.ndarray, n
 
 def _neighbours(surface: Surface, corners: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pairs of corners whose edges are the same edge of two faces, and not a seam."""
-    # Of several writes to one place the last stays.
-    first, last = np.full((2, len(surface.seam)), -1, dtype=np.int32)
-    last[edges] = corners
-    first[edges[::-1]] = corners[::-1]
+    first, last = first_and_last(edges, corners, len(surface.seam))
     two = first != last
     joined = two & ~surface.seam
     crowded = None
@@ -98,16 +96,6 @@ def _neighbours(surface: Surface, corners: np.ndarray, edges: np.ndarray) -> tup
         of_crowded = corners[crowded[edges]]
         here, there = np.append(here, first[surface.corner_edge[of_crowded]]), np.append(there, of_crowded)
     return here, there
-
-
-def _same_vertex(
-    corner_vertex: np.ndarray, next_corner: np.ndarray, here: np.ndarray, there: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of corners at the two ends of the edges here—there that are one vertex."""
-    opposed = corner_vertex[here] != corner_vertex[there]
-    start = np.where(opposed, next_corner[there], there)
-    end = np.where(opposed, there, next_corner[there])
-    return np.append(here, next_corner[here]), np.append(start, end)
 
 
 def _split(

@@ -14,7 +14,7 @@ from .options import PartsChoice
 from .outcomes import LATER, Outcome, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
 from .stored import LostAreaError
-from .surface import next_corners
+from .surface import Numbers, next_corners
 from .warning_words import of_solver
 from .wording import counted, density_text, in_mesh
 
@@ -38,14 +38,6 @@ def darts_of(darts: float, evenness: float) -> float:
 
 def _eagerness(evenness: float) -> float:
     return float(SPREAD ** (2.0 * (evenness - ROWS["evenness"].default)))
-
-
-@dataclasses.dataclass(frozen=True)
-class Numbers:
-    """The solver's triangles (t,) and vertices (n,) in the surface's numbers."""
-
-    triangle_face: np.ndarray
-    source_vertex: np.ndarray
 
 
 @dataclasses.dataclass

@@ -3,18 +3,14 @@
 
 import numpy as np
 
-from .surface import Island, Surface, next_corners
+from .surface import Island, Surface, edge_ends, next_corners
 
 
 def cut_edges(surface: Surface, uv: np.ndarray, layer: np.ndarray | None = None) -> np.ndarray:
     """Whether the UVs (C, 2) of the selected faces at each edge (E,) lie apart there, or in two layers (C,)."""
-    following = next_corners(surface)
     corners = np.flatnonzero(np.repeat(surface.selected, surface.face_size))
-    corners = corners[np.argsort(surface.corner_edge[corners], kind="stable")]
-    ends = np.stack([corners, following[corners]], axis=1)
-    turned = surface.corner_vertex[ends[:, 0]] > surface.corner_vertex[ends[:, 1]]
-    ends[turned] = ends[turned][:, ::-1]
-    edge, places = surface.corner_edge[corners], uv[ends].reshape(-1, 4)
+    edge, ends = edge_ends(surface.corner_vertex, surface.corner_edge, next_corners(surface), corners)
+    places = uv[ends].reshape(-1, 4)
     if layer is not None:
         places = np.column_stack([places, layer[ends[:, 0]]])
     apart = (edge[1:] == edge[:-1]) & (places[1:] != places[:-1]).any(axis=1)

@@ -74,8 +74,44 @@ class Island:
         return corner
 
 
+@dataclasses.dataclass(frozen=True)
+class Numbers:
+    """The solver's triangles (t,) and vertices (n,) in the surface's numbers."""
+
+    triangle_face: np.ndarray
+    source_vertex: np.ndarray
+
+
 def next_corners(surface: Surface) -> np.ndarray:
     """The corner (C,) that follows each corner in its face."""
     following = np.arange(1, len(surface.corner_vertex) + 1, dtype=np.int32)
     following[surface.face_start + surface.face_size - 1] = surface.face_start
     return following
+
+
+def first_and_last(edges: np.ndarray, corners: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The first and the last of the corners (n,) at each of so many edges, from the edge of each; -1: none."""
+    first, last = np.full((2, count), -1, dtype=np.int32)
+    last[edges] = corners  # of several writes to one place the last stays
+    first[edges[::-1]] = corners[::-1]
+    return first, last
+
+
+def across(
+    corner_vertex: np.ndarray, following: np.ndarray, here: np.ndarray, there: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The corners at the start and at the end of the edges of corners `here`, in the faces of corners `there`, which
+    have the same edges."""
+    opposed = corner_vertex[here] != corner_vertex[there]
+    return np.where(opposed, following[there], there), np.where(opposed, there, following[there])
+
+
+def edge_ends(
+    corner_vertex: np.ndarray, corner_edge: np.ndarray, following: np.ndarray, corners: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The edges (n,) of some corners, ascending, and the corners (n, 2) at their ends, the lower vertex first."""
+    corners = corners[np.argsort(corner_edge[corners], kind="stable")]
+    ends = np.stack([corners, following[corners]], axis=1)
+    turned = corner_vertex[ends[:, 0]] > corner_vertex[ends[:, 1]]
+    ends[turned] = ends[turned][:, ::-1]
+    return corner_edge[corners], ends

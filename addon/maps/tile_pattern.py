@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from .connected_components import connected_components
-from .surface import Surface, next_corners
+from .surface import Surface, across, next_corners
 
 GRID = 2.0**24  # steps of UVs between 0 and 1: periods of a tile are whole numbers of them
 FARTHEST = 2.0**12  # UV units between the sides of a cut
@@ -67,9 +67,7 @@ def cut_sides(surface: Surface, uv: np.ndarray) -> CutSides:
     uses = np.bincount(edge, minlength=len(surface.seam))
     first = np.flatnonzero((edge[:-1] == edge[1:]) & (uses[edge[:-1]] == 2))
     here, there = order[first], order[first + 1]
-    there_end = following[there]
-    opposed = surface.corner_vertex[here] != surface.corner_vertex[there]
-    start, end = np.where(opposed, there_end, there), np.where(opposed, there, there_end)
+    start, end = across(surface.corner_vertex, following, here, there)
     joined = (uv[here] == uv[start]).all(axis=1) & (uv[following[here]] == uv[end]).all(axis=1)
     face = np.repeat(np.arange(len(surface.face_size), dtype=np.int32), surface.face_size)
     piece = connected_components(len(surface.face_size), face[here[joined]], face[there[joined]])

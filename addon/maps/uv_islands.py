@@ -6,7 +6,7 @@ import dataclasses
 import numpy as np
 
 from .islands import cut_into_islands
-from .surface import Island, Surface, next_corners
+from .surface import Island, Surface, across, first_and_last, next_corners
 
 # UV units: largest difference of one vertex's UVs in two faces that are not cut apart there.
 SAME = 1e-5
@@ -20,15 +20,10 @@ def uv_islands(surface: Surface, uv: np.ndarray) -> list[Island]:
 def uv_cuts(surface: Surface, uv: np.ndarray) -> np.ndarray:
     """Which edges (E,) have different UVs (C, 2) on their two sides. Edges with more than two faces count as cut."""
     edge, following, count = surface.corner_edge, next_corners(surface), len(surface.seam)
-    corners = np.arange(len(edge), dtype=np.int32)
-    first, last = np.full((2, count), -1, dtype=np.int32)
-    last[edge] = corners  # of several writes to one place the last stays
-    first[edge[::-1]] = corners[::-1]
+    first, last = first_and_last(edge, np.arange(len(edge), dtype=np.int32), count)
     shared = np.flatnonzero(first != last)
     here, there = first[shared], last[shared]
-    opposed = surface.corner_vertex[here] != surface.corner_vertex[there]
-    start = np.where(opposed, following[there], there)
-    end = np.where(opposed, there, following[there])
+    start, end = across(surface.corner_vertex, following, here, there)
     differ = _differ(uv, here, start) | _differ(uv, following[here], end)
     cuts = np.zeros(count, dtype=bool)
     cuts[shared[differ]] = True

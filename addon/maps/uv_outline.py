@@ -3,6 +3,8 @@
 
 import numpy as np
 
+from .surface import edge_ends
+
 
 def outline(
     corner_vertex: np.ndarray, corner_edge: np.ndarray, following: np.ndarray, uv: np.ndarray
@@ -15,13 +17,10 @@ def outline(
     """
     if not len(uv):
         return np.zeros((0, 2), dtype=np.int64)
-    order = np.argsort(corner_edge, kind="stable")
-    ends = np.stack([order, following[order]], axis=1)
-    turned = corner_vertex[ends[:, 0]] > corner_vertex[ends[:, 1]]
-    ends[turned] = ends[turned][:, ::-1]
-    edge, places = corner_edge[order], uv[ends].reshape(-1, 4)
+    edge, ends = edge_ends(corner_vertex, corner_edge, following, np.arange(len(corner_edge)))
+    places = uv[ends].reshape(-1, 4)
     same = (edge[1:] == edge[:-1]) & (places[1:] == places[:-1]).all(axis=1)
-    inner = np.zeros(len(order), dtype=bool)
+    inner = np.zeros(len(edge), dtype=bool)
     inner[1:] |= same
     inner[:-1] |= same
     return ends[~inner]

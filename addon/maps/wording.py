@@ -3,11 +3,12 @@
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .errors import elements_of, kind_of
+from .surface import Island, Numbers
 
 if TYPE_CHECKING:
     import koebe
@@ -28,35 +29,6 @@ UNEVEN_TEXELS = "texels are very uneven: Unwrap to Parts makes them even"
 MOST_UNEVEN = 100.0  # texel density at 95 % of the area over that at 5 %; above it the UVs cannot be painted on
 MOST_SHOWN = 1000.0  # of such a ratio; larger values say no more
 FEW = 6  # reasons in one message, which must fit on the screen
-
-
-class Mapped(Protocol):
-    """A mapped island, and how even its texels are."""
-
-    @property
-    def result(self) -> Any: ...
-    @property
-    def density_ratio(self) -> float: ...
-
-
-class Failed(Protocol):
-    """Why something could not be mapped."""
-
-    @property
-    def error(self) -> Exception | None: ...
-
-
-class Failures(Protocol):
-    """The outcome of a surface, as far as it could not be mapped or written."""
-
-    @property
-    def name(self) -> str: ...
-    @property
-    def not_written(self) -> str | None: ...
-    @property
-    def islands(self) -> Sequence[Failed]: ...
-    @property
-    def failed(self) -> Sequence[Failed]: ...
 
 
 def cut_edges(opening: "Opening") -> int:
@@ -96,17 +68,17 @@ def density_text(ratio: float) -> str:
     return f"{ratio:.1f}" if ratio <= MOST_SHOWN else f"more than {MOST_SHOWN:,.0f}"
 
 
-def too_uneven(one: Mapped) -> bool:
+def too_uneven(one: Any) -> bool:
     """Whether a mapped island cannot be painted on: texels too uneven, or faces too small."""
     return bool(one.result.below_resolution) or one.density_ratio > MOST_UNEVEN
 
 
-def failure_line(outcome: Failures) -> str:
-    """One line on a surface's islands that could not be mapped or written: how many and why."""
+def failure_line(outcome: Any) -> str:
+    """One line on the islands of an `Outcome` that could not be mapped or written: how many and why."""
     if outcome.not_written:
         return outcome.not_written
     failed = outcome.failed
-    reasons: dict[str, list[Failed]] = {}
+    reasons: dict[str, list[Any]] = {}
     for one in failed:
         reasons.setdefault(explain(one.error), []).append(one)
     text = "; ".join(
@@ -117,8 +89,8 @@ def failure_line(outcome: Failures) -> str:
     return f"{outcome.name}: {count}{text}"
 
 
-def run_error(outcomes: Sequence[Failures]) -> dict[str, Any]:
-    """The error of a run without any usable map: name and kind of the first error, and all reasons."""
+def run_error(outcomes: Sequence[Any]) -> dict[str, Any]:
+    """The error of a run whose outcomes have no usable map: name and kind of the first error, and all reasons."""
     failed = [outcome for outcome in outcomes if outcome.failed]
     error = failed[0].failed[0].error
     kind = kind_of(error)
@@ -143,15 +115,6 @@ def own_warning(kind: str, text: str, elements: Iterable[int] = ()) -> dict[str,
     return {"kind": kind, "elements": [int(element) for element in elements], "text": text}
 
 
-class Numbers(Protocol):
-    """The solver's triangles and vertices in the mesh's numbers, as in `Island`."""
-
-    @property
-    def triangle_face(self) -> np.ndarray: ...
-    @property
-    def source_vertex(self) -> np.ndarray: ...
-
-
 # Places in a warning's sentence that count faces or vertices, or name a vertex; a loop keeps its number.
 _COUNTS = re.compile(r"\b(\d+) (face|vertex)(?:s|\b)|\b(\d+) vertices\b|\b(\d+)(?= of them too small\b)")
 _NAMES = re.compile(
@@ -161,7 +124,7 @@ _NAMES = re.compile(
 _FIRST = re.compile(r"(?<=the first face is )\d+|(?<=the first vertex is )\d+")
 
 
-def in_mesh(numbers: Numbers, warning: "koebe.Warning") -> dict[str, Any]:
+def in_mesh(numbers: Island | Numbers, warning: "koebe.Warning") -> dict[str, Any]:
     """A warning of the solver in the mesh's numbers: its elements, each once and ascending, and the counts and names in
     its text. The solver counts triangles: elements become polygons, other counts are called triangles."""
     number = {"vertices": numbers.source_vertex, "faces": numbers.triangle_face}.get(warning.of)

@@ -4,28 +4,29 @@
 import bpy
 from bpy.props import BoolProperty
 
-from ..blender.mesh_object import MeshObject
 from ..blender.noted_properties import note_group
+from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.shape_jobs import CarryJob
 from ..maps.carried_uv import Carried
-from ..maps.wording import few, lines
 from ..state import run_report
 from ..state.option_properties import option
 from ..state.run_report import report_of
 from ..state.shape_report import shapes_of
-from .modal_run import redraw
-from .shape_operator import ShapeOperator, in_object_mode
+from .answers import finished, refused
+from .modal_run import ModalRun, redraw
+from .polls import in_object_mode
 from .tooltip import tooltip
 
 
-class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
+class UV_OT_koebe_carry_texture(ModalRun, bpy.types.Operator):
     """Give the other selected objects UVs that fit the texture of the active object. Their holes are laid over its
     holes, as well as a conformal map can. The active object must be mapped, and is not changed"""
 
     bl_idname = "uv.koebe_carry_texture"
     bl_label = "Koebe Carry Texture"
     bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "UNDO"}
 
     layer: option("layer")
     fit_holes: BoolProperty(
@@ -44,16 +45,15 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return in_object_mode(cls, context, 2)
 
-    def _new_job(self, objects: list[MeshObject]) -> CarryJob:
-        return CarryJob(objects, self.layer, self.fit_holes)
+    def _job(self, context: bpy.types.Context) -> CarryJob:
+        return CarryJob(target_objects(context), self.layer, self.fit_holes)
 
     def _finish(self, context: bpy.types.Context, job: CarryJob) -> set[str]:
         with transaction() as run:
             job.write(run, self.material)
             done = [one for one in job.carried if one is not None]
             if not done:
-                self.report({"ERROR"}, lines("Koebe UV: nothing was carried.", job.failures))
-                return {"CANCELLED"}
+                return refused(self, "nothing was carried.", job.failures)
             shapes = shapes_of(context)
             note_group(run, shapes)
             note_group(run, report_of(context))
@@ -65,9 +65,7 @@ class UV_OT_koebe_carry_texture(ShapeOperator, bpy.types.Operator):
             redraw(context)
             for one in done:
                 self.report({"WARNING" if one.message or len(one.flipped) else "INFO"}, _line(one))
-            if job.failures:
-                self.report({"WARNING"}, "Koebe UV: not carried. " + few(job.failures))
-            return {"FINISHED"}
+            return finished(self, "not carried", job.failures)
 
 
 def _line(one: Carried) -> str:

@@ -12,8 +12,8 @@ from ..blender.transaction import transaction
 from ..maps.distortion import texel_density
 from ..maps.surface import Surface
 from ..maps.tile_pattern import Pattern
-from ..maps.wording import few, lines
 from ..state.option_properties import option
+from .answers import finished, refused
 from .run_operator import can_map
 
 
@@ -53,12 +53,9 @@ class UV_OT_koebe_checker(bpy.types.Operator):
                         checker.put_on(run, obj, material)
             if len(problems) == len(wearing or objects):
                 run.put_back()  # the new material
-                self.report({"ERROR"}, lines("Koebe UV:", problems))
-                return {"CANCELLED"}
+                return refused(self, "", problems)
             edit_mode.undo_all(context)
-            if problems:
-                self.report({"WARNING"}, f"Koebe UV: not done. {few(problems)}")
-            return {"FINISHED"}
+            return finished(self, "not done", problems)
 
     def _read(self, obj: MeshObject) -> tuple[Surface, np.ndarray] | None:
         """The surface and its UVs (C, 2), or None if they do not exist or cannot be read."""

@@ -3,18 +3,18 @@
 
 import bpy
 
-from ..blender.mesh_object import MeshObject
 from ..blender.noted_properties import note_group
+from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.shape_jobs import MeasureJob
-from ..maps.wording import few
 from ..state.shape_report import shapes_of
-from .modal_run import redraw
-from .shape_operator import ShapeOperator, in_object_mode
+from .answers import finished
+from .modal_run import ModalRun, redraw
+from .polls import in_object_mode
 from .tooltip import tooltip
 
 
-class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
+class UV_OT_koebe_compare_shapes(ModalRun, bpy.types.Operator):
     """Compare the shapes of the selected objects with the shape of the active object, by the circles of their holes. 0
     is the same shape. Nothing is changed"""
 
@@ -27,8 +27,8 @@ class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return in_object_mode(cls, context, 1)
 
-    def _new_job(self, objects: list[MeshObject]) -> MeasureJob:
-        return MeasureJob(objects)
+    def _job(self, context: bpy.types.Context) -> MeasureJob:
+        return MeasureJob(target_objects(context))
 
     def _finish(self, context: bpy.types.Context, job: MeasureJob) -> set[str]:
         with transaction() as run:
@@ -52,9 +52,7 @@ class UV_OT_koebe_compare_shapes(ShapeOperator, bpy.types.Operator):
                 self.report({"INFO"}, f"{one.name}: {found}")
             if not job.comparisons[0].converged:
                 self.report({"WARNING"}, f"{job.names[0]}: not converged")
-            if job.failures:
-                self.report({"WARNING"}, "Koebe UV: not compared. " + few(job.failures))
-            return {"FINISHED"}
+            return finished(self, "not compared", job.failures)
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_compare_shapes,))

@@ -12,7 +12,7 @@ from ..blender.noted_properties import set_property
 from ..blender.targets import attempt, check_mesh, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
 from ..maps import distortion
-from ..maps.wording import few, lines
+from .answers import finished, refused
 from .polls import has_targets
 
 KINDS = [
@@ -53,13 +53,10 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
                     with attempt(run, obj.name, problems):
                         self._color(run, obj)
             if len(problems) == len(objects):
-                self.report({"ERROR"}, lines("Koebe UV:", problems))
-                return {"CANCELLED"}
+                return refused(self, "", problems)
             _show_colors(run, context, self.kind != "none")
             edit_mode.undo_all(context)
-            if problems:
-                self.report({"WARNING"}, f"Koebe UV: not coloured. {few(problems)}")
-            return {"FINISHED"}
+            return finished(self, "not coloured", problems)
 
     def _color(self, run: Transaction, obj: MeshObject) -> None:
         if self.kind == "none":

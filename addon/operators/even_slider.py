@@ -14,6 +14,7 @@ from ..maps.even_drag import EvenDrag
 from ..solver.errors import NativeError
 from ..solver.worker import Worker
 from ..state.option_properties import UNWRAP_OPTION_NAMES, settings_of
+from .answers import refused
 from .modal_run import redraw
 from .polls import has_targets
 from .tooltip import tooltip
@@ -54,8 +55,7 @@ class UV_OT_koebe_even(bpy.types.Operator):
         try:
             self._job = EvenJob(obj, settings.layer, is_round)
         except (NativeError, TransferError, KnownError) as error:
-            self.report({"ERROR"}, f"Koebe UV: {reason(obj.name, error)}")
-            return {"CANCELLED"}
+            return refused(self, reason(obj.name, error))
         self._drag = EvenDrag(settings.even, event.mouse_x)
         self._worker: Worker | None = None
         self._way = 0.0

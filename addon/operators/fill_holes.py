@@ -9,7 +9,8 @@ from ..blender import hole_filling
 from ..blender.filled_mesh import FillPlan
 from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
-from ..maps.wording import counted, few, lines
+from ..maps.wording import counted, few
+from .answers import refused
 from .polls import has_targets, native_or_error
 from .tooltip import tooltip
 
@@ -61,8 +62,7 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
                 plan.write(run, context)
                 holes, faces = holes + len(plan.fillings), faces + plan.faces
         if not holes:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was filled.", problems))
-            return {"CANCELLED"}
+            return refused(self, "nothing was filled.", problems)
         text = f"Koebe UV: {counted(holes, 'hole')} filled with {faces} faces"
         self.report({"WARNING" if problems else "INFO"}, f"{text}. {few(problems)}" if problems else text)
         return {"FINISHED"}

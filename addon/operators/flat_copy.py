@@ -17,8 +17,8 @@ from ..blender.transaction import transaction
 from ..jobs.flat_job import Flat, FlattenJob, read_flat
 from ..maps.flat_pattern import FlatPattern
 from ..maps.flat_svg import flat_svg
-from ..maps.wording import counted, few, lines
-from ..solver.errors import NativeError
+from ..maps.wording import counted
+from .answers import finished, refused
 from .modal_run import ModalRun
 from .polls import has_targets
 from .tooltip import tooltip
@@ -56,14 +56,6 @@ class FlatOperator(ModalRun):
     def _as_they_are(self, context: bpy.types.Context) -> set[str]:
         raise NotImplementedError
 
-    def _flatten(self, context: bpy.types.Context, **options: Any) -> FlattenJob | None:
-        context.evaluated_depsgraph_get()  # updates the objects' world matrices
-        try:
-            return FlattenJob(target_objects(context), **options)
-        except NativeError as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return None
-
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
@@ -74,14 +66,11 @@ class FlatOperator(ModalRun):
 
     def _say(self, done: list[Flat], problems: list[str], where: str) -> set[str]:
         if not done:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was laid flat.", problems))
-            return {"CANCELLED"}
+            return refused(self, "nothing was laid flat.", problems)
         for flat in done:
             fine = flat.layout.is_true and not flat.layout.left_out
             self.report({"INFO"} if fine else {"WARNING"}, f"{flat.describe()}{where}")
-        if problems:
-            self.report({"WARNING"}, "Koebe UV: not flattened. " + few(problems))
-        return {"FINISHED"}
+        return finished(self, "not flattened", problems)
 
 
 class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
@@ -108,8 +97,8 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
         self.layout.prop(self, "pieces")
         self.layout.prop(self, "layer" if self.pieces == "UVS" else "numbers")
 
-    def _job(self, context: bpy.types.Context) -> FlattenJob | None:
-        return self._flatten(context)
+    def _job(self, context: bpy.types.Context) -> FlattenJob:
+        return FlattenJob(target_objects(context))
 
     def _finish(self, context: bpy.types.Context, job: FlattenJob) -> set[str]:
         flats = job.flats()
@@ -219,28 +208,24 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
     def _millimetres(self, context: bpy.types.Context) -> float:
         return 1000.0 * context.scene.unit_settings.scale_length * self.scale
 
-    def _job(self, context: bpy.types.Context) -> FlattenJob | None:
+    def _job(self, context: bpy.types.Context) -> FlattenJob:
         options = {"page": self.page, "allowance": self.allowance}
-        return self._flatten(context, millimetres=self._millimetres(context), **options)
+        return FlattenJob(target_objects(context), millimetres=self._millimetres(context), **options)
 
     def _finish(self, context: bpy.types.Context, job: FlattenJob) -> set[str]:
         patterns = job.patterns()
         if not patterns:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was laid flat.", job.problems))
-            return {"CANCELLED"}
+            return refused(self, "nothing was laid flat.", job.problems)
         path, written = Path(self.filepath), []
         for number, (name, pattern) in enumerate(patterns):
             own = path if number == 0 else path.with_name(f"{path.stem} {bpy.path.clean_name(name)}{path.suffix}")
             try:
                 written.append(_write_pages(own, self._pages(pattern)))
             except OSError as error:
-                self.report({"ERROR"}, f"Koebe UV: {own}: {error.strerror or error}")
-                return {"CANCELLED"}
+                return refused(self, f"{own}: {error.strerror or error}")
         for (name, pattern), text in zip(patterns, written, strict=True):
             self.report({"INFO"}, f"{name}: {pattern.describe()}; {text}")
-        if job.problems:
-            self.report({"WARNING"}, "Koebe UV: not flattened. " + few(job.problems))
-        return {"FINISHED"}
+        return finished(self, "not flattened", job.problems)
 
     def _pages(self, pattern: FlatPattern) -> list[str]:
         return [pattern.result.dxf] if self.drawing == "DXF" else pattern.result.svg
@@ -253,8 +238,7 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
             try:
                 _write_whole(Path(self.filepath), text)
             except OSError as error:
-                self.report({"ERROR"}, f"Koebe UV: {self.filepath}: {error.strerror or error}")
-                return {"CANCELLED"}
+                return refused(self, f"{self.filepath}: {error.strerror or error}")
         return self._say(found, problems, f"; {self.filepath}")
 
 

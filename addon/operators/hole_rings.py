@@ -15,6 +15,7 @@ from ..blender.transaction import transaction
 from ..jobs.moebius_job import MoebiusJob
 from ..maps.hole_rings import ring_edges
 from ..maps.offending_elements import EDGES
+from .answers import refused
 from .polls import has_targets, native_or_error
 from .tooltip import tooltip
 
@@ -62,8 +63,7 @@ class MESH_OT_koebe_loops_around_holes(bpy.types.Operator):
                 edit_mode.undo_all(context)
                 return {"FINISHED"}
         except TransferError as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return {"CANCELLED"}
+            return refused(self, str(error))
 
     def _edges(self, job: MoebiusJob) -> np.ndarray:
         found = [

@@ -14,11 +14,11 @@ from ..blender.targets import target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs.lift_job import LiftJob
 from ..maps.lifting import LiftOutcome
-from ..maps.wording import few, lines
-from ..solver.errors import NativeError
+from ..maps.wording import lines
 from ..state import run_report
 from ..state.lift_properties import SHOWN, LiftProperties, draw_lift_options, lift_choice_of
 from ..state.option_properties import settings_of
+from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .polls import has_targets
 from .tooltip import tooltip
@@ -45,19 +45,13 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
         layout.use_property_decorate = False
         draw_lift_options(layout, self, SHOWN)
 
-    def _job(self, context: bpy.types.Context) -> LiftJob | None:
-        context.evaluated_depsgraph_get()  # updates the objects' world matrices
-        try:
-            if self.pattern == "file":
-                self._check_file()
-            drawing = curve_drawing(self.drawing) if self.pattern == "object" else None
-            job = LiftJob(target_objects(context), lift_choice_of(self), drawing)
-        except (NativeError, TransferError) as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return None
+    def _job(self, context: bpy.types.Context) -> LiftJob:
+        if self.pattern == "file":
+            self._check_file()
+        drawing = curve_drawing(self.drawing) if self.pattern == "object" else None
+        job = LiftJob(target_objects(context), lift_choice_of(self), drawing)
         if not job.outcomes:
-            self.report({"ERROR"}, lines("Koebe UV: no copy was made.", job.problems))
-            return None
+            raise TransferError(lines("no copy was made.", job.problems))
         return job
 
     def _check_file(self) -> None:
@@ -90,16 +84,13 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
     def _say(self, job: LiftJob, done: list[LiftOutcome]) -> set[str]:
         problems = [*(f"{one.name}: {one.reason()}" for one in job.failures()), *job.problems]
         if not done:
-            self.report({"ERROR"}, lines("Koebe UV: no copy was made.", problems))
-            return {"CANCELLED"}
+            return refused(self, "no copy was made.", problems)
         for outcome in done:
             warnings = outcome.warnings()
             self.report({"WARNING"} if warnings else {"INFO"}, outcome.line(self.way == "perforate"))
             for text in warnings:
                 self.report({"WARNING"}, f"{outcome.name}: {text}")
-        if problems:
-            self.report({"WARNING"}, "Koebe UV: left out. " + few(problems))
-        return {"FINISHED"}
+        return finished(self, "left out", problems)
 
 
 def _hide(run: Transaction, obj: MeshObject) -> None:

@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..maps.errors import KnownError
+from ..maps.options import OptionError
+from ..solver.errors import NativeError
 from ..solver.worker import Worker
+from .answers import refused
 
 # The status line's names for the stages of a computation.
 STAGES = {
@@ -60,8 +63,17 @@ class ModalRun(OperatorBase):
     """
 
     def _job(self, context: bpy.types.Context) -> Any:
-        """The job, or None if there is nothing to do and the reason was reported."""
+        """The job. Raises KnownError, NativeError or OptionError."""
         raise NotImplementedError
+
+    def _begun(self, context: bpy.types.Context) -> Any:
+        """The job, or None if it cannot begin, and then an error is reported."""
+        context.evaluated_depsgraph_get()  # updates the objects' world matrices
+        try:
+            return self._job(context)
+        except (KnownError, NativeError, OptionError) as error:
+            self._refuse(error)
+            return None
 
     def _reading(self, context: bpy.types.Context, job: Any) -> Generator[float, None, None] | None:
         """Reads data step by step before the job computes, and yields the share that is read. Or None.
@@ -75,18 +87,17 @@ class ModalRun(OperatorBase):
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        job = self._job(context)
+        job = self._begun(context)
         if job is None:
             return {"CANCELLED"}
         manager = context.window_manager
         manager.progress_begin(0, 100)
         try:
-            try:
-                for fraction in self._reading(context, job) or ():
-                    manager.progress_update(int(100 * fraction))
-            except KnownError as error:
-                return self._refuse(error)
+            for fraction in self._reading(context, job) or ():
+                manager.progress_update(int(100 * fraction))
             job.compute(lambda fraction, stage: manager.progress_update(int(100 * fraction)))
+        except KnownError as error:
+            return self._refuse(error)
         finally:
             manager.progress_end()
         return self._finish(context, job)
@@ -94,7 +105,7 @@ class ModalRun(OperatorBase):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if bpy.app.background:
             return self.execute(context)
-        job = self._job(context)
+        job = self._begun(context)
         if job is None:
             return {"CANCELLED"}
         self._running = job
@@ -141,14 +152,16 @@ class ModalRun(OperatorBase):
             if self._read is None:
                 self._to_read, self._worker = None, Worker(self._running.compute)
 
-    def _refuse(self, error: KnownError) -> set[str]:
-        self.report({"ERROR"}, f"Koebe UV: {error}")
-        return {"CANCELLED"}
+    def _refuse(self, error: Exception) -> set[str]:
+        return refused(self, str(error))
 
     def _end(self, context: bpy.types.Context) -> set[str]:
         assert self._worker is not None
         self._stop_polling(context)
-        self._worker.result()
+        try:
+            self._worker.result()
+        except KnownError as error:
+            return self._refuse(error)
         return self._finish(context, self._running)
 
     def _stop_polling(self, context: bpy.types.Context) -> None:

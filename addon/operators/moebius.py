@@ -23,6 +23,7 @@ from ..maps.wording import few, lines
 from ..solver.errors import NativeError
 from ..state import moved_circles
 from ..state.run_report import report_of
+from .answers import refused
 from .modal_run import redraw
 from .polls import has_targets
 from .tooltip import tooltip
@@ -110,8 +111,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
                 redraw(context)
             return self._say(job, image)
         except (NativeError, TransferError, DomainError) as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return {"CANCELLED"}
+            return refused(self, str(error))
 
     def _chosen_job(self, context: bpy.types.Context) -> MoebiusJob:
         """The object by its name, or the first object whose UVs are circles."""
@@ -187,8 +187,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
                 return self._end(context)
         except (TransferError, DomainError, ReferenceError) as error:
             self.cancel(context)
-            self.report({"ERROR"}, f"Koebe UV: {reason(self._job.name, error)}")
-            return {"CANCELLED"}
+            return refused(self, reason(self._job.name, error))
         except BaseException:
             self.cancel(context)
             raise

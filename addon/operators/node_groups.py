@@ -10,6 +10,7 @@ from ..blender import compat
 from ..blender.asset_library import add_library, find_library, remove_library
 from ..blender.node_groups import add_groups, find_groups, remove_groups
 from ..blender.transaction import transaction
+from .answers import refused
 from .tooltip import tooltip
 
 
@@ -74,8 +75,7 @@ class NODE_OT_koebe_add_library(bpy.types.Operator):
             with transaction() as run:
                 add_library(run, _library_folder())
         except (OSError, RuntimeError) as error:
-            self.report({"ERROR"}, f"Koebe UV: the asset library could not be written: {error}")
-            return {"CANCELLED"}
+            return refused(self, f"the asset library could not be written: {error}")
         self.report({"INFO"}, f"Koebe UV: the asset library is in {_library_folder()}")
         return {"FINISHED"}
 

@@ -11,6 +11,7 @@ from ..blender import edit_mode
 from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
 from ..state.option_properties import SETTING_NAMES, settings_of
+from .answers import refused
 
 FOLDER = "koebe_uv"  # of the presets, within the user's presets
 
@@ -27,8 +28,7 @@ class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
         try:
             return super().execute(context)  # type: ignore[return-value]
         except OSError as error:
-            self.report({"ERROR"}, f"Koebe UV: the preset cannot be written or removed: {error.strerror or error}")
-            return {"CANCELLED"}
+            return refused(self, f"the preset cannot be written or removed: {error.strerror or error}")
 
     def add(self, context: bpy.types.Context, path: str) -> None:
         """Write the file, completely or not at all. It may replace another. `AddPresetBase` calls this."""

@@ -10,13 +10,17 @@ from ..blender import edit_mode
 from ..blender.errors import TransferError
 from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import transaction
+from ..jobs import native_package
 from ..jobs.pack_job import PackJob
-from ..maps.wording import few, lines
+from ..maps.wording import lines
 from ..state.option_properties import option, shown_number
 from ..state.run_report import forget
+from .answers import finished, refused
 from .modal_run import ModalRun, redraw
-from .polls import has_targets, native_or_error
+from .polls import has_targets
 from .tooltip import tooltip
+
+NOTHING = "nothing was packed."
 
 
 class UV_OT_koebe_pack(ModalRun, bpy.types.Operator):
@@ -40,24 +44,19 @@ class UV_OT_koebe_pack(ModalRun, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return has_targets(cls, context, "Select a mesh object with UVs, in Object Mode or in Edit Mode")
 
-    def _job(self, context: bpy.types.Context) -> PackJob | None:
-        context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date
-        koebe = native_or_error(self)
-        if koebe is None:
-            return None
+    def _job(self, context: bpy.types.Context) -> PackJob:
         options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale,
                    "seconds": self.seconds or None}  # fmt: skip
-        job = PackJob(koebe, self.layer, context.mode == "EDIT_MESH", self.keep_places, options)
+        job = PackJob(native_package.load(), self.layer, context.mode == "EDIT_MESH", self.keep_places, options)
         self._problems: list[str] = []
         for obj in with_own_meshes(target_objects(context)):
             try:
                 job.read(obj)
             except TransferError as error:
                 self._problems.append(str(error))
-        if job.tasks:
-            return job
-        self._say([], self._problems)
-        return None
+        if not job.tasks:
+            raise TransferError(lines(NOTHING, self._problems))
+        return job
 
     def _finish(self, context: bpy.types.Context, job: PackJob) -> set[str]:
         problems, done = self._problems, []
@@ -74,13 +73,10 @@ class UV_OT_koebe_pack(ModalRun, bpy.types.Operator):
 
     def _say(self, done: list[str], problems: list[str]) -> set[str]:
         if not done:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was packed.", problems))
-            return {"CANCELLED"}
+            return refused(self, NOTHING, problems)
         for line in done:
             self.report({"INFO"}, line)
-        if problems:
-            self.report({"WARNING"}, "Koebe UV: not packed. " + few(problems))
-        return {"FINISHED"}
+        return finished(self, "not packed", problems)
 
 
 def _line(name: str, report: dict[str, Any]) -> str:

@@ -6,15 +6,13 @@ from typing import Any
 import bpy
 
 from ..blender import edit_mode
-from ..blender.errors import TransferError
 from ..blender.targets import target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
 from ..maps.option_table import ROWS
-from ..maps.options import OptionError
-from ..maps.wording import failure_line, few, lines
-from ..solver.errors import NativeError
+from ..maps.wording import failure_line
 from ..state import run_report
+from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .select_from_report import select_offenders
 
@@ -101,13 +99,8 @@ class MapOperator(ModalRun):
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> Job:
         raise NotImplementedError
 
-    def _job(self, context: bpy.types.Context) -> Job | None:
-        context.evaluated_depsgraph_get()  # updates the objects' world matrices
-        try:
-            return self._new_job(context, selected_only=context.mode == "EDIT_MESH")
-        except (NativeError, OptionError, TransferError) as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return None
+    def _job(self, context: bpy.types.Context) -> Job:
+        return self._new_job(context, selected_only=context.mode == "EDIT_MESH")
 
     def _finish(self, context: bpy.types.Context, job: Job) -> set[str]:
         """Write the results, each object completely or not at all, and report on them."""
@@ -132,8 +125,7 @@ class MapOperator(ModalRun):
         failures = [failure_line(outcome) for outcome in job.outcomes if outcome.failed or outcome.not_written]
         failures += [text for _, text in job.refused]
         if not job.mapped_any:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was mapped.", failures))
-            return {"CANCELLED"}
+            return refused(self, "nothing was mapped.", failures)
         for outcome in job.outcomes:
             if outcome.mapped:
                 self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.line())
@@ -141,6 +133,4 @@ class MapOperator(ModalRun):
                     self.report({"INFO"}, f"{outcome.name}: {note}")
                 for warning in dict.fromkeys([*outcome.said_warnings(), *outcome.remarks]):
                     self.report({"WARNING"}, f"{outcome.name}: {warning}")
-        if failures:
-            self.report({"WARNING"}, "Koebe UV: not mapped. " + few(failures))
-        return {"FINISHED"}
+        return finished(self, "not mapped", failures)

@@ -13,6 +13,7 @@ from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
 from ..maps.offending_elements import EDGES, FACES, VERTICES
 from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object
+from .answers import refused
 from .modal_run import OperatorBase
 from .tooltip import tooltip
 
@@ -51,8 +52,7 @@ class ReportOperator(OperatorBase):
                 edit_mode.undo_all(context)
                 return {"FINISHED"}
         except TransferError as error:
-            self.report({"ERROR"}, f"Koebe UV: {error}")
-            return {"CANCELLED"}
+            return refused(self, str(error))
 
 
 class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):

@@ -12,9 +12,9 @@ from ..blender.transaction import Transaction, transaction
 from ..jobs.moebius_job import MoebiusJob
 from ..maps.circle_domain import DomainError
 from ..maps.mirror import Symmetry, symmetric
-from ..maps.wording import few, lines
 from ..state import moved_circles
 from ..state.run_report import report_of
+from .answers import finished, refused
 from .modal_run import redraw
 from .moebius import numbered
 from .polls import has_targets, native_or_error
@@ -74,15 +74,12 @@ class UV_OT_koebe_symmetrize(bpy.types.Operator):
 
     def _say(self, done: list[Done], problems: list[str]) -> set[str]:
         if not done:
-            self.report({"ERROR"}, lines("Koebe UV: nothing was made symmetric.", problems))
-            return {"CANCELLED"}
+            return refused(self, "nothing was made symmetric.", problems)
         for job, made in done:
             text = moved_circles.describe(made.image, moved_circles.SYMMETRIC)
             self.report({"WARNING"} if ":" in text else {"INFO"},
                         f"{job.name}: {text}, {made.pairs} pairs of vertices, moved by {made.moved:.1e} at most")
-        if problems:
-            self.report({"WARNING"}, "Koebe UV: some objects or islands were not changed. " + few(problems))
-        return {"FINISHED"}
+        return finished(self, "some objects or islands were not changed", problems)
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_symmetrize,))

@@ -6,12 +6,13 @@ from typing import Any
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..blender.compat import path_options
 from ..maps.lifting import DRAWN, LiftChoice, first_value, is_used
 from ..maps.option_table import own_rows
 from .option_properties import property_of, shown_number
+from .registering import added_to
 
 PATTERNS = [
     ("circles", "Circles", "Circles that are even on the surface"),
@@ -160,13 +161,4 @@ def lift_choice_of(options: Any) -> LiftChoice:
     return LiftChoice(pattern, perforate, *lengths, options.seams, cursor, others, graded)
 
 
-def register() -> None:
-    """Register the settings and add them to the scene."""
-    bpy.utils.register_class(KoebeLiftSettings)
-    bpy.types.Scene.koebe_lift = PointerProperty(type=KoebeLiftSettings)
-
-
-def unregister() -> None:
-    """The reverse of `register`."""
-    del bpy.types.Scene.koebe_lift
-    bpy.utils.unregister_class(KoebeLiftSettings)
+register, unregister = added_to(bpy.types.Scene, "koebe_lift", KoebeLiftSettings)

@@ -7,11 +7,12 @@ from typing import Any
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..maps.domains import DOMAINS
 from ..maps.option_table import ROWS, Row, rows_of
 from ..maps.options import WRITTEN, Options, PartsChoice
+from .registering import added_to
 
 PROPERTIES = {"number": FloatProperty, "integer": IntProperty, "flag": BoolProperty, "text": StringProperty,
               "weights": StringProperty}  # fmt: skip
@@ -119,13 +120,4 @@ def options_of(properties: Any, **others: Any) -> Options:
     return Options(**{**{name: _value(properties, name) for name in OPTION_NAMES}, **others})
 
 
-def register() -> None:
-    """Register the settings and add them to the scene."""
-    bpy.utils.register_class(KoebeSettings)
-    bpy.types.Scene.koebe_uv = PointerProperty(type=KoebeSettings)
-
-
-def unregister() -> None:
-    """The reverse of `register`."""
-    del bpy.types.Scene.koebe_uv
-    bpy.utils.unregister_class(KoebeSettings)
+register, unregister = added_to(bpy.types.Scene, "koebe_uv", KoebeSettings)

@@ -22,7 +22,7 @@ from ..blender.transaction import Transaction
 from ..maps.carried_uv import Carried
 from ..maps.distortion import texel_figures
 from ..maps.surface import Island
-from .registering import on_window_manager
+from .registering import added_to
 
 COLLECTIONS = ("loops", "warnings")  # of an island's report
 
@@ -178,4 +178,4 @@ def entries_of_object(context: bpy.types.Context) -> list[KoebeIslandReport]:
 
 
 GROUPS = (KoebeLoopReport, KoebeWarningReport, KoebeIslandReport, KoebeReport)
-register, unregister = on_window_manager("koebe_uv", *GROUPS)
+register, unregister = added_to(bpy.types.WindowManager, "koebe_uv", *GROUPS)

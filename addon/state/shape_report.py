@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
 
-from .registering import on_window_manager
+from .registering import added_to
 
 
 class KoebeModuleNumber(bpy.types.PropertyGroup):
@@ -35,4 +35,4 @@ def shapes_of(context: bpy.types.Context) -> KoebeShapes:
     return context.window_manager.koebe_shapes
 
 
-register, unregister = on_window_manager("koebe_shapes", KoebeModuleNumber, KoebeShape, KoebeShapes)
+register, unregister = added_to(bpy.types.WindowManager, "koebe_shapes", KoebeModuleNumber, KoebeShape, KoebeShapes)

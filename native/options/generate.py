@@ -91,10 +91,16 @@ def signatures() -> str:
     """The module koebe._signatures: for each map a TypedDict of what its function takes."""
     text = '''"""What the functions of the maps take, for type checkers: made of options.json by options/generate.py."""
 
+import typing
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from ._progress import RunOptions, SurfaceOptions
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack as Unpack
+else:  # in typing itself from Python 3.11 on
+    Unpack = getattr(typing, "Unpack", None)
 '''
     text += f"\nRims = {python_type(next(row for row in ROWS if row['maps'] == 'module'))}\n"
     rows = rows_in("python", "arrays")

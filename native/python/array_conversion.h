@@ -5,11 +5,17 @@
 #include "core/errors.h"
 #include "core/types.h"
 
+#include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 
 #include <vector>
 
 namespace koebe::python {
+
+// NumPy's arrays as arguments, without a copy.
+using Positions = const Eigen::Ref<const Vertices>&;
+using Faces = const Eigen::Ref<const Triangles>&;
+using Points = const Eigen::Ref<const PlanarPoints>&;
 
 inline pybind11::array_t<Index> array_of(const std::vector<Index>& numbers)
 {
@@ -25,10 +31,7 @@ inline PlanarPoints planar(const VectorXcd& positions)
     return points;
 }
 
-inline VectorXcd complex(const Eigen::Ref<const PlanarPoints>& points)
-{
-    return points.col(0) + Complex(0.0, 1.0) * points.col(1);
-}
+inline VectorXcd complex(Points points) { return points.col(0) + Complex(0.0, 1.0) * points.col(1); }
 
 /// Circles from (L, 2) centres and (L) radii.
 inline std::vector<Circle> circles_of(const PlanarPoints& centers, const VectorXd& radii)

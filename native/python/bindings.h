@@ -7,10 +7,8 @@ namespace koebe::python {
 
 /// uniformize, uniformize_with_cuts, open_surface, their options, and types that all calls share.
 void bind_uniformize(pybind11::module_& m);
-/// A surface that is mapped in several shapes.
-void bind_surface(pybind11::module_& m);
-/// A map that is made more or less even again and again.
-void bind_even_dial(pybind11::module_& m);
+/// A surface that is mapped in several shapes, and a map that is made more or less even again and again.
+void bind_shared(pybind11::module_& m);
 /// Maps to domains other than the disk, and to parts.
 void bind_domains(pybind11::module_& m);
 

@@ -22,34 +22,31 @@ namespace py = pybind11;
 namespace koebe::python {
 void bind_domains(py::module_& m)
 {
-    bind_result<PartsResult>(m, "PartsResult")
-        .def_property_readonly("part", [](const PartsResult& r) { return array_of(r.part); })
-        .def("report", &report_of<PartsResult>);
+    bind_result<PartsResult>(m, "PartsResult").def_property_readonly("part", [](const PartsResult& r) {
+        return array_of(r.part);
+    });
     bind_options<PartsOptions>(m, "PartsOptions");
     bind_map<PartsOptions, PartsResult>(m, "parts", parts_of);
 
-    bind_result<PackedLayer>(m, "PackedLayer")
-        .def_property_readonly("island", [](const PackedLayer& r) { return array_of(r.part); })
-        .def("report", &report_of<PackedLayer>);
+    bind_result<PackedLayer>(m, "PackedLayer").def_property_readonly("island", [](const PackedLayer& r) {
+        return array_of(r.part);
+    });
     bind_options<PackedLayerOptions>(m, "PackOptions");
     bind_map<PackedLayerOptions, PackedLayer>(m, "pack", pack_layer);
 
-    bind_words(m, "RingHoles", {RingHoles::circles, RingHoles::concentric, RingHoles::radial});
     bind_options<TileOptions>(m, "TileOptions");
-    bind_result<TileResult>(m, "TileResult").def("report", &report_of<TileResult>);
+    bind_result<TileResult>(m, "TileResult");
     bind_map<TileOptions, TileResult>(m, "torus_map", torus_map);
     bind_map<TileOptions, TileResult>(m, "ring_map", ring_map);
 
-    bind_words(m, "SphereLayout", {SphereLayout::equirectangular, SphereLayout::octahedral});
     bind_options<SphereOptions>(m, "SphereOptions");
-    bind_result<SphereResult>(m, "SphereResult")
-        .def_property_readonly("points", [](const SphereResult& r) { return r.points; })
-        .def("report", &report_of<SphereResult>);
+    bind_result<SphereResult>(m, "SphereResult").def_property_readonly("points", [](const SphereResult& r) {
+        return r.points;
+    });
     bind_map<SphereOptions, SphereResult>(m, "sphere_map", sphere_map);
 
-    bind_words(m, "SchottkyNormalization", {SchottkyNormalization::area, SchottkyNormalization::circles});
     bind_options<SchottkyOptions>(m, "SchottkyOptions");
-    bind_result<SchottkyResult>(m, "SchottkyResult").def("report", &report_of<SchottkyResult>);
+    bind_result<SchottkyResult>(m, "SchottkyResult");
     bind_map<SchottkyOptions, SchottkyResult>(m, "schottky_map", schottky_map);
 }
 

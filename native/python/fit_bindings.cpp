@@ -47,13 +47,13 @@ void bind_fit(py::module_& m)
     py::class_<FitResult, UniformizeResult>(m, "FitResult")
         .def_property_readonly("mu", [](const FitResult& r) { return r.mu; })
         .def("report", [](const FitResult& r) { return to_object(to_json(r)); });
-    m.def("fit_circles", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                            const CircleTemplate& wanted, const UniformizeOptions& options, bool extremal,
-                            const py::object& progress, const CancelToken& cancel) {
-        return without_gil(progress, cancel, [&](ExecutionContext& context) {
-            return fit_circles(vertices, triangles, wanted, {.map = options, .extremal = extremal}, context);
-        });
-    });
+    m.def("fit_circles",
+          [](Positions vertices, Faces triangles, const CircleTemplate& wanted, const UniformizeOptions& options,
+             bool extremal, const py::object& progress, const CancelToken& cancel) {
+              return without_gil(progress, cancel, [&](ExecutionContext& context) {
+                  return fit_circles(vertices, triangles, wanted, {.map = options, .extremal = extremal}, context);
+              });
+          });
     py::class_<TeichmuellerMap>(m, "TeichmuellerMap")
         .def_readonly("dilatation", &TeichmuellerMap::dilatation)
         .def_readonly("lower", &TeichmuellerMap::lower)

@@ -20,17 +20,11 @@ namespace koebe::python {
 
 void bind_flatten(py::module_& m)
 {
-    py::enum_<LengthUnit>(m, "LengthUnit")
-        .value("mm", LengthUnit::mm)
-        .value("cm", LengthUnit::cm)
-        .value("m", LengthUnit::m)
-        .value("in", LengthUnit::in);
     bind_options<FlattenOptions>(m, "FlattenOptions");
     bind_result<FlattenResult>(m, "FlattenResult")
         .def_property_readonly("part", [](const FlattenResult& r) { return array_of(r.part); })
         .def_property_readonly("svg", [](const FlattenResult& r) { return pattern_svg(r.pattern); })
-        .def_property_readonly("dxf", [](const FlattenResult& r) { return pattern_dxf(r.pattern); })
-        .def("report", &report_of<FlattenResult>);
+        .def_property_readonly("dxf", [](const FlattenResult& r) { return pattern_dxf(r.pattern); });
     bind_map<FlattenOptions, FlattenResult>(m, "flatten", flatten);
     m.def("page_problem", [](const std::string& name) { return page_named(name) ? std::string() : page_help(name); });
 }

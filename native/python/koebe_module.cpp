@@ -22,8 +22,7 @@ PYBIND11_MODULE(_koebe, m)
     const pybind11::array_t<double> first(0);
 
     bind_uniformize(m);
-    bind_surface(m);
-    bind_even_dial(m);
+    bind_shared(m);
     bind_domains(m);
     bind_steps(m);
 #ifdef KOEBE_MAKING

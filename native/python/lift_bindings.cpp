@@ -20,9 +20,6 @@ namespace koebe::python {
 
 void bind_lift(py::module_& m)
 {
-    bind_words(m, "LiftShape",
-               {LiftShape::disk, LiftShape::ring, LiftShape::torus, LiftShape::sphere, LiftShape::parts});
-    bind_words(m, "LiftRim", {LiftRim::leave, LiftRim::clip, LiftRim::whole});
     bind_options<LiftOptions>(m, "LiftOptions");
     py::class_<LiftResult>(m, "LiftResult")
         .def_property_readonly("vertices", [](const LiftResult& r) { return r.vertices; })
@@ -34,9 +31,8 @@ void bind_lift(py::module_& m)
         .def_property_readonly("weights", [](const LiftResult& r) { return r.weights; })
         .def("report", [](const LiftResult& r) { return to_object(to_json(r)); });
     m.def("pattern_names", &pattern_names);
-    m.def("lift", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                     const std::string& pattern, const LiftOptions& options, const py::object& progress,
-                     const CancelToken& cancel) {
+    m.def("lift", [](Positions vertices, Faces triangles, const std::string& pattern, const LiftOptions& options,
+                     const py::object& progress, const CancelToken& cancel) {
         return without_gil(progress, cancel, [&](ExecutionContext& context) {
             return lift(vertices, triangles, pattern, options, context);
         });

@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <exception>
-#include <mutex>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -89,21 +88,6 @@ auto detached(Compute compute, bool is_short = false)
         if (is_short) return compute();
         return run_detachable<Result>(context, [compute = std::move(compute)](ExecutionContext&) { return compute(); });
     });
-}
-
-/// An object for one call at a time.
-template <typename Object>
-struct SharedObject {
-    Object object;
-    std::timed_mutex busy = {};
-};
-
-/// Locks a shared object: a second thread waits for the first, and may be cancelled meanwhile.
-inline std::unique_lock<std::timed_mutex> alone(std::timed_mutex& busy, const ExecutionContext& context)
-{
-    std::unique_lock lock(busy, std::defer_lock);
-    while (!lock.try_lock_for(std::chrono::milliseconds(20))) context.checkpoint();
-    return lock;
 }
 
 }  // namespace koebe::python

@@ -119,8 +119,7 @@ void bind_shapes(py::module_& m)
         .def_readonly("worst", &DomainAlignment::worst)
         .def_readonly("misses", &DomainAlignment::misses)
         .def_readonly("converged", &DomainAlignment::converged)
-        .def("__call__", [](const DomainAlignment& d,
-                            const Eigen::Ref<const PlanarPoints>& points) { return planar(d.map(complex(points))); })
+        .def("__call__", [](const DomainAlignment& d, Points points) { return planar(d.map(complex(points))); })
         .def(py::pickle(
             [](const DomainAlignment& d) {
                 return py::make_tuple(d.map.a, d.map.turn, d.match, d.residual, d.largest, d.worst, d.misses,
@@ -141,15 +140,15 @@ void bind_shapes(py::module_& m)
             const Eigen::RowVector2d at = point.of(uv, triangles);
             return Complex(at[0], at[1]);
         });
-    m.def("surface_points", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                               const std::vector<Index>& numbers, const Eigen::Ref<const Vertices>& positions) {
-        std::vector<NamedPoint> points;
-        for (std::size_t i = 0; i < numbers.size(); ++i)
-            points.push_back({numbers[i], positions.row(static_cast<Eigen::Index>(i))});
-        return detached([all = Vertices(vertices), faces = Triangles(triangles), points] {
-            return surface_points(all, faces, points);
-        });
-    });
+    m.def("surface_points",
+          [](Positions vertices, Faces triangles, const std::vector<Index>& numbers, Positions positions) {
+              std::vector<NamedPoint> points;
+              for (std::size_t i = 0; i < numbers.size(); ++i)
+                  points.push_back({numbers[i], positions.row(static_cast<Eigen::Index>(i))});
+              return detached([all = Vertices(vertices), faces = Triangles(triangles), points] {
+                  return surface_points(all, faces, points);
+              });
+          });
     m.def("correspond",
           [](const MappedSurface& source, const MappedSurface& target, const std::vector<int>& match, bool fit_holes,
              const std::vector<SurfacePoint>& on_source, const std::vector<SurfacePoint>& on_target, bool extremal,

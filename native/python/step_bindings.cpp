@@ -67,12 +67,12 @@ std::pair<PlanarPoints, double> annulus_by(AnnulusBackend backend, const Vertice
 
 void bind_steps(py::module_& m)
 {
-    m.def("boundary_loops", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
+    m.def("boundary_loops", [](Faces triangles, Index vertex_count) {
         return detached(
             [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; },
             triangles.rows() < small_mesh);
     });
-    m.def("surface_warnings", [](const Eigen::Ref<const Triangles>& triangles, Index vertex_count) {
+    m.def("surface_warnings", [](Faces triangles, Index vertex_count) {
         std::vector<Warning> warnings;
         const auto turned = [faces = Triangles(triangles), vertex_count] {
             return analyze_surface(faces, vertex_count).reoriented;
@@ -80,8 +80,8 @@ void bind_steps(py::module_& m)
         warn_reoriented(detached(turned, triangles.rows() < small_mesh), warnings);
         return to_object(to_json(warnings));
     });
-    m.def("fill_holes", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                           const std::optional<std::vector<Index>>& loops, bool fair) {
+    m.def("fill_holes", [](Positions vertices, Faces triangles, const std::optional<std::vector<Index>>& loops,
+                           bool fair) {
         FilledSurface filled = detached([positions = Vertices(vertices), faces = Triangles(triangles), loops, fair] {
             return fair ? fill_and_fair_holes(positions, faces, loops) : fill_holes(positions, faces, loops);
         });
@@ -90,31 +90,29 @@ void bind_steps(py::module_& m)
                                to_object(to_json(filled.warnings)));
     });
     using Indices = Eigen::Ref<const Eigen::VectorX<Index>>;
-    m.def("triangulate", [](const Eigen::Ref<const Vertices>& vertices, const Indices& corners, const Indices& begin) {
+    m.def("triangulate", [](Positions vertices, const Indices& corners, const Indices& begin) {
         PolygonMesh mesh{vertices, {corners.begin(), corners.end()}, {begin.begin(), begin.end()}};
         const bool small = begin.size() < small_mesh;
         const Triangulation cut = detached([mesh = std::move(mesh)] { return triangulate(mesh); }, small);
         return std::make_tuple(cut.triangles, py::array_t<Index>(cut.face.size(), cut.face.data()));
     });
-    m.def("weld", [](const Eigen::Ref<const Vertices>& vertices, double distance) {
+    m.def("weld", [](Positions vertices, double distance) {
         return array_of(detached([points = Vertices(vertices), distance] { return weld(points, distance); },
                                  vertices.rows() < small_mesh));
     });
-    m.def("coincident_vertices",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
-              const auto find = [points = Vertices(vertices), faces = Triangles(triangles)] {
-                  const auto found = coincident_vertices(points, faces);
-                  return found ? std::vector<Warning>{*found} : std::vector<Warning>();
-              };
-              return to_object(to_json(detached(find, triangles.rows() < small_mesh)));
-          });
+    m.def("coincident_vertices", [](Positions vertices, Faces triangles) {
+        const auto find = [points = Vertices(vertices), faces = Triangles(triangles)] {
+            const auto found = coincident_vertices(points, faces);
+            return found ? std::vector<Warning>{*found} : std::vector<Warning>();
+        };
+        return to_object(to_json(detached(find, triangles.rows() < small_mesh)));
+    });
     m.attr("mesh_formats") = io::format_names(io::FormatName::extension);
     m.def("parse_mesh", [](const std::string& bytes, const std::string& extension) {
         const PolygonMesh mesh = detached([bytes, extension] { return parse_mesh(bytes, extension); });
         return std::make_tuple(mesh.vertices, array_of(mesh.corners), array_of(mesh.face_begin));
     });
-    m.def("harmonic_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                             const std::vector<Index>& fixed, const Eigen::Ref<const PlanarPoints>& values,
+    m.def("harmonic_map", [](Positions vertices, Faces triangles, const std::vector<Index>& fixed, Points values,
                              bool uniform) {
         return detached(
             [positions = Vertices(vertices), faces = Triangles(triangles), fixed, given = complex(values), uniform] {
@@ -125,7 +123,7 @@ void bind_steps(py::module_& m)
             },
             triangles.rows() < small_mesh);
     });
-    m.def("disk_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles) {
+    m.def("disk_map", [](Positions vertices, Faces triangles) {
         return detached([positions = Vertices(vertices), faces = Triangles(triangles)] {
             fix_product_blocks();
             const Surface surface = surface_with_loops(positions, faces, 1);
@@ -134,15 +132,13 @@ void bind_steps(py::module_& m)
                               .positions);
         });
     });
-    m.def("annulus_map", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                            AnnulusBackend backend) {
+    m.def("annulus_map", [](Positions vertices, Faces triangles, int backend) {
         return detached([positions = Vertices(vertices), faces = Triangles(triangles), backend] {
             fix_product_blocks();
-            return annulus_by(backend, positions, faces);
+            return annulus_by(static_cast<AnnulusBackend>(backend), positions, faces);
         });
     });
-    m.def("distortion", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                           const Eigen::Ref<const PlanarPoints>& uv) {
+    m.def("distortion", [](Positions vertices, Faces triangles, Points uv) {
         const auto measure = [positions = Vertices(vertices), faces = Triangles(triangles), points = PlanarPoints(uv)] {
             return Distortion{measure_distortion(positions, faces, points), judge_disk(positions, faces, points)};
         };
@@ -153,8 +149,7 @@ void bind_steps(py::module_& m)
             detached([uv, triangles, points] { return nearest_triangles(uv, triangles, points); });
         return py::make_tuple(found.face, found.weights, found.distance);
     });
-    m.def("mirror_image", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                             const std::vector<Index>& polygon) {
+    m.def("mirror_image", [](Positions vertices, Faces triangles, const std::vector<Index>& polygon) {
         return array_of(detached([points = Vertices(vertices), faces = Triangles(triangles), polygon] {
                             return find_mirror(points, faces, polygon);
                         }).vertex);
@@ -163,7 +158,7 @@ void bind_steps(py::module_& m)
     m.def("pack_disks", [](const std::vector<double>& radii, double margin) {
         return arrays_of(detached([radii, margin] { return pack_disks(radii, margin); }));
     });
-    m.def("fit_circle", [](const Eigen::Ref<const PlanarPoints>& points) {
+    m.def("fit_circle", [](Points points) {
         const VectorXcd all = complex(points);
         const Circle circle = fit_circle_least_squares(all);
         const double off = ((all.array() - circle.center).abs() - circle.radius).abs().maxCoeff();

@@ -1,9 +1,9 @@
 // Maps to circle domains, and cutting for them.
 #include "array_conversion.h"
 #include "bindings.h"
+#include "map_binding.h"
 #include "native_call.h"
 #include "option_binding.h"
-#include "report_object.h"
 
 #include "opened/cut_uniformize.h"
 #include "opened/cut_warnings.h"
@@ -43,30 +43,6 @@ py::tuple opened_tuple(const OpenedSurface& opened)
 
 void bind_uniformize(py::module_& m)
 {
-    bind_words(m, "Method", {Method::gk, Method::ck, Method::against_outer});
-    bind_words(m, "Engine", {Engine::condensed, Engine::mesh});
-    py::enum_<OuterLoop>(m, "OuterLoop")
-        .value("automatic", OuterLoop::automatic)
-        .value("longest", OuterLoop::longest)
-        .value("vertex", OuterLoop::vertex);
-    py::enum_<LoopForm>(m, "LoopForm")
-        .value("auto", LoopForm::automatic)
-        .value("round", LoopForm::round)
-        .value("free", LoopForm::free);
-    py::enum_<Balance>(m, "Balance").value("none", Balance::none).value("area", Balance::area);
-
-    py::enum_<AnnulusBackend>(m, "AnnulusBackend")
-        .value("harmonic", AnnulusBackend::harmonic)
-        .value("yamabe", AnnulusBackend::yamabe);
-
-    using Metric = KoebeMeshOptions::Metric;
-    py::enum_<Metric>(m, "Metric")
-        .value("first", Metric::first)
-        .value("planar", Metric::planar)
-        .value("reflected", Metric::reflected)
-        .value("reflected-last", Metric::reflected_last);
-    py::enum_<Partners>(m, "Partners").value("fixed", Partners::fixed).value("changing", Partners::changing);
-
     py::class_<CancelToken>(m, "CancelToken", R"(A flag that any thread may raise to stop a computation.
 
 Give it to a function as `cancel`. The call ends with Cancelled, within a fraction of a second.
@@ -95,42 +71,31 @@ koebe.errors.Cancelled: ...
     py::class_<MapReport>(m, "MapReport").def_property_readonly("flipped_faces", [](const MapReport& r) {
         return array_of(r.distortion.flipped);
     });
-    py::class_<UniformizeResult, MapReport>(m, "UniformizeResult")
-        .def_property_readonly("uv", [](const UniformizeResult& r) { return r.uv; })
+    bind_result<UniformizeResult>(m, "UniformizeResult")
         .def_property_readonly("conformal_uv",
                                [](const UniformizeResult& r) -> std::optional<PlanarPoints> {
                                    return r.conformal ? std::optional(r.conformal->uv) : std::nullopt;
                                })
-        .def_property_readonly("step_maps", [](const UniformizeResult& r) { return r.step_images; })
-        .def("report", [](const UniformizeResult& r) { return to_object(to_json(r)); });
+        .def_property_readonly("step_maps", [](const UniformizeResult& r) { return r.step_images; });
 
-    py::class_<CutUniformizeResult, MapReport>(m, "CutUniformizeResult")
-        .def_property_readonly("uv", [](const CutUniformizeResult& r) { return r.uv; })
-        .def("report", [](const CutUniformizeResult& r) { return to_object(to_json(r)); });
+    bind_result<CutUniformizeResult>(m, "CutUniformizeResult");
 
-    m.def("uniformize", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                           const UniformizeOptions& options, const py::object& progress, const CancelToken& cancel) {
-        return without_gil(progress, cancel, [&](ExecutionContext& context) {
-            return uniformize(vertices, triangles, options, context);
+    bind_map<UniformizeOptions, UniformizeResult>(m, "uniformize", uniformize);
+    m.def("make_polygons_convex", [](Positions vertices, Faces triangles, UniformizeResult& result,
+                                     const std::vector<Index>& polygon, bool mend, const CancelToken& cancel) {
+        without_gil(py::none(), cancel, [&](ExecutionContext& context) {
+            make_polygons_convex(vertices, triangles, polygon, result, context, mend);
         });
     });
-    m.def("make_polygons_convex",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-             UniformizeResult& result, const std::vector<Index>& polygon, bool mend, const CancelToken& cancel) {
-              without_gil(py::none(), cancel, [&](ExecutionContext& context) {
-                  make_polygons_convex(vertices, triangles, polygon, result, context, mend);
-              });
-          });
     m.def("uniformize_with_cuts",
-          [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-             const std::vector<Index>& polygon, const UniformizeOptions& options, const py::object& progress,
-             const CancelToken& cancel) {
+          [](Positions vertices, Faces triangles, const std::vector<Index>& polygon, const UniformizeOptions& options,
+             const py::object& progress, const CancelToken& cancel) {
               return without_gil(progress, cancel, [&](ExecutionContext& context) {
                   return uniformize_with_cuts(vertices, triangles, polygon, options, context);
               });
           });
-    m.def("open_surface", [](const Eigen::Ref<const Vertices>& vertices, const Eigen::Ref<const Triangles>& triangles,
-                             const std::vector<Index>& polygon, const py::object& progress, const CancelToken& cancel) {
+    m.def("open_surface", [](Positions vertices, Faces triangles, const std::vector<Index>& polygon,
+                             const py::object& progress, const CancelToken& cancel) {
         return opened_tuple(without_gil(progress, cancel, [&](ExecutionContext& context) {
             return run_detachable<OpenedSurface>(context,
                                                  [points = Vertices(vertices), faces = Triangles(triangles),

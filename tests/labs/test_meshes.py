@@ -1,6 +1,8 @@
 """Meshes of PyVista, trimesh, meshio and nibabel in and back, in an environment that has them."""
 
 import importlib
+import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import koebe
@@ -11,24 +13,12 @@ import pytest
 import pyvista
 import trimesh
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+from cli_support import perforated, triangles_of  # noqa: E402
+
 FIELDS = {"koebe_uv", "koebe_log_scale"}
-
-
-def perforated(n=20, holes=((0.3, 0.3, 0.12), (0.7, 0.6, 0.16))):
-    """A wavy square of n x n cells with two holes: vertices and quadrilaterals, no vertex unused."""
-    t = np.linspace(0.0, 1.0, n + 1)
-    points = np.stack([a.ravel() for a in np.meshgrid(t, t)], axis=1)
-    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    quads = np.stack([corner, corner + 1, corner + n + 2, corner + n + 1], axis=1)
-    for *middle, radius in holes:
-        quads = quads[np.linalg.norm(points[quads].mean(axis=1) - middle, axis=1) >= radius]
-    used, quads = np.unique(quads, return_inverse=True)
-    x, y = points[used].T
-    return np.stack([x, y, 0.15 * np.sin(3.0 * x) * np.cos(2.0 * y)], axis=1), quads.reshape(-1, 4)
-
-
-VERTICES, QUADS = perforated()
-TRIANGLES = QUADS[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+VERTICES, QUADS = perforated(20, ((0.3, 0.3, 0.12), (0.7, 0.6, 0.16)))
+TRIANGLES = triangles_of(QUADS)
 
 
 def gifti(vertices, triangles):

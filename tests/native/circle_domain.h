@@ -39,6 +39,17 @@ std::string to_string(Lift lift);
 /// projection; Enneper's surface.
 Vertices lift(const VectorXcd& points, Lift kind);
 
+/// The domain of five circles, of about so many faces, and its lift.
+struct LiftedDomain {
+    LiftedDomain(Index faces, Lift kind)
+        : domain(make_circle_domain(five_circles(), faces)), vertices(lift(domain.points, kind))
+    {
+    }
+
+    CircleDomain domain;
+    Vertices vertices;
+};
+
 /// Largest relative error of the inversive distances of all pairs: what no Moebius map changes.
 double inversive_distance_error(const std::vector<Circle>& found, const std::vector<Circle>& expected);
 

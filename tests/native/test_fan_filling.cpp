@@ -14,15 +14,6 @@
 using namespace koebe;
 using namespace koebe::test;
 
-namespace {
-
-struct FilledSample {
-    CircleDomain domain = make_circle_domain(five_circles(), 1200);
-    Vertices vertices = lift(domain.points, Lift::sphere);
-};
-
-}  // namespace
-
 TEST(HoleFilling, a_fan_has_its_centre_at_the_mean_of_the_vertices)
 {
     // A point more on one side of the square moves it.
@@ -43,7 +34,7 @@ TEST(HoleFilling, a_fan_has_its_centre_at_the_mean_of_the_vertices)
 
 TEST(HoleFilling, the_filled_surface_is_a_sphere_of_one_orientation)
 {
-    const FilledSample sample;
+    const LiftedDomain sample(1200, Lift::sphere);
     const Surface before = analyze_surface(sample.domain.triangles, static_cast<Index>(sample.vertices.rows()));
     const FilledSurface filled = fill_holes(sample.vertices, sample.domain.triangles);
     const Surface after = analyze_surface(filled.triangles, static_cast<Index>(filled.vertices.rows()));
@@ -71,7 +62,7 @@ TEST(HoleFilling, the_filled_surface_is_a_sphere_of_one_orientation)
 
 TEST(HoleFilling, only_the_loops_asked_for_are_filled)
 {
-    const FilledSample sample;
+    const LiftedDomain sample(1200, Lift::sphere);
     const FilledSurface filled = fill_holes(sample.vertices, sample.domain.triangles, std::vector<Index>{3, 1, 3});
     const Surface before = analyze_surface(sample.domain.triangles, static_cast<Index>(sample.vertices.rows()));
     const Surface after = analyze_surface(filled.triangles, static_cast<Index>(filled.vertices.rows()));
@@ -84,7 +75,7 @@ TEST(HoleFilling, only_the_loops_asked_for_are_filled)
 
 TEST(HoleFilling, faces_against_the_others_stay_and_are_named)
 {
-    FilledSample sample;
+    LiftedDomain sample(1200, Lift::sphere);
     sample.domain.triangles.row(7).reverseInPlace();
     const FilledSurface filled = fill_holes(sample.vertices, sample.domain.triangles);
     EXPECT_EQ(filled.triangles.topRows(sample.domain.triangles.rows()), sample.domain.triangles);

@@ -10,9 +10,8 @@ using namespace koebe::test;
 
 namespace {
 
-struct LaplacianSample {
-    CircleDomain domain = make_circle_domain(five_circles(), 2000);
-    Vertices vertices = lift(domain.points, Lift::enneper);
+struct LaplacianSample : LiftedDomain {
+    LaplacianSample() : LiftedDomain(2000, Lift::enneper) {}
     SparseMatrix laplacian(const Vertices& v) const
     {
         return cotan_laplacian(domain.triangles, half_cotangents(edge_lengths(v, domain.triangles)),

@@ -40,6 +40,7 @@ struct FlowSample {
         for (const VertexLoop& loop : domain.loops)
             for (const Index v : loop) boundary[v] = 1;
     }
+    CirclePacking packing(Packing kind) const { return circle_packing(domain.triangles, lengths, vertex_count, kind); }
     RicciFlowResult flow(const RicciFlowOptions& options) const
     {
         ExecutionContext context;
@@ -68,12 +69,10 @@ VectorXd disturbed(const VectorXd& values, double spread)
 TEST(RicciFlow, inversive_packings_reproduce_the_metric_and_acute_ones_intersect)
 {
     const FlowSample sample(900, Lift::enneper);
-    const CirclePacking inversive =
-        circle_packing(sample.domain.triangles, sample.lengths, sample.vertex_count, Packing::inversive);
+    const CirclePacking inversive = sample.packing(Packing::inversive);
     EXPECT_LT(inversive.changed, 1e-12);
     EXPECT_GE(inversive.weights.minCoeff(), 1.0 - 1e-12);
-    const CirclePacking acute =
-        circle_packing(sample.domain.triangles, sample.lengths, sample.vertex_count, Packing::acute);
+    const CirclePacking acute = sample.packing(Packing::acute);
     EXPECT_GE(acute.weights.minCoeff(), 0.0);
     EXPECT_LE(acute.weights.maxCoeff(), 1.0);
     EXPECT_GT(acute.changed, 0.01);
@@ -100,8 +99,7 @@ TEST(RicciFlow, the_hessian_is_the_derivative_of_the_curvature_and_positive_semi
 {
     const FlowSample sample(300, Lift::enneper);
     for (const Packing kind : packings) {
-        const CirclePacking packing =
-            circle_packing(sample.domain.triangles, sample.lengths, sample.vertex_count, kind);
+        const CirclePacking packing = sample.packing(kind);
         RicciEnergy energy(sample.domain.triangles, packing, sample.boundary);
         const VectorXd u = disturbed(packing.log_radii, 0.1), direction = disturbed(VectorXd::Zero(u.size()), 1.0);
         energy.gradient(u);
@@ -120,8 +118,7 @@ TEST(RicciFlow, curvature_sums_to_two_pi_chi_for_all_radii)
 {
     const FlowSample sample(500, Lift::sphere);
     for (const Packing kind : packings) {
-        const CirclePacking packing =
-            circle_packing(sample.domain.triangles, sample.lengths, sample.vertex_count, kind);
+        const CirclePacking packing = sample.packing(kind);
         RicciEnergy energy(sample.domain.triangles, packing, sample.boundary);
         for (const double spread : {0.0, 0.5, 5.0})
             EXPECT_NEAR(energy.gradient(disturbed(packing.log_radii, spread)).sum(), -6.0 * pi, 1e-9);

@@ -19,15 +19,14 @@ using namespace koebe::test;
 namespace {
 
 /// The exact domain, lifted; its vertices swell by a smooth field.
-struct SolverSample {
-    CircleDomain domain = make_circle_domain(five_circles(), 4000);
-    Vertices still = lift(domain.points, Lift::sphere);
+struct SolverSample : LiftedDomain {
+    SolverSample() : LiftedDomain(4000, Lift::sphere) {}
 
     Vertices moved(double amount) const
     {
-        Vertices result = still;
+        Vertices result = vertices;
         for (Eigen::Index v = 0; v < result.rows(); ++v)
-            for (int c = 0; c < 3; ++c) result(v, c) += amount * std::sin(3.0 * still(v, (c + 1) % 3) + c);
+            for (int c = 0; c < 3; ++c) result(v, c) += amount * std::sin(3.0 * vertices(v, (c + 1) % 3) + c);
         return result;
     }
 };
@@ -56,16 +55,16 @@ double difference(const UniformizeResult& a, const UniformizeResult& b)
 TEST(SurfaceSolver, first_map_is_that_of_uniformize_to_the_bit)
 {
     const SolverSample sample;
-    SurfaceSolver surface(sample.still, sample.domain.triangles);
-    const UniformizeResult fresh = uniformize(sample.still, sample.domain.triangles);
-    EXPECT_TRUE(surface.uniformize(sample.still).uv == fresh.uv);
+    SurfaceSolver surface(sample.vertices, sample.domain.triangles);
+    const UniformizeResult fresh = uniformize(sample.vertices, sample.domain.triangles);
+    EXPECT_TRUE(surface.uniformize(sample.vertices).uv == fresh.uv);
 }
 
 TEST(SurfaceSolver, moved_map_is_that_of_uniformize_up_to_an_automorphism)
 {
     const SolverSample sample;
-    SurfaceSolver surface(sample.still, sample.domain.triangles);
-    const Index outer = surface.uniformize(sample.still).loops[0].vertices[0];
+    SurfaceSolver surface(sample.vertices, sample.domain.triangles);
+    const Index outer = surface.uniformize(sample.vertices).loops[0].vertices[0];
     for (const double amount : {0.001, 0.02, 0.2, 0.02, 0.0}) {
         const Vertices there = sample.moved(amount);
         const UniformizeResult again = surface.uniformize(there);
@@ -81,18 +80,18 @@ TEST(SurfaceSolver, moved_map_is_that_of_uniformize_up_to_an_automorphism)
 TEST(SurfaceSolver, a_small_step_takes_one_sweep)
 {
     const SolverSample sample;
-    SurfaceSolver surface(sample.still, sample.domain.triangles);
-    EXPECT_GT(surface.uniformize(sample.still).sweeps, 1);
+    SurfaceSolver surface(sample.vertices, sample.domain.triangles);
+    EXPECT_GT(surface.uniformize(sample.vertices).sweeps, 1);
     EXPECT_EQ(surface.uniformize(sample.moved(2e-5)).sweeps, 1);
 }
 
 TEST(SurfaceSolver, a_motion_takes_one_sweep_a_frame_and_is_as_near_as_by_many)
 {
     const SolverSample sample;
-    SurfaceSolver surface(sample.still, sample.domain.triangles);
+    SurfaceSolver surface(sample.vertices, sample.domain.triangles);
     UniformizeOptions exact;
     exact.tolerance = 1e-12;
-    SurfaceSolver by_many(sample.still, sample.domain.triangles, exact);
+    SurfaceSolver by_many(sample.vertices, sample.domain.triangles, exact);
     std::vector<int> sweeps;
     for (int frame = 0; frame < 8; ++frame) {
         const Vertices there = sample.moved(0.04 * std::sin(0.3 * frame));
@@ -111,7 +110,7 @@ TEST(SurfaceSolver, a_motion_gives_the_same_bits_again_and_on_any_number_of_thre
     const auto maps = [&](int threads) {
         UniformizeOptions options;
         options.threads = threads;
-        SurfaceSolver surface(sample.still, sample.domain.triangles, options);
+        SurfaceSolver surface(sample.vertices, sample.domain.triangles, options);
         std::vector<PlanarPoints> uvs;
         for (int frame = 0; frame < 6; ++frame)
             uvs.push_back(surface.uniformize(sample.moved(0.04 * std::sin(0.3 * frame))).uv);
@@ -144,10 +143,10 @@ TEST(SurfaceSolver, other_triangles_and_the_same_ones_again)
 TEST(SurfaceSolver, maps_are_laid_over_the_first)
 {
     const SolverSample sample;
-    SurfaceSolver surface(sample.still, sample.domain.triangles);
-    const UniformizeResult first = surface.uniformize(sample.still);
+    SurfaceSolver surface(sample.vertices, sample.domain.triangles);
+    const UniformizeResult first = surface.uniformize(sample.vertices);
     // A turn and a scale change no shape.
-    Vertices turned = 7.0 * sample.still;
+    Vertices turned = 7.0 * sample.vertices;
     turned.col(0) = -turned.col(0).eval();
     turned.col(1) = -turned.col(1).eval();
     EXPECT_LT((surface.uniformize(turned).uv - first.uv).rowwise().norm().maxCoeff(), 1e-6);
@@ -197,32 +196,32 @@ TEST(SurfaceSolver, the_first_outer_loop_stays)
 TEST(SurfaceSolver, errors_leave_it_usable)
 {
     const SolverSample sample;
-    SurfaceSolver surface(sample.still, sample.domain.triangles);
-    const UniformizeResult first = surface.uniformize(sample.still);
-    EXPECT_THROW(surface.uniformize(sample.still.topRows(10)), InputError);
-    Vertices torn = sample.still;
+    SurfaceSolver surface(sample.vertices, sample.domain.triangles);
+    const UniformizeResult first = surface.uniformize(sample.vertices);
+    EXPECT_THROW(surface.uniformize(sample.vertices.topRows(10)), InputError);
+    Vertices torn = sample.vertices;
     torn(3, 1) = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(surface.uniformize(torn), InputError);
-    EXPECT_THROW(surface.uniformize(Vertices::Zero(sample.still.rows(), 3)), InputError);
+    EXPECT_THROW(surface.uniformize(Vertices::Zero(sample.vertices.rows(), 3)), InputError);
     CancelToken token;
     token.cancel();
     ExecutionContext cancelled({}, token);
     EXPECT_THROW(surface.uniformize(sample.moved(0.01), cancelled), Cancelled);
-    EXPECT_LT((surface.uniformize(sample.still).uv - first.uv).rowwise().norm().maxCoeff(), 1e-6);
+    EXPECT_LT((surface.uniformize(sample.vertices).uv - first.uv).rowwise().norm().maxCoeff(), 1e-6);
 
     UniformizeOptions mesh_engine;
     mesh_engine.engine = Engine::mesh;
-    EXPECT_THROW(SurfaceSolver(sample.still, sample.domain.triangles, mesh_engine), InputError);
+    EXPECT_THROW(SurfaceSolver(sample.vertices, sample.domain.triangles, mesh_engine), InputError);
 }
 
 TEST(SurfaceSolver, surfaces_that_flatten_or_fold_keep_the_promises)
 {
     const SolverSample sample;
-    SurfaceSolver surface(sample.still, sample.domain.triangles);
-    surface.uniformize(sample.still);
+    SurfaceSolver surface(sample.vertices, sample.domain.triangles);
+    surface.uniformize(sample.vertices);
     std::srand(5);
     for (const double noise : {0.01, 0.1, 1.0}) {  // from wrinkles to a heap of triangles
-        const Vertices there = sample.still + noise * Vertices::Random(sample.still.rows(), 3);
+        const Vertices there = sample.vertices + noise * Vertices::Random(sample.vertices.rows(), 3);
         const UniformizeResult result = surface.uniformize(there);
         EXPECT_TRUE(result.uv.allFinite());
         EXPECT_LE(result.uv.rowwise().norm().maxCoeff(), 1.0 + 1e-9);
@@ -235,7 +234,7 @@ TEST(SurfaceSolver, surfaces_that_flatten_or_fold_keep_the_promises)
 TEST(IntrinsicMetric, the_same_flips_on_other_positions_give_the_same_triangles)
 {
     const SolverSample sample;
-    const Surface topology = analyze_surface(sample.domain.triangles, static_cast<Index>(sample.still.rows()));
+    const Surface topology = analyze_surface(sample.domain.triangles, static_cast<Index>(sample.vertices.rows()));
     const Vertices there = sample.moved(0.3);
     const IntrinsicMetric first = intrinsic_metric(there, topology);
     const auto same = metric_with_flips_of(first, there, topology);

@@ -45,12 +45,17 @@ def new_program(path, text):
     return path
 
 
+def cells(rows, columns):
+    """Quadrilaterals of a grid of vertices that are numbered along one row after the other."""
+    corner = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    return np.stack([corner, corner + 1, corner + columns + 2, corner + columns + 1], axis=1)
+
+
 def perforated(n=24, holes=((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))):
     """A wavy square of n x n cells with round holes: vertices and quadrilaterals, no vertex unused."""
     t = np.linspace(0.0, 1.0, n + 1)
     points = np.stack([a.ravel() for a in np.meshgrid(t, t)], axis=1)
-    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    quads = np.stack([corner, corner + 1, corner + n + 2, corner + n + 1], axis=1)
+    quads = cells(n, n)
     center = points[quads].mean(axis=1)
     for *middle, radius in holes:
         inside = np.linalg.norm(center - middle, axis=1) < radius

@@ -6,18 +6,15 @@ import re
 import koebe
 import numpy as np
 import pytest
+from cli_support import cells, obj_text, triangles_of
 from cli_support import koebe as command
-from cli_support import obj_text, triangles_of
 
 
 def sheet(length=3.0, n=6, bend=0.0):
     """A sheet of this length, a unit wide, rolled without stretching if it is bent."""
     x, y = np.meshgrid(np.linspace(0.0, length, n * 3 + 1), np.linspace(0.0, 1.0, n + 1), indexing="ij")
     at = np.stack([np.sin(bend * x) / bend if bend else x, y, np.cos(bend * x) / bend if bend else 0 * x], axis=-1)
-    i, j = np.meshgrid(np.arange(n * 3), np.arange(n), indexing="ij")
-    corner = i * (n + 1) + j
-    quads = np.stack([corner, corner + n + 1, corner + n + 2, corner + 1], axis=-1).reshape(-1, 4)
-    return at.reshape(-1, 3), triangles_of(quads)
+    return at.reshape(-1, 3), triangles_of(cells(3 * n, n)[:, [0, 3, 2, 1]])
 
 
 def densities(vertices, triangles, uv, pixels):

@@ -5,7 +5,7 @@ import csv
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, cells, obj_text, perforated, triangles_of
 from cli_support import koebe as command
 
 
@@ -29,8 +29,7 @@ def round_domain(n, holes, turn):
     t = np.linspace(-1.2, 1.2, n + 1)
     rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
     points = np.stack([a.ravel() for a in np.meshgrid(t, t)], axis=1) @ rotation
-    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    quads = cut_round(points, np.stack([corner, corner + 1, corner + n + 2, corner + n + 1], axis=1), 0.0, 1.0, True)
+    quads = cut_round(points, cells(n, n), 0.0, 1.0, True)
     for *middle, radius in holes:
         quads = cut_round(points, quads, middle, radius, False)
     used, quads = np.unique(quads, return_inverse=True)

@@ -95,7 +95,7 @@ def test_vertices_triangles_and_uvs_are_of_one_kind(kind):
     assert result.corner_uv.shape == (result.face_count, 3, 2)
     if result.uv.ndim == 2:
         assert np.allclose(result.corner_uv, koebe.disk_to_uv(result.uv)[result.triangles])
-    for loop in getattr(result, "loops", []):
+    for loop in result.loops:
         assert isinstance(loop, koebe.Loop) and loop.dtype == np.int32 and loop.ndim == 1
         assert np.array_equal(loop["vertices"], loop) and not isinstance(loop[:2], koebe.Loop)
         again = pickle.loads(pickle.dumps(loop))

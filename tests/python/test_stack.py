@@ -5,17 +5,15 @@ import json
 import koebe
 import numpy as np
 import pytest
+from cli_support import cells, obj_text, triangles_of
 from cli_support import koebe as command
-from cli_support import obj_text, triangles_of
 
 
 def sheet(n=8, bend=0.9):
     """A bent sheet that is not its own mirror image: vertices and quadrilaterals."""
     x, y = np.meshgrid(np.linspace(0.0, 1.6, 2 * n + 1), np.linspace(0.0, 1.0, n + 1), indexing="ij")
     vertices = np.stack([x + 0.2 * y, y, 0.2 * bend * np.sin(2 * x + y) + 0.1 * x * y], axis=-1).reshape(-1, 3)
-    i, j = np.meshgrid(np.arange(2 * n), np.arange(n), indexing="ij")
-    corner = i * (n + 1) + j
-    return vertices, np.stack([corner, corner + n + 1, corner + n + 2, corner + 1], axis=-1).reshape(-1, 4)
+    return vertices, cells(2 * n, n)[:, [0, 3, 2, 1]]
 
 
 def turned(points, seed=1):

@@ -7,9 +7,14 @@ effect is a larger third hole.
 """
 
 import sys
+from pathlib import Path
 
 import koebe
 import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "python"))
+
+from cli_support import perforated, triangles_of  # noqa: E402
 
 HOLES = ((0.30, 0.30, 0.11), (0.70, 0.34, 0.13), (0.48, 0.72, 0.12))
 PER_GROUP = 10
@@ -18,21 +23,8 @@ EFFECTS = (0.0, 0.025, 0.05, 0.1, 0.2, 0.4)
 
 def plate(cells):
     """Vertices (V, 2) and triangles of the unit square without the holes; the rims are round."""
-    t = np.linspace(0.0, 1.0, cells + 1)
-    points = np.stack([a.ravel() for a in np.meshgrid(t, t)], axis=1)
-    corner = (np.arange(cells)[:, None] * (cells + 1) + np.arange(cells)).ravel()
-    quads = np.stack([corner, corner + 1, corner + cells + 2, corner + cells + 1], axis=1)
-    for *middle, radius in HOLES:
-        quads = quads[np.linalg.norm(points[quads].mean(axis=1) - middle, axis=1) >= radius]
-    used, quads = np.unique(quads, return_inverse=True)
-    quads, points = quads.reshape(-1, 4), points[used]
-    triangles = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-    for loop in koebe.boundary_loops(triangles):
-        for *middle, radius in HOLES:
-            away = points[loop] - middle
-            if np.linalg.norm(away, axis=1).max() < 2.0 * radius:
-                points[loop] = middle + radius * away / np.linalg.norm(away, axis=1)[:, None]
-    return points, triangles
+    vertices, quads = perforated(cells, HOLES)
+    return vertices[:, :2], triangles_of(quads)
 
 
 def bent(points, random, spread=0.02, effect=0.0):

@@ -30,13 +30,18 @@ def halved(corners, odd):
     return np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
 
 
+def cells_without(holes, wide, high, finer):
+    """Places (i, j) of the cells of a grid outside of rectangular holes."""
+    cells = np.ones((wide * finer, high * finer), bool)
+    for a, b, c, d in holes:
+        cells[a * finer : b * finer, c * finer : d * finer] = False
+    return np.nonzero(cells)
+
+
 def cylinder(holes, finer=1, stretch=1.0):
     """Vertices and triangles. The first vertices are those of the lower rim."""
     around, along = AROUND * finer, ALONG * finer
-    cells = np.ones((around, along), bool)
-    for a, b, c, d in HOLES[holes]:
-        cells[a * finer : b * finer, c * finer : d * finer] = False
-    i, j = np.nonzero(cells)
+    i, j = cells_without(HOLES[holes], AROUND, ALONG, finer)
     number = (np.arange(around + 1) % around)[None] + around * np.arange(along + 1)[:, None]
     corners = [number[j, i], number[j, i + 1], number[j + 1, i + 1], number[j + 1, i]]
     faces = halved(corners, (i + j) % 2 == 1)

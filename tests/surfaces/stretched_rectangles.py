@@ -13,7 +13,7 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parents[2] / "build" / "python"))
 
 import koebe  # noqa: E402
-from stretched_cylinders import halved  # noqa: E402
+from stretched_cylinders import cells_without, halved  # noqa: E402
 
 WIDE, HIGH = 18, 12  # cells
 HOLES = {0: [], 1: [(3, 7, 3, 7)], 3: [(3, 7, 3, 7), (10, 14, 5, 9), (4, 9, 9, 11)]}  # cells from, to, up from, to
@@ -22,10 +22,7 @@ HOLES = {0: [], 1: [(3, 7, 3, 7)], 3: [(3, 7, 3, 7), (10, 14, 5, 9), (4, 9, 9, 1
 def rectangle(holes, finer=1, stretch=1.0):
     """Vertices, triangles and the corners."""
     wide, high = WIDE * finer, HIGH * finer
-    cells = np.ones((wide, high), bool)
-    for a, b, c, d in HOLES[holes]:
-        cells[a * finer : b * finer, c * finer : d * finer] = False
-    i, j = np.nonzero(cells)
+    i, j = cells_without(HOLES[holes], WIDE, HIGH, finer)
     number = np.arange((wide + 1) * (high + 1)).reshape(wide + 1, high + 1)
     corners = [number[i, j], number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]]
     faces = halved(corners, (i + j) % 2 == 1)

@@ -6,6 +6,7 @@
 #include "batch/path_text.h"
 #include "batch/process_outcome.h"
 #include "batch/summary.h"
+#include "core/counted.h"
 #include "exit_code.h"
 #include "io/file_error.h"
 
@@ -13,7 +14,6 @@
 
 #include <array>
 #include <csignal>
-#include <cstdio>
 #include <deque>
 #include <list>
 #include <optional>
@@ -39,13 +39,6 @@ bool is_ignored(int signal)
     const auto before = std::signal(signal, SIG_IGN);
     if (before != SIG_ERR) std::signal(signal, before);
     return before == SIG_IGN;
-}
-
-std::string tenths(double seconds)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.1f s", seconds);
-    return text.data();
 }
 
 class Run {
@@ -314,7 +307,7 @@ private:
         if (error.is_object())
             line << ", " << error_name(error) << ": " << error.value("reason", "");
         else if (const Json seconds = summary_row(report)["seconds"]; seconds.is_number())
-            line << ", " << tenths(seconds.get<double>());
+            line << ", " << formatted("%.1f s", seconds.get<double>());
         options_.tell(line.str());
     }
 

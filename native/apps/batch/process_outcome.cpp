@@ -1,12 +1,11 @@
 #include "batch/process_outcome.h"
 
 #include "batch/file_report.h"
+#include "core/counted.h"
 #include "exit_code.h"
 
 #include <algorithm>
-#include <array>
 #include <csignal>
-#include <cstdio>
 #include <fstream>
 #include <string>
 
@@ -32,9 +31,9 @@ std::string end_of_text(const fs::path& path)
 Json end_error(const ProcessEnd& end, const fs::path& log, double time_limit)
 {
     if (end.timed_out) {
-        std::array<char, 64> reason{};
-        std::snprintf(reason.data(), reason.size(), "it was not done after %g seconds", time_limit);
-        return {{"name", "TimeLimit"}, {"reason", reason.data()}, {"seconds", time_limit}};
+        return {{"name", "TimeLimit"},
+                {"reason", formatted("it was not done after %g seconds", time_limit)},
+                {"seconds", time_limit}};
     }
     const auto by = [&](const char* name, const std::string& reason) {
         return Json{{"name", name}, {"reason", reason}};

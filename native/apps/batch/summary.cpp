@@ -58,16 +58,6 @@ std::map<fs::path, fs::file_time_type> reports_in(const fs::path& folder)
     return found;
 }
 
-std::string csv_field(const Json& value)
-{
-    if (value.is_null()) return {};
-    std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-    return quoted + "\"";
-}
-
 /// The rows in RFC 4180, with the names of the columns first.
 std::string csv_text(const Json& rows)
 {
@@ -82,13 +72,24 @@ std::string csv_text(const Json& rows)
     std::string text = line(fields);
     for (const Json& row : rows) {
         fields.clear();
-        for (const auto& [name, value] : row.items()) fields.push_back(csv_field(value));
+        for (const auto& [name, value] : row.items())
+            fields.push_back(value.is_null()     ? ""
+                             : value.is_string() ? csv_field(value.get<std::string>())
+                                                 : csv_field(value.dump()));
         text += line(fields);
     }
     return text;
 }
 
 }  // namespace
+
+std::string csv_field(const std::string& text)
+{
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+    return quoted + "\"";
+}
 
 Json summary_row(const Json& report)
 {

@@ -14,6 +14,9 @@ inline constexpr const char* summary_csv = "summary.csv";
 /// Beside the results: holds claims and unfinished files.
 inline constexpr const char* work_folder = ".koebe-batch";
 
+/// A text as a field of CSV [RFC 4180].
+std::string csv_field(const std::string& text);
+
 /// The row of a file's report: name, exit_code, error, error_text, seconds, faces, flipped, below_resolution,
 /// lost_area, angle_error_deg (the mean), warnings (their number), output, input_sha256, options, version. Unknown
 /// values are null. A .blend has the sums over its islands, the mean of the angle error by faces, and the largest

@@ -2,7 +2,6 @@
 
 #include "canonical/corner_map.h"
 #include "core/counted.h"
-#include "core/enum_words.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"
 #include "foldover/convex_polygons.h"
@@ -15,7 +14,6 @@
 #include "schottky/laid_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -203,11 +201,6 @@ void name_schottky(const CanonicalMesh& mesh, SchottkyResult& result)
 }
 
 }  // namespace
-
-const char* to_string(SchottkyNormalization normalization) noexcept
-{
-    return word_of(normalization, std::array{"area", "circles"});
-}
 
 SchottkyResult schottky_map(const Vertices& vertices, const Triangles& triangles, const SchottkyOptions& options,
                             ExecutionContext& context)

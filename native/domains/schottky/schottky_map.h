@@ -20,9 +20,6 @@ enum class SchottkyNormalization {
     circles,  ///< the nearest one where equally large circles of each handle are apart, if any
 };
 
-/// The enumerator's name, as in the JSON report.
-KOEBE_API const char* to_string(SchottkyNormalization normalization) noexcept;
-
 /// The tolerance is on the relative change, in a sweep, of the matrices of the disks that fill the loops.
 struct SchottkyOptions : CutDomainOptions {
     SchottkyNormalization normalization = SchottkyNormalization::area;

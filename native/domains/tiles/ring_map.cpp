@@ -14,9 +14,7 @@
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
 
-#include "core/enum_words.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -293,11 +291,6 @@ TileResult ring_map_here(const Vertices& vertices, const Triangles& triangles, c
 }
 
 }  // namespace
-
-const char* to_string(RingHoles holes) noexcept
-{
-    return word_of(holes, std::array{"circles", "concentric", "radial"});
-}
 
 TileResult ring_map(const Vertices& vertices, const Triangles& triangles, const TileOptions& options,
                     ExecutionContext& context)

@@ -20,9 +20,6 @@ enum class RingHoles {
     radial,      ///< slits along radii; unrolled, along v
 };
 
-/// The enumerator's name, as in the JSON report.
-KOEBE_API const char* to_string(RingHoles holes) noexcept;
-
 /// On a torus the change of the circles is measured with its shortest period scaled to 1. EvennessOptions::loops is of
 /// the holes.
 struct TileOptions : CutDomainOptions, EvennessOptions {

@@ -81,6 +81,16 @@ void put_attribute(std::string& text, const char* name, Number number)
     text.append(" ").append(name).append("=\"").append(digits.data(), end).append("\"");
 }
 
+template <typename Rows>
+void put_elements(std::string& text, const char* element, const std::array<const char*, 3>& names, const Rows& rows)
+{
+    for (const auto& row : rows.rowwise()) {
+        text += element;
+        for (int k = 0; k < 3; ++k) put_attribute(text, names[k], row[k]);
+        text += "/>\n";
+    }
+}
+
 std::string model_of(const Vertices& vertices, const Triangles& triangles, bool closed)
 {
     std::string text =
@@ -88,21 +98,9 @@ std::string model_of(const Vertices& vertices, const Triangles& triangles, bool 
 <model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1" type=")";
     text += closed ? "model" : "surface";
     text += "\"><mesh><vertices>\n";
-    for (const auto& vertex : vertices.rowwise()) {
-        text += "<vertex";
-        put_attribute(text, "x", vertex[0]);
-        put_attribute(text, "y", vertex[1]);
-        put_attribute(text, "z", vertex[2]);
-        text += "/>\n";
-    }
+    put_elements(text, "<vertex", {"x", "y", "z"}, vertices);
     text += "</vertices><triangles>\n";
-    for (const auto& face : triangles.rowwise()) {
-        text += "<triangle";
-        put_attribute(text, "v1", face[0]);
-        put_attribute(text, "v2", face[1]);
-        put_attribute(text, "v3", face[2]);
-        text += "/>\n";
-    }
+    put_elements(text, "<triangle", {"v1", "v2", "v3"}, triangles);
     return text + "</triangles></mesh></object></resources><build><item objectid=\"1\"/></build></model>\n";
 }
 

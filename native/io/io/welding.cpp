@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -137,10 +136,8 @@ std::size_t component_count(DisjointSets& sets, const Triangles& triangles)
 /// A number with two digits that is not below this one.
 std::string shown_distance(double number)
 {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1e", number);
-    if (std::strtod(text, nullptr) < number) std::snprintf(text, sizeof text, "%.1e", 1.05 * number);
-    return text;
+    const std::string text = formatted("%.1e", number);
+    return std::strtod(text.c_str(), nullptr) < number ? formatted("%.1e", 1.05 * number) : text;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "bending/bend_between.h"
 #include "circles/same_circles.h"
 #include "core/complex_places.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "core/tolerances.h"
 #include "quality/distortion.h"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -163,12 +163,10 @@ LandmarkMap bent_to_landmarks(const MappedSurface& source, const MappedSurface& 
 /// The warning that lists the holes of the source that the holes of the target do not reach.
 Warning not_fitted(const DomainAlignment& alignment, const std::vector<Circle>& circles)
 {
-    char miss[32];
-    std::snprintf(miss, sizeof miss, "%.2g", alignment.largest);
     Warning warning{WarningKind::not_fitted,
-                    std::string("the holes could not be bent onto each other without turning faces over: they miss "
-                                "each other by up to ") +
-                        miss + " in the unit disk"};
+                    formatted("the holes could not be bent onto each other without turning faces over: they miss each "
+                              "other by up to %.2g in the unit disk",
+                              alignment.largest)};
     for (std::size_t k = 1; k < circles.size(); ++k)
         if (alignment.misses[k] > circle_tolerance) warning.elements.push_back(static_cast<Index>(k));
     return warning;

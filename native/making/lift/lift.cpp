@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <numeric>
 #include <utility>
@@ -122,13 +121,6 @@ std::vector<DrawnOutline> built_in_outlines(const FlatDomain& domain, const std:
     return std::move(pattern.outlines);
 }
 
-std::string short_number(double number)
-{
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.4g", number);
-    return text.data();
-}
-
 void warn_of_thin_bridges(const FlatDomain& domain, const Overlay& overlay, const std::vector<char>& keep, double width,
                           LiftResult& result, const ExecutionContext& context)
 {
@@ -138,7 +130,7 @@ void warn_of_thin_bridges(const FlatDomain& domain, const Overlay& overlay, cons
     if (thin.count > 0)
         result.warnings.push_back({WarningKind::thin_bridges,
                                    counted(static_cast<std::size_t>(thin.count), "bridge") +
-                                       " thinner than asked for: the thinnest is " + short_number(*thin.thinnest),
+                                       " thinner than asked for: the thinnest is " + formatted("%.4g", *thin.thinnest),
                                    std::move(thin.faces), "Ask for a wider bridge, or make the map more even (even)"});
 }
 
@@ -349,8 +341,6 @@ const char* to_string(LiftShape shape) noexcept
 {
     return word_of(shape, std::array{"disk", "ring", "torus", "sphere", "parts"});
 }
-
-const char* to_string(LiftRim rim) noexcept { return word_of(rim, std::array{"leave", "clip", "whole"}); }
 
 LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,
                 const LiftOptions& options, ExecutionContext& context)

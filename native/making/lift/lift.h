@@ -25,8 +25,6 @@ enum class LiftRim {
     whole   ///< they are made smaller about their middle, until they fit with a bridge
 };
 
-KOEBE_API const char* to_string(LiftRim rim) noexcept;
-
 /// Lengths are in the unit of the vertices.
 struct LiftOptions {
     LiftShape shape = LiftShape::disk;

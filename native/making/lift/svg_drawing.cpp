@@ -236,31 +236,9 @@ struct SvgElementFactories {
 
 /// Passes over what has no outlines; a damaged attribute of a shape is an error.
 struct SvgErrors : svgpp::policy::error::raise_exception<SvgElement> {
-    template <class... Any>
-    static bool unknown_element(const SvgElement&, Any&&...)
-    {
-        return true;
-    }
-    template <class... Any>
-    static bool unknown_attribute(const SvgElement&, Any&&...)
-    {
-        return true;
-    }
-    template <class... Any>
-    static bool unexpected_attribute(const SvgElement&, Any&&...)
-    {
-        return true;
-    }
-    template <class... Any>
-    static bool unexpected_element(const SvgElement&, Any&&...)
-    {
-        return true;
-    }
-    template <class... Any>
-    static bool required_attribute_not_found(const SvgElement&, Any&&...)
-    {
-        return true;
-    }
+    static constexpr auto unknown_element = [](const SvgElement&, auto&&...) { return true; };
+    static constexpr auto unknown_attribute = unknown_element, unexpected_attribute = unknown_element,
+                          unexpected_element = unknown_element, required_attribute_not_found = unknown_element;
 };
 
 namespace element = svgpp::tag::element;

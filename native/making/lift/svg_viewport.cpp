@@ -1,10 +1,11 @@
 #include "lift/svg_viewport.h"
 
+#include "core/counted.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -40,12 +41,7 @@ std::optional<ViewBox> view_box_of(const SvgNode& node)
     return ViewBox{numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-std::string number_text(double number)
-{
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.17g", number);
-    return text.data();
-}
+std::string number_text(double number) { return formatted("%.17g", number); }
 
 std::string viewport_transform(const ViewBox& box, std::string_view ratio, const ViewBox& port)
 {

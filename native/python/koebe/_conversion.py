@@ -5,7 +5,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from .io.formats import GIFTI, MESHIO, NATIVE, PYVISTA, is_foreign_surface, is_f
 from .io.meshes import SPHERE
 from .io.vertex_fields import read_region
 from .maps.input import surface_of
-from .maps.result import MapReport, Source
+from .maps.result import Loop, MapReport, Source
 
 _WRITE_NO_MESH = ("module", "compare", "batch", "sequence", "flatten")
 _MAKE_CUTS = ("parts", "ring", "torus", "schottky")
@@ -72,7 +72,7 @@ class _Map(MapReport):
     _source: Source
     uv: np.ndarray
     is_surface: bool
-    loops: Sequence[Any] = ()
+    loops: list[Loop] = field(default_factory=list)
 
     def to_mesh(self) -> Any:
         if not len(self.uv):

@@ -11,10 +11,8 @@ import numpy as np
 from .errors import InputError
 from .labs.fit import FitResult
 from .labs.sphere_transfer import loaded_correspondence
-from .maps.cut_result import CutResult
 from .maps.domain_map import DomainMap
-from .maps.parts import PartsResult
-from .maps.result import Source, UniformizeResult
+from .maps.result import MapReport, Source, UniformizeResult
 
 
 def load(path: str | os.PathLike[str]) -> Any:
@@ -37,18 +35,9 @@ def load(path: str | os.PathLike[str]) -> Any:
             report = json.loads(str(file["report"]))
             more = {name: file.get(name) for name in ("kept", "first", "filed")}
             source = Source(file["vertices"], file["triangles"], **more)
-            uv, flipped = file["uv"], file["flipped_faces"]
             before = "CutResult" if report.get("cut") is True else "UniformizeResult"  # 0.1 wrote no kind
             kind = str(file["kind"]) if "kind" in file else before
-            if kind == "UniformizeResult":
-                return UniformizeResult(report, uv, flipped, list(file["step_maps"]), source, file.get("conformal_uv"))
-            if kind == "FitResult":
-                return FitResult(report, uv, flipped, file["mu"], source, file.get("conformal_uv"))
-            if kind == "CutResult":
-                return CutResult(report, uv, flipped, source)
-            if kind == "PartsResult":
-                return PartsResult(report, uv, file["part"], flipped, source)
-            domain_maps = {of.__name__: of for of in DomainMap.__subclasses__()}
-            return domain_maps[kind](report, SimpleNamespace(**file), source)
+            kinds: list[type[MapReport]] = [UniformizeResult, FitResult, *DomainMap.__subclasses__()]
+            return {of.__name__: of for of in kinds}[kind](report, SimpleNamespace(**file), source)
     except (KeyError, ValueError, TypeError, IndexError, AttributeError, EOFError, zipfile.BadZipFile) as error:
         raise InputError(f"{os.fspath(path)} is no result of koebe: {error}") from None

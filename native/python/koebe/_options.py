@@ -3,7 +3,7 @@
 import functools
 import inspect
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from numbers import Integral, Real
 from typing import Any, TypeVar
 
@@ -17,6 +17,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 Native = TypeVar("Native")
 
 _MOST = 2**31 - 1  # of a 32-bit integer
+_OUTER = ("auto", "longest")  # choices of the outer loop; the next one is a vertex
 
 
 def takes(of: str, /, **others: Any) -> Callable[[Function], Function]:
@@ -111,14 +112,14 @@ def _set(native: Any, row: Row, value: Any) -> None:
     if row.kind == "loop":
         native.outer, native.outer_vertex = outer_loop(value)
     elif row.kind == "choice":
-        setattr(holder, row.name, type(getattr(holder, row.name)).__members__[value])
+        setattr(holder, row.name, number_of(value, row.name, row.words))
     elif holder is not None:
         setattr(holder, row.name, -1 if row.kind == "vertex" and value is None else value)
 
 
-def choice(value: Any, option: str, enumeration: Any) -> Any:
-    """The member of a native enumeration with this name."""
-    return choice_of(value, option, enumeration.__members__)
+def number_of(value: Any, option: str, words: Iterable[str]) -> int:
+    """The place of a word among the words of a choice: the number of the library's enumerator."""
+    return choice_of(value, option, {word: number for number, word in enumerate(words)})
 
 
 def choice_of(value: Any, option: str, members: Mapping[str, Any]) -> Any:
@@ -174,16 +175,16 @@ def number(value: Any, row: Row) -> float:
     return found
 
 
-def outer_loop(value: Any) -> tuple["_koebe.OuterLoop", int]:
-    """The loop for the unit circle, and a vertex of it, or -1 without one."""
+def outer_loop(value: Any) -> tuple[int, int]:
+    """The number of the choice of the loop for the unit circle, and a vertex of it, or -1 without one."""
     if isinstance(value, str):
-        if value not in ("auto", "longest"):
+        if value not in _OUTER:
             raise OptionError(f"outer must be 'auto', 'longest' or a vertex of the loop, not {value!r}")
-        return (_koebe.OuterLoop.automatic if value == "auto" else _koebe.OuterLoop.longest), -1
+        return _OUTER.index(value), -1
     _require(value, "outer", Integral, "'auto', 'longest' or a vertex of the loop")
     if not 0 <= value <= _MOST:
         raise InputError(f"vertex {value} does not exist: outer must be a vertex of a boundary loop", [int(value)])
-    return _koebe.OuterLoop.vertex, int(value)
+    return len(_OUTER), int(value)
 
 
 def vertex(value: Any, option: str) -> int:

@@ -16,11 +16,15 @@ class SurfaceOptions(TypedDict, total=False):
     mask: Any
 
 
-class RunOptions(SurfaceOptions, total=False):
+class Watched(TypedDict, total=False):
     """Options of each call that takes a while."""
 
     progress: Progress | None
     cancel: "_koebe.CancelToken | None"
+
+
+class RunOptions(SurfaceOptions, Watched, total=False):
+    """Options of each such call with one surface."""
 
 
 class Run:

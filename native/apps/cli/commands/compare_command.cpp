@@ -11,6 +11,7 @@
 #include "cli/process/standard_streams.h"
 #include "exit_code.h"
 
+#include "core/counted.h"
 #include "core/errors.h"
 #include "execution/detachable_run.h"
 #include "fit/teichmueller.h"
@@ -126,10 +127,8 @@ int run_compare(const CompareRequest& request)
         }
     }
     if (!request.with_json || to_file) {
-        char line[64];
-        std::snprintf(line, sizeof line, "distance %.9g%s\n", distance,
-                      request.options.rims == RimKind::polygonal ? " (polygonal rims)" : "");
-        print(line, to_file ? "; the file is written" : "");
+        const char* const rims = request.options.rims == RimKind::polygonal ? " (polygonal rims)" : "";
+        print(formatted("distance %.9g", distance) + rims + "\n", to_file ? "; the file is written" : "");
     }
     return a.converged && b.converged ? done : not_converged;
 }

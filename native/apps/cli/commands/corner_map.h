@@ -8,7 +8,6 @@
 #include "cli/process/end_with_input.h"
 #include "io/corner_uvs.h"
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,16 +41,24 @@ private:
     const MeshFormat* format_;
 };
 
-/// Such a map whose result is a CornerMapReport.
-template <typename Result, typename Options>
-class CornerMapKind : public CornerKind<Result> {
-public:
-    using Map = Result (*)(const Vertices&, const Triangles&, const Options&, ExecutionContext&);
+/// The types of a map's result and options.
+template <auto map>
+struct MapTypes;
+template <typename R, typename O, R (*map)(const Vertices&, const Triangles&, const O&, ExecutionContext&)>
+struct MapTypes<map> {
+    using Result = R;
+    using Options = O;
+};
 
-    CornerMapKind(const CornerMapRequest<Options>& request, Map map)
-        : CornerKind<Result>(request.format), request_(request), map_(map)
-    {
-    }
+/// Such a map whose result is a CornerMapReport.
+template <auto map>
+class CornerMapKind : public CornerKind<typename MapTypes<map>::Result> {
+public:
+    using Result = typename MapTypes<map>::Result;
+    using Options = typename MapTypes<map>::Options;
+    using Request = CornerMapRequest<Options>;
+
+    explicit CornerMapKind(const Request& request) : CornerKind<Result>(request.format), request_(request) {}
 
     Result compute(const MeshInput& input, ExecutionContext& context) const override
     {
@@ -63,28 +70,25 @@ public:
         if constexpr (requires { options.locked; }) options.locked = of_triangles(input, options.locked);
         name_mapped_vertices(input, options);
         Result result = with_filed_faces(
-            input, [&] { return map_(input.polygons.vertices, input.triangulation.triangles, options, context); });
+            input, [&] { return map(input.polygons.vertices, input.triangulation.triangles, options, context); });
         result.turned = filed_faces(input.triangulation, result.turned);
         add_input_warnings(input, result.warnings);
         return result;
     }
 
 protected:
-    const CornerMapRequest<Options>& request_;
-
-private:
-    Map map_;
+    const Request& request_;
 };
 
 /// Such a map in pieces.
-template <typename Result, typename Options, auto pieces>
-class PieceMapKind : public CornerMapKind<Result, Options> {
+template <auto map, auto pieces>
+class PieceMapKind : public CornerMapKind<map> {
 public:
-    using CornerMapKind<Result, Options>::CornerMapKind;
+    using CornerMapKind<map>::CornerMapKind;
 
-    Result compute(const MeshInput& input, ExecutionContext& context) const override
+    typename MapTypes<map>::Result compute(const MeshInput& input, ExecutionContext& context) const override
     {
-        Result result = CornerMapKind<Result, Options>::compute(input, context);
+        auto result = CornerMapKind<map>::compute(input, context);
         for (auto& piece : result.*pieces) piece.faces = filed_faces(input.triangulation, piece.faces);
         return result;
     }
@@ -103,11 +107,10 @@ struct CornerMapHelp {
 };
 
 /// Adds the command of such a map.
-template <typename Options>
-Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
-                          const std::function<int(const CornerMapRequest<Options>&)>& run)
+template <typename Kind>
+Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help)
 {
-    auto request = std::make_shared<CornerMapRequest<Options>>();
+    auto request = std::make_shared<typename Kind::Request>();
     CLI::App* options = app.add_subcommand(help.name, help.does);
     if (help.output == nullptr) {
         add_mesh_arguments(*options, *request, help.surface, help.uvs);
@@ -132,14 +135,13 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
     options->callback([request, name = help.name, check = help.check] {
         check(*request);
         if (!request->sphere.empty()) required_format(request->sphere);
-        request->entries["options"] = option_report(name, request->chosen);
-        request->entries["options"].update(option_report(name, request->of_files));
+        report_options(*request, name, request->chosen);
         request->show.check(*request);
         request->importance.check(*request);
         request->locked.check(*request);
     });
     return {options,
-            [request, run] {
+            [request] {
                 if (request->ends_with_input) end_with_input();
                 if constexpr (requires { request->chosen.show; })
                     request->chosen.show = request->show.read("a weight to show");
@@ -147,7 +149,7 @@ Subcommand add_corner_map(CLI::App& app, const CornerMapHelp& help,
                     request->chosen.importance = request->importance.read("an importance");
                 if constexpr (requires { request->chosen.locked; })
                     request->chosen.locked = request->locked.read("a lock");
-                return run(*request);
+                return run_map_of(*request, Kind(*request));
             },
             &request->entries};
 }

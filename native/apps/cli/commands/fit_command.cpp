@@ -75,8 +75,7 @@ Subcommand add_fit(CLI::App& app)
     options->callback([request] {
         check_map_files(*request);
         require_different_files(map_files(*request), {request->input, request->wanted}, !request->quiet);
-        request->entries["options"] = option_report("shapes", request->options);
-        request->entries["options"].update(option_report("shapes", request->of_files));
+        report_options(*request, "shapes", request->options);
         request->entries["options"]["extremal"] = request->extremal;
     });
     return {options, [request] { return run_map_of(*request, FitKind(*request)); }};

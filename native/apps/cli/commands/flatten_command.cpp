@@ -48,9 +48,9 @@ void write_further_pages(const FlattenRequest& request, std::vector<AtomicFile>&
     }
 }
 
-class FlattenKind final : public PieceMapKind<FlattenResult, FlattenOptions, &FlattenResult::pieces> {
+class FlattenKind final : public PieceMapKind<flatten, &FlattenResult::pieces> {
 public:
-    explicit FlattenKind(const FlattenRequest& request) : PieceMapKind(request, flatten) {}
+    using PieceMapKind::PieceMapKind;
 
     std::vector<Warning> write_mesh(AtomicFile& file, const MeshInput&, const FlattenResult& result) const override
     {
@@ -71,21 +71,17 @@ public:
     }
 };
 
-int run_flatten(const FlattenRequest& request) { return run_map_of(request, FlattenKind(request)); }
-
 }  // namespace
 
 Subcommand add_flatten(CLI::App& app)
 {
-    return add_corner_map<FlattenOptions>(
-        app,
-        {.name = "flatten",
-         .does = "cut any surface into a flat pattern in real size",
-         .surface = "any mesh",
-         .picture = "",
-         .output = "SVG or DXF to write. SVG: a file for each page, OUT.svg, OUT-2.svg and so on",
-         .check = check_pattern_files},
-        run_flatten);
+    return add_corner_map<FlattenKind>(
+        app, {.name = "flatten",
+              .does = "cut any surface into a flat pattern in real size",
+              .surface = "any mesh",
+              .picture = "",
+              .output = "SVG or DXF to write. SVG: a file for each page, OUT.svg, OUT-2.svg and so on",
+              .check = check_pattern_files});
 }
 
 }  // namespace koebe::cli

@@ -111,8 +111,7 @@ Subcommand add_lift(CLI::App& app)
         std::vector<std::string> inputs{request->input};
         if (is_pattern_file(request->pattern)) inputs.push_back(request->pattern);
         require_different_files(map_files(*request), inputs, !request->quiet);
-        request->entries["options"] = option_report("lift", request->chosen);
-        request->entries["options"].update(option_report("lift", request->of_files));
+        report_options(*request, "lift", request->chosen);
         request->graded.check(*request);
     });
     return {options, [request] { return run_map_of(*request, LiftKind(*request)); }};

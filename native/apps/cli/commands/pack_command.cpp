@@ -12,9 +12,9 @@
 namespace koebe::cli {
 namespace {
 
-class PackKind final : public PieceMapKind<PackedLayer, PackedLayerOptions, &PackedLayer::islands> {
+class PackKind final : public PieceMapKind<pack_layer, &PackedLayer::islands> {
 public:
-    explicit PackKind(const CornerMapRequest<PackedLayerOptions>& request) : PieceMapKind(request, pack_layer) {}
+    using PieceMapKind::PieceMapKind;
 
     bool takes_uvs() const override { return true; }
     std::vector<Warning> write_mesh(AtomicFile& file, const MeshInput& input, const PackedLayer& result) const override
@@ -34,16 +34,12 @@ public:
     }
 };
 
-int run_pack(const CornerMapRequest<PackedLayerOptions>& request) { return run_map_of(request, PackKind(request)); }
-
 }  // namespace
 
 Subcommand add_pack(CLI::App& app)
 {
-    return add_corner_map<PackedLayerOptions>(app,
-                                              {"pack", "pack the islands of a file's texture coordinates, as they are",
-                                               "mesh with texture coordinates", "write a picture of the islands there"},
-                                              run_pack);
+    return add_corner_map<PackKind>(app, {"pack", "pack the islands of a file's texture coordinates, as they are",
+                                          "mesh with texture coordinates", "write a picture of the islands there"});
 }
 
 }  // namespace koebe::cli

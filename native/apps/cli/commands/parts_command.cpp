@@ -11,9 +11,9 @@
 namespace koebe::cli {
 namespace {
 
-class PartsKind final : public PieceMapKind<PartsResult, PartsOptions, &PartsResult::parts> {
+class PartsKind final : public PieceMapKind<parts_of, &PartsResult::parts> {
 public:
-    explicit PartsKind(const CornerMapRequest<PartsOptions>& request) : PieceMapKind(request, parts_of) {}
+    using PieceMapKind::PieceMapKind;
 
     std::string draw(const MeshInput&, const PartsResult& result) const override
     {
@@ -27,16 +27,12 @@ public:
     }
 };
 
-int run_parts(const CornerMapRequest<PartsOptions>& request) { return run_map_of(request, PartsKind(request)); }
-
 }  // namespace
 
 Subcommand add_parts(CLI::App& app)
 {
-    return add_corner_map<PartsOptions>(app,
-                                        {"parts", "cut any surface in its UVs into even disks and tubes", "any mesh",
-                                         "write a picture of the parts there"},
-                                        run_parts);
+    return add_corner_map<PartsKind>(app, {"parts", "cut any surface in its UVs into even disks and tubes", "any mesh",
+                                           "write a picture of the parts there"});
 }
 
 }  // namespace koebe::cli

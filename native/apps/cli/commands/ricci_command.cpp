@@ -1,6 +1,7 @@
 // koebe ricci IN OUT
-#include "cli/commands/map_command.h"
+#include "cli/commands/map_run.h"
 #include "cli/commands/subcommand.h"
+#include "cli/commands/uniformize_kind.h"
 #include "cli/options/option_table.h"
 
 #include "baselines/ricci_uniformize.h"
@@ -52,17 +53,16 @@ Subcommand add_ricci(CLI::App& app)
     add_report_options(*options, *request);
     options->callback([request] {
         check_map_files(*request);
-        nlohmann::ordered_json words = option_report("ricci", request->options);
-        words.update(option_report("ricci", request->of_files));
-        words.update(
+        report_options(*request, "ricci", request->options);
+        request->entries["options"].update(
             {{"packing", request->packing}, {"target", request->target}, {"triangulation", request->triangulation}});
-        request->entries["options"] = std::move(words);
     });
     return {options, [request] {
-                return run_map(*request, [&](const auto& vertices, const auto& triangles, const auto& chosen,
-                                             ExecutionContext& context) {
+                const auto map = [&](const auto& vertices, const auto& triangles, const auto& chosen,
+                                     ExecutionContext& context) {
                     return ricci_uniformize(vertices, triangles, ricci_options(*request, chosen), context);
-                });
+                };
+                return run_map_of(*request, UniformizeKind(*request, map));
             }};
 }
 

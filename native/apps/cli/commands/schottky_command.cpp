@@ -9,9 +9,9 @@
 namespace koebe::cli {
 namespace {
 
-class SchottkyKind final : public CornerMapKind<SchottkyResult, SchottkyOptions> {
+class SchottkyKind final : public CornerMapKind<schottky_map> {
 public:
-    explicit SchottkyKind(const CornerMapRequest<SchottkyOptions>& request) : CornerMapKind(request, schottky_map) {}
+    using CornerMapKind::CornerMapKind;
 
     std::string draw(const MeshInput&, const SchottkyResult& result) const override { return schottky_svg(result); }
     std::string first_words(const SchottkyResult& result) const override
@@ -21,21 +21,14 @@ public:
     }
 };
 
-int run_schottky(const CornerMapRequest<SchottkyOptions>& request)
-{
-    return run_map_of(request, SchottkyKind(request));
-}
-
 }  // namespace
 
 Subcommand add_schottky(CLI::App& app)
 {
-    return add_corner_map<SchottkyOptions>(
-        app,
-        {"schottky",
-         "cut a surface with handles open and map it into the disk: Moebius maps join the cuts, holes are round",
-         "surface with one handle or more", "write a picture there: the faces, and the circles of the copies"},
-        run_schottky);
+    return add_corner_map<SchottkyKind>(
+        app, {"schottky",
+              "cut a surface with handles open and map it into the disk: Moebius maps join the cuts, holes are round",
+              "surface with one handle or more", "write a picture there: the faces, and the circles of the copies"});
 }
 
 }  // namespace koebe::cli

@@ -169,8 +169,7 @@ Subcommand add_sequence(CLI::App& app)
     options->callback([request] {
         check_center(request->options);
         check_files(*request);
-        request->entries["options"] = option_report("sequence", request->options);
-        request->entries["options"].update(option_report("sequence", request->of_files));
+        report_options(*request, "sequence", request->options);
     });
     return {options, [request] {
                 make_folder(request->folder);

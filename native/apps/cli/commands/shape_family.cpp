@@ -1,7 +1,9 @@
 #include "cli/commands/shape_family.h"
 
+#include "batch/summary.h"
 #include "cli/options/option_table.h"
 #include "cli/process/error_line.h"
+#include "core/counted.h"
 #include "execution/detachable_run.h"
 #include "exit_code.h"
 #include "io/atomic_file.h"
@@ -38,20 +40,7 @@ std::vector<int> like(const ShapeInput& reference, const ShapeInput& shape, cons
     return order;
 }
 
-std::string number(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return text;
-}
-
-std::string field(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + '"';
-}
+std::string number(double value) { return formatted("%.17g", value); }
 
 void append(std::string& line, const VectorXd& values, std::size_t count)
 {
@@ -183,10 +172,10 @@ std::string module_table(const ShapeFamily& family)
         for (const std::string& column : family.columns) text += ',' + column + "_error";
     text += ",note\n";
     for (const FamilyRow& row : family.rows) {
-        text += field(row.label);
+        text += batch::csv_field(row.label);
         append(text, row.module, family.columns.size());
         if (errors) append(text, row.error, family.columns.size());
-        text += ',' + field(row.note) + '\n';
+        text += ',' + batch::csv_field(row.note) + '\n';
     }
     return text;
 }
@@ -199,7 +188,8 @@ std::string distance_table(const ShapeFamily& family)
         for (std::size_t j = i + 1; j < family.rows.size(); ++j) {
             const FamilyRow &a = family.rows[i], &b = family.rows[j];
             const bool known = a.known && b.known;
-            text += field(a.label) + ',' + field(b.label) + ',' + (known ? number((a.module - b.module).norm()) : "NA");
+            text += batch::csv_field(a.label) + ',' + batch::csv_field(b.label) + ',' +
+                    (known ? number((a.module - b.module).norm()) : "NA");
             if (errors) text += ',' + (known ? number(std::hypot(a.error.norm(), b.error.norm())) : "NA");
             text += '\n';
         }

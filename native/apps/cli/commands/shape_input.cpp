@@ -2,6 +2,7 @@
 
 #include "cli/files/mesh_input.h"
 #include "cli/process/progress_line.h"
+#include "core/counted.h"
 #include "mesh/loop_with.h"
 #include "mesh/topology.h"
 #include "pipeline/uniformize.h"
@@ -9,7 +10,6 @@
 #include "shape/conformal_module.h"
 #include "shape/module_error.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -35,12 +35,11 @@ void warn_about_rims(ShapeInput& shape, const VectorXd& change)
     }
     Eigen::Index most = 0;
     if ((change.cwiseAbs() - allowed).maxCoeff(&most) <= 0.0) return;
-    char number[64];
-    std::snprintf(number, sizeof number, "%+.2g %%", 100.0 * change[most]);
     shape.warnings.push_back({WarningKind::coarse_mesh,
                               "the mesh is coarse at its rims: as polygons in place of smooth curves they have another "
                               "module, in which the radius of loop " +
-                                  std::to_string(most) + " differs by about " + number,
+                                  std::to_string(most) + " differs by about " +
+                                  formatted("%+.2g %%", 100.0 * change[most]),
                               {},
                               "The option rims chooses"});
 }

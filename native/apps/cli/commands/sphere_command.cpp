@@ -18,9 +18,9 @@ PolygonMesh on_unit_sphere(const MeshInput& input, const SphereResult& result)
     return mesh;
 }
 
-class SphereKind final : public CornerMapKind<SphereResult, SphereOptions> {
+class SphereKind final : public CornerMapKind<sphere_map> {
 public:
-    explicit SphereKind(const CornerMapRequest<SphereOptions>& request) : CornerMapKind(request, sphere_map) {}
+    using CornerMapKind::CornerMapKind;
 
     SphereResult compute(const MeshInput& input, ExecutionContext& context) const override
     {
@@ -47,20 +47,16 @@ public:
     }
 };
 
-int run_sphere(const CornerMapRequest<SphereOptions>& request) { return run_map_of(request, SphereKind(request)); }
-
 }  // namespace
 
 Subcommand add_sphere(CLI::App& app)
 {
-    return add_corner_map<SphereOptions>(app,
-                                         {.name = "sphere",
-                                          .does = "map a surface without handles to the sphere, its holes round",
-                                          .surface = "surface of genus 0, closed or with holes",
-                                          .picture = "write a picture of the sphere there, front and back",
-                                          .uvs = "texture coordinates of corners",
-                                          .has_sphere = true},
-                                         run_sphere);
+    return add_corner_map<SphereKind>(app, {.name = "sphere",
+                                            .does = "map a surface without handles to the sphere, its holes round",
+                                            .surface = "surface of genus 0, closed or with holes",
+                                            .picture = "write a picture of the sphere there, front and back",
+                                            .uvs = "texture coordinates of corners",
+                                            .has_sphere = true});
 }
 
 }  // namespace koebe::cli

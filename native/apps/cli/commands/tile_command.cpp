@@ -11,13 +11,12 @@
 namespace koebe::cli {
 namespace {
 
-using TileRequest = CornerMapRequest<TileOptions>;
-
 constexpr const char* picture = "write a picture of the tile and its copies there";
 
-class TileKind final : public CornerMapKind<TileResult, TileOptions> {
+template <auto map>
+class TileKind final : public CornerMapKind<map> {
 public:
-    using CornerMapKind::CornerMapKind;
+    using CornerMapKind<map>::CornerMapKind;
 
     std::string draw(const MeshInput&, const TileResult& result) const override { return tile_svg(result); }
     std::string first_words(const TileResult& result) const override
@@ -33,20 +32,16 @@ public:
 
 Subcommand add_torus(CLI::App& app)
 {
-    return add_corner_map<TileOptions>(
-        app,
-        {"torus", "map a surface with one handle to a flat torus, its holes round",
-         "surface of genus 1, with or without holes", picture},
-        [](const TileRequest& request) { return run_map_of(request, TileKind(request, torus_map)); });
+    return add_corner_map<TileKind<torus_map>>(app, {"torus",
+                                                     "map a surface with one handle to a flat torus, its holes round",
+                                                     "surface of genus 1, with or without holes", picture});
 }
 
 Subcommand add_ring(CLI::App& app)
 {
-    return add_corner_map<TileOptions>(
-        app,
-        {"ring", "map a surface with two loops or more to an unrolled cylinder",
-         "surface of genus 0 with two loops or more", picture},
-        [](const TileRequest& request) { return run_map_of(request, TileKind(request, ring_map)); });
+    return add_corner_map<TileKind<ring_map>>(app,
+                                              {"ring", "map a surface with two loops or more to an unrolled cylinder",
+                                               "surface of genus 0 with two loops or more", picture});
 }
 
 }  // namespace koebe::cli

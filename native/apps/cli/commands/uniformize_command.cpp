@@ -1,7 +1,7 @@
 // koebe uniformize IN OUT
 #include "cli/commands/corner_map.h"
-#include "cli/commands/map_command.h"
 #include "cli/commands/subcommand.h"
+#include "cli/commands/uniformize_kind.h"
 #include "cli/commands/weights_option.h"
 #include "cli/options/loop_options.h"
 #include "cli/options/option_table.h"
@@ -104,11 +104,12 @@ Subcommand add_uniformize(CLI::App& app)
                 if (request->ends_with_input) end_with_input();
                 request->options.importance = request->importance.read("an importance");
                 if (request->cut) return run_map_of(*request, CutUniformizeKind(*request));
-                return run_map(*request, [](const auto& vertices, const auto& triangles, const auto& chosen,
-                                            ExecutionContext& context) {
+                const auto map = [](const auto& vertices, const auto& triangles, const auto& chosen,
+                                    ExecutionContext& context) {
                     require_schedule_of_loops(triangles, static_cast<Index>(vertices.rows()), chosen);
                     return uniformize(vertices, triangles, chosen, context);
-                });
+                };
+                return run_map_of(*request, UniformizeKind(*request, map));
             },
             &request->entries};
 }

@@ -1,17 +1,20 @@
 // The map of koebe uniformize, ricci and sequence.
 #pragma once
 
-#include "cli/commands/map_command.h"
 #include "cli/commands/map_kind.h"
 #include "cli/options/loop_options.h"
 #include "core/counted.h"
 #include "pipeline/convex_disk.h"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 
 namespace koebe::cli {
+
+using MapFunction =
+    std::function<UniformizeResult(const Vertices&, const Triangles&, const UniformizeOptions&, ExecutionContext&)>;
 
 class UniformizeKind final : public DiskKind<UniformizeResult> {
 public:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/files/output_files.h"
+#include "cli/options/option_table.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_writer.h"
 #include "pipeline/options.h"
@@ -11,6 +12,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace koebe::cli {
@@ -46,6 +48,13 @@ void add_mesh_arguments(CLI::App& app, MapRequest& request, const std::string& s
 /// Adds --json, --svg, --quiet. @param picture description of --svg; empty: there is none
 void add_report_options(CLI::App& app, MapRequest& request,
                         const std::string& picture = "write a picture of the circle domain there");
+/// Notes the options of a map, and those of files, for the report.
+template <typename Options>
+void report_options(MapRequest& request, std::string_view map, const Options& options)
+{
+    request.entries["options"] = option_report(map, options);
+    request.entries["options"].update(option_report(map, request.of_files));
+}
 /// The files of a request, with their names in the usage.
 std::vector<OutputFile> map_files(const MapRequest& request);
 /// @throws CLI::ValidationError OUT names no format; two of the files are the same

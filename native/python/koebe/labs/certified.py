@@ -1,20 +1,17 @@
 """Capacities and moduli of a surface, enclosed between bounds that are proved."""
 
 import copy
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._arrays import as_indices
 from .._native import _koebe
-from .._options import callback, filled, takes, token
+from .._options import takes
 from .._report_entries import Warning
-from .._signatures import CertifiedOptions
+from .._signatures import CertifiedOptions, Unpack
 from ..errors import InputError
-from ..maps.input import surface_of
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+from ..maps.domain_map import prepared
 
 
 class CertifiedModuli:
@@ -98,12 +95,9 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     >>> low < 0.2987 < high and high - low < 0.001
     True
     """
-    options, said = filled("certified", _koebe.CapacityOptions(), given)
     between = [_condenser(one) for one in given["between"]] if given["between"] is not None else []
     if given["between"] is not None and not between:
         raise InputError("between must have at least one pair of loops at 0 and loops at 1")
-    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles, mask=given["mask"], weld=said["weld"])
-    report = source.call(_koebe.certified_capacities, between, options, progress, cancel)
-    del said["threads"]
+    options, said, source, run = prepared("certified", _koebe.CapacityOptions(), given, (vertices, triangles))
+    report = source.call(_koebe.certified_capacities, between, options, *run)
     return CertifiedModuli({**report, "options": said})

@@ -12,14 +12,14 @@ import numpy as np
 from .._arrays import as_indices
 from .._native import _koebe
 from .._options import flag, whole
-from .._progress import Progress, Run
-from .._signatures import Rims
+from .._progress import Progress, Run, Watched
+from .._signatures import Rims, Unpack
 from ..errors import InputError
 from ..io.files import whole_file
 from ..maps.sphere import SphereMap
 from .shapes import conformal_module, match_loops, module_error, module_names
 from .sphere_family import SphereFamily, sphere_family
-from .sphere_transfer import STIFFNESS
+from .sphere_transfer import STIFFNESS, SphereOptions
 
 
 @dataclass(frozen=True)
@@ -76,33 +76,26 @@ class Family:
             file.write(text.getvalue().encode())
 
 
+class _OfSpheres(SphereOptions, total=False):
+    reference: int
+    labels: Sequence[str] | None
+    landmarks: Sequence[Sequence[Any]] | None
+    fields: Sequence[Any] | None
+
+
+class _OfDisks(Watched, total=False):
+    reference: int
+    order: Sequence[int] | None
+    orders: Sequence[Sequence[int]] | None
+    labels: Sequence[str] | None
+    rims: Rims
+    error: bool
+
+
 @overload
-def family(
-    results: Sequence[SphereMap],
-    *,
-    reference: int = 0,
-    labels: Sequence[str] | None = None,
-    landmarks: Sequence[Sequence[Any]] | None = None,
-    fields: Sequence[Any] | None = None,
-    moebius: bool = False,
-    bend: bool = False,
-    stiffness: float = STIFFNESS,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> SphereFamily: ...
+def family(results: Sequence[SphereMap], **how: "Unpack[_OfSpheres]") -> SphereFamily: ...
 @overload
-def family(
-    results: Sequence[Any],
-    *,
-    reference: int = 0,
-    order: Sequence[int] | None = None,
-    orders: Sequence[Sequence[int]] | None = None,
-    labels: Sequence[str] | None = None,
-    rims: Rims = "smooth",
-    error: bool = False,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> Family: ...
+def family(results: Sequence[Any], **how: "Unpack[_OfDisks]") -> Family: ...
 def family(
     results: Sequence[Any],
     *,

@@ -3,21 +3,18 @@
 import math
 from collections.abc import Mapping, Sequence
 from numbers import Integral, Real
-from typing import TYPE_CHECKING, Any, TypedDict
+from typing import Any, TypedDict
 
 import numpy as np
 
 from .._arrays import as_indices, as_numbers, as_points
 from .._native import _koebe
 from .._options import callback, flag, takes, token, vertex
-from .._signatures import ShapesOptions
+from .._signatures import ShapesOptions, Unpack
 from ..errors import InputError
 from ..maps.input import polygons_of, surface_of
 from ..maps.result import Source, UniformizeResult, with_origin
 from ..maps.uniformize import solver_options
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class FitOptions(ShapesOptions, total=False):
@@ -75,23 +72,14 @@ class FitResult(UniformizeResult):
     names: list[str]
     ranks: np.ndarray
 
-    def __init__(
-        self,
-        report: dict[str, Any],
-        uv: np.ndarray,
-        flipped_faces: np.ndarray,
-        mu: np.ndarray,
-        source: Source,
-        conformal_uv: np.ndarray | None = None,
-    ) -> None:
-        super().__init__(report, uv, flipped_faces, [], source, conformal_uv)
-        self.mu = mu
-        self.mu.flags.writeable = False
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        super().__init__(report, native, source)
+        self._set_arrays(mu=native.mu)
         self.names = [loop["name"] for loop in report["loops"][1:] if "name" in loop]
         self.ranks = np.array([loop["rank"] for loop in report["loops"]], dtype=np.int32)
 
     def _arrays(self) -> dict[str, Any]:
-        return {"uv": self.uv, "flipped_faces": self.flipped_faces, "mu": self.mu, **self._conformal_array()}
+        return {**super()._arrays(), "mu": self.mu}
 
     def __repr__(self) -> str:
         mu = self.fit["mu"]
@@ -161,7 +149,7 @@ def fit_circles(
     native = source.call(_koebe.fit_circles, wanted, options, extremal, progress, cancel)
     source.call(_koebe.make_polygons_convex, native, polygons_of(None, source), False, cancel)
     report = with_origin(native.report(), source, {**said, "extremal": extremal})
-    return FitResult(report, native.uv, np.array(native.flipped_faces), native.mu, source, native.conformal_uv)
+    return FitResult(report, native, source)
 
 
 def _are_triangles(given: Any) -> bool:

@@ -14,7 +14,7 @@ import numpy as np
 from .._arrays import as_circles, as_indices, as_numbers, as_points
 from .._native import _koebe
 from .._option_table import rows
-from .._options import choice, choice_of, flag, whole
+from .._options import choice_of, filled, flag, whole
 from .._progress import Progress, Run
 from .._report_entries import Warning
 from .._signatures import Rims
@@ -142,9 +142,9 @@ def _refined(result: UniformizeResult, run: Run) -> tuple[np.ndarray, np.ndarray
     """The circles of the result's loops on a finer mesh, kept with the result."""
     kept = vars(result)
     if "_refined" not in kept:
-        options = _koebe.UniformizeOptions()
-        options.method = choice(result.method, "method", _koebe.Method)
-        options.engine = choice(result.engine, "engine", _koebe.Engine)
+        defaults = {name: row.given for name, row in rows("uniformize").items()}
+        chosen = {**defaults, "method": result.method, "engine": result.engine}
+        options, _ = filled("uniformize", _koebe.UniformizeOptions(), chosen)
         kept["_refined"] = _koebe.refined_circles(mapped_surface(result), options, run.progress, run.cancel)
     return kept["_refined"]
 

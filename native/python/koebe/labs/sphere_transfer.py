@@ -11,7 +11,7 @@ import numpy as np
 
 from .._native import _koebe
 from .._options import flag
-from .._progress import Run
+from .._progress import Run, Watched
 from .._report_entries import Warning
 from ..errors import InputError, OptionError
 from ..io.files import whole_file
@@ -21,6 +21,14 @@ from ..maps.sphere import SphereMap
 from .sphere_alignment import applied, by_fields, by_landmarks, correlation, nearest_rotation
 
 STIFFNESS = 0.1
+
+
+class SphereOptions(Watched, total=False):
+    """How one sphere is laid over another, as in `transfer`."""
+
+    moebius: bool
+    bend: bool
+    stiffness: float
 
 
 class Bending(TypedDict):

@@ -12,15 +12,16 @@ import numpy as np
 from .._arrays import as_indices, as_numbers
 from .._native import _koebe
 from .._options import callback, flag, token, vertex
-from .._progress import Progress, Run
+from .._progress import Progress, Run, Watched
 from .._report_entries import Warning
+from .._signatures import Unpack
 from ..errors import InputError
 from ..maps.carry import carried, landmark_pairs
 from ..maps.result import Beltrami, UniformizeResult
 from ..maps.sphere import SphereMap
 from .fit import FitResult
 from .shapes import DomainAlignment, mapped_surface
-from .sphere_transfer import STIFFNESS, SphereCorrespondence, sphere_transfer
+from .sphere_transfer import STIFFNESS, SphereCorrespondence, SphereOptions, sphere_transfer
 
 
 @dataclass(frozen=True)
@@ -76,60 +77,28 @@ class Correspondence:
         return carried(field, self.triangles, self.faces, self.weights, len(self.uv), labels)
 
 
+class _OnDisks(Watched, total=False):
+    match: Sequence[int] | None
+    fit: bool
+    landmarks: Sequence[tuple[Any, Any]] | None
+    extremal: bool
+
+
+class _OnSpheres(SphereOptions, total=False):
+    landmarks: Sequence[tuple[Any, Any]] | None
+    fields: tuple[Any, Any] | None
+
+
 @overload
 def transfer(
-    a: UniformizeResult,
-    b: UniformizeResult,
-    field: None = None,
-    *,
-    match: Sequence[int] | None = None,
-    fit: bool = True,
-    landmarks: Sequence[tuple[Any, Any]] | None = None,
-    extremal: bool = False,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
+    a: UniformizeResult, b: UniformizeResult, field: None = None, **how: "Unpack[_OnDisks]"
 ) -> Correspondence: ...
 @overload
-def transfer(
-    a: SphereMap,
-    b: SphereMap,
-    field: None = None,
-    *,
-    landmarks: Sequence[tuple[Any, Any]] | None = None,
-    fields: tuple[Any, Any] | None = None,
-    moebius: bool = False,
-    bend: bool = False,
-    stiffness: float = STIFFNESS,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> SphereCorrespondence: ...
+def transfer(a: SphereMap, b: SphereMap, field: None = None, **how: "Unpack[_OnSpheres]") -> SphereCorrespondence: ...
 @overload
-def transfer(
-    a: UniformizeResult,
-    b: UniformizeResult,
-    field: Any,
-    *,
-    match: Sequence[int] | None = None,
-    fit: bool = True,
-    landmarks: Sequence[tuple[Any, Any]] | None = None,
-    extremal: bool = False,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> np.ndarray: ...
+def transfer(a: UniformizeResult, b: UniformizeResult, field: Any, **how: "Unpack[_OnDisks]") -> np.ndarray: ...
 @overload
-def transfer(
-    a: SphereMap,
-    b: SphereMap,
-    field: Any,
-    *,
-    landmarks: Sequence[tuple[Any, Any]] | None = None,
-    fields: tuple[Any, Any] | None = None,
-    moebius: bool = False,
-    bend: bool = False,
-    stiffness: float = STIFFNESS,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> np.ndarray: ...
+def transfer(a: SphereMap, b: SphereMap, field: Any, **how: "Unpack[_OnSpheres]") -> np.ndarray: ...
 def transfer(
     a: UniformizeResult | SphereMap,
     b: UniformizeResult | SphereMap,

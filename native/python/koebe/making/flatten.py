@@ -1,17 +1,14 @@
 """Cuts surfaces into flat patterns in real size."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._native import _koebe
 from .._options import takes
-from .._signatures import FlattenOptions
+from .._signatures import FlattenOptions, Unpack
 from ..maps.domain_map import DomainMap, domain_map
 from ..maps.result import Source
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class FlattenResult(DomainMap):

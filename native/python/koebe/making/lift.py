@@ -3,19 +3,16 @@
 import copy
 import os
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._native import _koebe
-from .._options import callback, filled, takes, token, vertex_weights
+from .._options import takes, vertex_weights
 from .._report_entries import Warning
-from .._signatures import LiftOptions
+from .._signatures import LiftOptions, Unpack
 from ..io.picture import outline_svg
-from ..maps.input import surface_of
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+from ..maps.domain_map import prepared
 
 
 class LiftResult:
@@ -122,12 +119,9 @@ def lift(
     >>> sheet.loops["after"] == sheet.loops["before"] + sheet.outlines
     True
     """
-    options, said = filled("lift", _koebe.LiftOptions(), given)
-    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles, mask=given["mask"], weld=said["weld"])
-    source.name_mapped_vertices(options)
+    options, said, source, run = prepared("lift", _koebe.LiftOptions(), given, (vertices, triangles))
     options.graded = vertex_weights("graded", given["graded"], len(source.vertices))
     if not isinstance(pattern, str | os.PathLike):
         raise TypeError(f"pattern must be a name or a file's path, not {pattern!r}")
-    native = source.call(_koebe.lift, os.fspath(pattern), options, progress, cancel)
+    native = source.call(_koebe.lift, os.fspath(pattern), options, *run)
     return LiftResult({**source.with_input_warnings(native.report()), "options": said}, native)

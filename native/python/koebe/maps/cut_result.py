@@ -1,15 +1,14 @@
 """The result of uniformize(..., cut=True): pieces, each with a map, side by side in the unit square."""
 
-import copy
 from typing import Any
 
 import numpy as np
 
-from ..io.corner_mesh import mesh_with_corner_uv
-from .result import MapReport, Seconds, Source, Warning, figures_of
+from .domain_map import DomainMap
+from .result import Seconds, Source
 
 
-class CutResult(MapReport):
+class CutResult(DomainMap):
     """The maps of the pieces of any mesh, and their report.
 
     uv               (F, 3, 2) float64, u and v of each triangle's corners in [0, 1]^2; read-only. The two sides
@@ -31,51 +30,23 @@ class CutResult(MapReport):
     """
 
     input_sha256: str
-    uv: np.ndarray
     piece: np.ndarray
     pieces: list[dict[str, Any]]
     cuts: list[dict[str, Any]]
     handles_cut: int
     left_out: list[dict[str, Any]]
-    turned: list[int]
     method: str
     engine: str
     seconds: Seconds
 
-    def __init__(self, report: dict[str, Any], uv: np.ndarray, flipped_faces: np.ndarray, source: Source) -> None:
-        self._report = report = source.with_input_warnings(report)
-        self._source = source
-        vars(self).update(figures_of(report))
-        self.uv = uv.reshape(-1, 3, 2)
-        self.uv.flags.writeable = False
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        super().__init__(report, native, source)
         self.piece = np.full(len(self.uv), -1, np.int32)
         for number, piece in enumerate(self.pieces):
             self.piece[piece["faces"]] = number
-        self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
 
     def _drawn(self) -> np.ndarray:
         return self.piece >= 0
 
     def _counts(self) -> list[str]:
         return [f"{len(self.pieces)} pieces", f"{len(self.cuts)} cuts"]
-
-    def to_mesh(self) -> Any:
-        """The mesh of the input, of the same kind, with the fields of UniformizeResult.to_mesh. The scale is UV length
-        per surface length. The faces are the same, in their order. Vertices are doubled along the cuts: koebe_vertex is
-        the number of each vertex in the input. A GiftiImage keeps its vertices: koebe_uv is NaN at a vertex with
-        several UVs, and koebe_corner_uv has the six numbers of each face. Raises InputError if the input was arrays."""
-        return mesh_with_corner_uv(self._source, self.uv, self._drawn())
-
-    def to_dict(self) -> dict[str, Any]:
-        """The command's JSON report as a new dict, with input_sha256 and options."""
-        return copy.deepcopy(self._report)
-
-    def _arrays(self) -> dict[str, Any]:
-        return {"uv": self.uv, "flipped_faces": self.flipped_faces}
-
-    def __repr__(self) -> str:
-        return (
-            f"<koebe.CutResult {self.face_count} faces, {len(self.pieces)} pieces, {len(self.cuts)} cuts, "
-            f"angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
-        )

@@ -1,19 +1,16 @@
 """Packs the islands of any UV layer."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._native import _koebe
-from .._options import callback, filled, takes, token
-from .._signatures import PackOptions
+from .._options import takes, token
+from .._signatures import PackOptions, Unpack
 from ..errors import InputError
-from .domain_map import DomainMap
-from .input import polygons_of, surface_of
+from .domain_map import DomainMap, prepared
+from .input import polygons_of
 from .result import Source
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class PackResult(DomainMap):
@@ -49,9 +46,6 @@ class PackResult(DomainMap):
         super().__init__(report, native, source)
         self._set_arrays(island=np.array(native.island))
 
-    def _drawn(self) -> np.ndarray:
-        return np.ones(len(self.uv), dtype=bool)
-
     def _arrays(self) -> dict[str, Any]:
         return {**super()._arrays(), "island": self.island}
 
@@ -84,14 +78,12 @@ def pack(vertices: Any, triangles: Any = None, **given: "Unpack[PackOptions]") -
     >>> len(result.islands), round(result.coverage, 2)
     (1, 1.0)
     """
-    options, said = filled("pack", _koebe.PackOptions(), given)
-    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles, degenerate=True, mask=given["mask"])
+    options, said, source, run = prepared("pack", _koebe.PackOptions(), given, (vertices, triangles), degenerate=True)
     options.polygon = polygons_of(given["polygon"], source)
     options.uv = _corner_uv(given["uv"], source).reshape(-1, 2)
     options.locked = _locks(given["locked"], source)
     options.enough = token(given["enough"], "enough")
-    native = source.call(_koebe.pack, options, progress, cancel)
+    native = source.call(_koebe.pack, options, *run)
     return PackResult({**native.report(), "options": said}, native, source)
 
 

@@ -1,24 +1,19 @@
 """Cuts surfaces in their UVs into even disks and tubes."""
 
-import copy
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._native import _koebe
-from .._options import callback, filled, takes, token, vertex_weights
-from .._report_entries import Warning
-from .._signatures import PartsOptions
+from .._options import flag, takes, vertex_weights
+from .._signatures import PartsOptions, Unpack
 from ..errors import InputError
-from ..io.corner_mesh import mesh_with_corner_uv
-from .input import polygons_of, surface_of
-from .result import MapReport, Source, figures_of
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+from .domain_map import DomainMap, prepared
+from .input import polygons_of
+from .result import Source
 
 
-class PartsResult(MapReport):
+class PartsResult(DomainMap):
     """The result of `parts`.
 
     uv               (F, 3, 2) float64 in [0, 1]^2, or on tiles: of each corner of each triangle, read-only
@@ -46,7 +41,6 @@ class PartsResult(MapReport):
                      part count in lost_area only, and only if they have no area at all
     """
 
-    uv: np.ndarray
     part: np.ndarray
     parts: list[dict[str, Any]]
     stacked: list[dict[str, Any]]
@@ -65,17 +59,9 @@ class PartsResult(MapReport):
     seconds: float
     maps: float
 
-    def __init__(
-        self, report: dict[str, Any], uv: np.ndarray, part: np.ndarray, flipped_faces: np.ndarray, source: Source
-    ) -> None:
-        self._report = report = source.with_input_warnings(report)
-        self._source = source
-        vars(self).update(figures_of(report))
-        self.uv = uv.reshape(-1, 3, 2)
-        self.uv.flags.writeable = False
-        self.part = part
-        self.flipped_faces = flipped_faces
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        super().__init__(report, native, source)
+        self.part = np.array(native.part)
 
     def _drawn(self) -> np.ndarray:
         return self.part >= 0
@@ -83,16 +69,8 @@ class PartsResult(MapReport):
     def _counts(self) -> list[str]:
         return [f"{len(self.parts)} parts", f"texel density within {self.density_ratio_5_95:.3g}"]
 
-    def to_mesh(self) -> Any:
-        """The mesh of the input, of the same kind, with fields as in CutResult.to_mesh."""
-        return mesh_with_corner_uv(self._source, self.uv, self._drawn())
-
     def _arrays(self) -> dict[str, Any]:
-        return {"uv": self.uv, "part": self.part, "flipped_faces": self.flipped_faces}
-
-    def to_dict(self) -> dict[str, Any]:
-        """The command's JSON report as a new dict."""
-        return copy.deepcopy(self._report)
+        return {**super()._arrays(), "part": self.part}
 
     def __repr__(self) -> str:
         return (
@@ -123,9 +101,9 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     >>> print(result.uv.shape, result.flipped)
     (1024, 3, 2) 0
     """
-    options, said = filled("parts", _koebe.PartsOptions(), given)
-    progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
-    source = surface_of(vertices, triangles, degenerate=options.cut, mask=given["mask"], weld=said["weld"])
+    options = _koebe.PartsOptions()
+    degenerate = flag(given["cut"], "cut")
+    options, said, source, run = prepared("parts", options, given, (vertices, triangles), degenerate)
     options.polygon = polygons_of(given["polygon"], source)
     options.importance = vertex_weights("importance", given["importance"], len(source.vertices))
     options.show = vertex_weights("show", given["show"], len(source.vertices))
@@ -133,9 +111,8 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
         if given[name] is not None:
             edges = _edges(name, given[name], len(source.vertices))
             setattr(options, name, (edges if source.first is None else source.first[edges]).tolist())
-    native = source.call(_koebe.parts, options, progress, cancel)
-    report = {**native.report(), "options": said}
-    return PartsResult(report, native.uv, native.part, np.array(native.flipped_faces, dtype=np.int32), source)
+    native = source.call(_koebe.parts, options, *run)
+    return PartsResult({**native.report(), "options": said}, native, source)
 
 
 def _edges(name: str, edges: Any, count: int) -> np.ndarray:

@@ -212,6 +212,7 @@ class MapReport(Saved):
     concave_polygons    count of polygons that are convex on the surface, but not in the UVs
     flipped_faces    int32 array of the faces that `flipped` counts, ascending
     even, overlaps   for maps with the option `even`: the E that was reached, and how often loops cross
+    loops            list of Loop: of the whole surface. Empty where parts or pieces have loops of their own
     seconds          of each stage
     peak_memory_mb   of the process
     warnings         list of Warning: kind, elements, text. A warning of too much lost area comes first
@@ -234,9 +235,32 @@ class MapReport(Saved):
     even: float = 0.0
     overlaps: int = 0
     concave_polygons: int = 0
+    loops: list[Loop]
     seconds: Any
     peak_memory_mb: float
     warnings: list[Warning]
+
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        """@param native has the arrays: the library's result, or the content of a file"""
+        self._report = report = source.with_input_warnings(report)
+        self._source = source
+        vars(self).update(figures_of(report))
+        self.loops = [Loop(loop) for loop in report.get("loops", ())]
+        self.warnings = [Warning(warning) for warning in report["warnings"]]
+        self.flipped_faces = np.array(native.flipped_faces, dtype=np.int32)
+
+    def _set_arrays(self, **arrays: np.ndarray) -> None:
+        """Take read-only arrays as attributes."""
+        for name, array in arrays.items():
+            array.flags.writeable = False
+            setattr(self, name, array)
+
+    def _arrays(self) -> dict[str, Any]:
+        return {"uv": self.uv, "flipped_faces": self.flipped_faces}
+
+    def to_dict(self) -> dict[str, Any]:
+        """The command's JSON report as a new dict, with options."""
+        return copy.deepcopy(self._report)
 
     @property
     def vertices(self) -> np.ndarray:
@@ -365,7 +389,6 @@ class UniformizeResult(MapReport):
 
     input_sha256: str = ""
     uv: np.ndarray
-    loops: list[Loop]
     centers: np.ndarray
     radii: np.ndarray
     roundness: np.ndarray
@@ -385,23 +408,11 @@ class UniformizeResult(MapReport):
     step_maps: list[np.ndarray]
     seconds: Seconds
 
-    def __init__(
-        self,
-        report: dict[str, Any],
-        uv: np.ndarray,
-        flipped_faces: np.ndarray,
-        step_maps: list[np.ndarray],
-        source: Source,
-        conformal_uv: np.ndarray | None = None,
-    ) -> None:
-        self._report = report = source.with_input_warnings(report)
-        self._source = source
-        loops = report["loops"]
-        vars(self).update(figures_of(report))
+    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
+        super().__init__(report, native, source)
+        loops, conformal_uv = report["loops"], getattr(native, "conformal_uv", None)
         self.options = report.get("options", {})
-        self.uv = source.outside_nan(uv)
-        self.uv.flags.writeable = False
-        self.loops = [Loop(loop) for loop in loops]
+        self._set_arrays(uv=source.outside_nan(native.uv))
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])
         self.roundness = np.array([loop["roundness"] for loop in loops])
@@ -409,9 +420,7 @@ class UniformizeResult(MapReport):
         self.off_circle = as_loops([loop["off_circle"] for loop in loops])
         self.own_circle = np.array([loop["own_circle"] for loop in loops])
         self._conformal_uv = None if conformal_uv is None else source.outside_nan(conformal_uv)
-        self.flipped_faces = np.asarray(flipped_faces, dtype=np.int32)
-        self.step_maps = step_maps
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
+        self.step_maps = list(getattr(native, "step_maps", ()))
 
     @cached_property
     def conformal(self) -> ConformalDomain:
@@ -454,18 +463,10 @@ class UniformizeResult(MapReport):
             source.mesh, source.polygons, Fields(uv, {LOG_SCALE: self.log_scale}, {ANGLE_ERROR: angle})
         )
 
-    def to_dict(self) -> dict[str, Any]:
-        """The command's JSON report as a new dict, with input_sha256 and options."""
-        return copy.deepcopy(self._report)
-
     def _arrays(self) -> dict[str, Any]:
-        return {
-            "uv": self.uv, "flipped_faces": self.flipped_faces, **self._conformal_array(),
-            "step_maps": np.stack(self.step_maps) if self.step_maps else np.zeros((0, len(self.uv), 2)),
-        }  # fmt: skip
-
-    def _conformal_array(self) -> dict[str, Any]:
-        return {} if self._conformal_uv is None else {"conformal_uv": self._conformal_uv}
+        maps = np.stack(self.step_maps) if self.step_maps else np.zeros((0, len(self.uv), 2))
+        conformal = {} if self._conformal_uv is None else {"conformal_uv": self._conformal_uv}
+        return {**super()._arrays(), **conformal, "step_maps": maps}
 
     def __repr__(self) -> str:
         return (

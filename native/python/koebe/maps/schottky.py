@@ -1,17 +1,14 @@
 """Maps surfaces with handles to fundamental domains of Schottky groups, with round holes."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._native import _koebe
 from .._options import takes
-from .._signatures import SchottkyOptions
+from .._signatures import SchottkyOptions, Unpack
 from .domain_map import DomainMap, domain_map
-from .result import Source
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+from .result import Seconds, Source
 
 
 class SchottkyMap(DomainMap):
@@ -48,6 +45,7 @@ class SchottkyMap(DomainMap):
     circles: np.ndarray
     by_circles: bool
     handles: list[dict[str, Any]]
+    seconds: Seconds
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)

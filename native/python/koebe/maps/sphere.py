@@ -1,18 +1,15 @@
 """Maps surfaces without handles to the sphere, with round caps as holes."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._native import _koebe
 from .._options import takes
-from .._signatures import SphereOptions
+from .._signatures import SphereOptions, Unpack
 from ..io.meshes import SPHERE
 from .domain_map import DomainMap, domain_map
-from .result import Source
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+from .result import Seconds, Source
 
 
 class SphereMap(DomainMap):
@@ -48,6 +45,7 @@ class SphereMap(DomainMap):
     layout: dict[str, Any]
     on_sphere: dict[str, int]
     mean_point: float
+    seconds: Seconds
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)

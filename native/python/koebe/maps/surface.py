@@ -1,7 +1,7 @@
 """Maps a surface many times while its vertices move."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -9,14 +9,11 @@ from .._arrays import as_points
 from .._native import _koebe
 from .._options import callback, takes, token
 from .._progress import Progress
-from .._signatures import SequenceOptions
+from .._signatures import SequenceOptions, Unpack
 from ..errors import InputError
 from .input import is_surface, polygons_of, surface_of
 from .result import Source, UniformizeResult, with_origin
 from .uniformize import importance_of, solver_options
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
 
 class Surface:
@@ -67,7 +64,7 @@ class Surface:
         # Other positions might choose another outer loop: this one makes uniformize repeat the map.
         options = {**self._options, "outer": int(report["loops"][0]["vertices"][0])}
         report = with_origin(report, source, options)
-        return UniformizeResult(report, native.uv, np.array(native.flipped_faces), native.step_maps, source)
+        return UniformizeResult(report, native, source)
 
     def _moved(self, vertices: Any) -> Source:
         kept = self._source

@@ -1,17 +1,14 @@
 """Maps to a flat torus and to a cylinder: the UVs are one tile, whose copies continue them."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from .._native import _koebe
 from .._options import takes
-from .._signatures import RingOptions, TorusOptions
+from .._signatures import RingOptions, TorusOptions, Unpack
 from .domain_map import DomainMap, domain_map
-from .result import Source
-
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
+from .result import Seconds, Source
 
 
 class TileMap(DomainMap):
@@ -35,6 +32,7 @@ class TileMap(DomainMap):
     periods: np.ndarray
     modulus: complex
     cut_length: float
+    seconds: Seconds
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)

@@ -2,43 +2,39 @@
 
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import Any, Literal, overload
 
 import numpy as np
 
 from .._arrays import as_indices, as_loops, as_points, as_triangles
 from .._native import _koebe
 from .._option_table import rows
-from .._options import callback, choice, filled, flag, number, takes, token, vertex_weights, whole
+from .._options import callback, filled, flag, number, number_of, takes, token, vertex_weights, whole
 from .._report_entries import Warning
-from .._signatures import UniformizeOptions
+from .._signatures import UniformizeOptions, Unpack
 from ..errors import InputError, OptionError, SolverError, TopologyError
 from .cut_result import CutResult
 from .input import is_surface, points_at_vertices, polygons_of, surface_of
 from .result import Source, UniformizeResult, with_origin
 
-if TYPE_CHECKING:
-    from typing_extensions import Unpack  # in typing itself from Python 3.11 on
 
-
-def _check_mesh_engine(options: "_koebe.UniformizeOptions", given: Mapping[str, Any]) -> None:
-    mesh = options.mesh
-    if options.engine != _koebe.Engine.mesh:
+def _check_mesh_engine(chosen: Mapping[str, Any], given: Mapping[str, Any]) -> None:
+    if chosen["engine"] != "mesh":
         for name, row in rows("uniformize").items():
             if row.of_mesh_engine and given[name] != row.given:
                 raise OptionError(f"{name} needs engine='mesh'")
-    if mesh.partners == _koebe.Partners.changing and (options.method != _koebe.Method.gk or mesh.schedule):
+    if chosen["partners"] == "changing" and (chosen["method"] != "gk" or chosen["schedule"]):
         raise OptionError("changing partners need method='gk' and no schedule")
-    if mesh.metric == getattr(_koebe.Metric, "reflected-last") and options.method == _koebe.Method.ck:
+    if chosen["metric"] == "reflected-last" and chosen["method"] == "ck":
         raise OptionError("metric='reflected-last' is not for method='ck'")
-    if mesh.annulus == _koebe.AnnulusBackend.yamabe and mesh.metric == _koebe.Metric.first:
+    if chosen["annulus"] == "yamabe" and chosen["metric"] == "first":
         raise OptionError("annulus='yamabe' needs metric='planar' or 'reflected'")
 
 
 def solver_options(of: str, given: Mapping[str, Any]) -> tuple["_koebe.UniformizeOptions", dict[str, Any]]:
     """The native options of `uniformize` or of a sequence, and these options for a report."""
     options, said = filled(of, _koebe.UniformizeOptions(), given)
-    if options.center >= 0 and options.balance != _koebe.Balance.none:
+    if options.center >= 0 and said.get("balance", "none") != "none":
         raise OptionError("center and balance exclude each other: both choose the centre of the disk")
     return options, said
 
@@ -104,7 +100,7 @@ def uniformize(
     1
     """
     options, chosen = solver_options("uniformize", {"cut": cut, **given})
-    _check_mesh_engine(options, given)
+    _check_mesh_engine(chosen, given)
     progress, cancel = callback(given["progress"], "progress"), token(given["cancel"], "cancel")
     if not chosen.pop("cut"):
         cut = False
@@ -117,12 +113,10 @@ def uniformize(
     if cut:
         made = source.call(_koebe.uniformize_with_cuts, polygon, options, progress, cancel)
         report = with_origin(made.report(), source, {**chosen, "cut": True})
-        return CutResult(report, made.uv, np.array(made.flipped_faces), source)
+        return CutResult(report, made, source)
     native = source.call(_koebe.uniformize, options, progress, cancel)
     source.call(_koebe.make_polygons_convex, native, polygon, True, cancel)
-    report = with_origin(native.report(), source, chosen)
-    flipped = np.array(native.flipped_faces)
-    return UniformizeResult(report, native.uv, flipped, native.step_maps, source, native.conformal_uv)
+    return UniformizeResult(with_origin(native.report(), source, chosen), native, source)
 
 
 def importance_of(values: Any, chosen: Mapping[str, Any], count: int) -> np.ndarray:
@@ -216,7 +210,7 @@ def annulus_map(
     >>> print(f"{radius:.3f}")
     0.153
     """
-    chosen = choice(backend, "backend", _koebe.AnnulusBackend)
+    chosen = number_of(backend, "backend", rows("uniformize")["annulus"].words)
     source = surface_of(vertices, triangles, mask=mask)
     points, radius = source.call(_koebe.annulus_map, chosen)
     _warn_turned(source)

@@ -1,8 +1,6 @@
-#include "cli/commands/map_command.h"
+#include "cli/commands/map_kind.h"
 
-#include "cli/commands/map_run.h"
-#include "cli/commands/uniformize_kind.h"
-
+#include "cli/process/result_line.h"
 #include "core/counted.h"
 
 #include <string>
@@ -28,11 +26,6 @@ void add_losses(const std::string& file, const std::vector<Warning>& losses, std
         loss.sentence = file + loss.sentence;
         warnings.push_back(std::move(loss));
     }
-}
-
-int run_map(const MapRequest& request, const MapFunction& compute)
-{
-    return run_map_of(request, UniformizeKind(request, compute));
 }
 
 }  // namespace koebe::cli
