@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@ namespace {
 
 // Islands must get larger by their number to this power: twice as many have to cover 15 % more.
 constexpr double larger_by_count = 0.1;
+constexpr std::size_t fewest_parts = 4;  // fewer, such as the cross of a box, stay as they are
 
 template <typename Value>
 std::vector<Value> values_at(const std::vector<Value>& values, const std::vector<Index>& places)
@@ -24,7 +26,7 @@ std::vector<Value> values_at(const std::vector<Value>& values, const std::vector
 /// Whether parts cut for room are worth it: they get larger when packed, by more than their number tells.
 bool are_worth_it(const std::vector<FlatPart>& roomier, const std::vector<FlatPart>& parts)
 {
-    if (roomier.size() == parts.size()) return false;
+    if (roomier.size() == parts.size() || parts.size() < fewest_parts) return false;
     const double count = static_cast<double>(roomier.size()) / static_cast<double>(parts.size());
     return quickly_packed_scale(roomier) > std::pow(count, larger_by_count) * quickly_packed_scale(parts);
 }
