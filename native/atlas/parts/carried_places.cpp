@@ -23,7 +23,7 @@ namespace koebe {
 namespace {
 
 constexpr double least_cotangent = 0.05;  // of a face's weight in the courses of its edges: needles count, too
-constexpr int most_failures = 2;          // attempts whose loops are right, but not their faces
+constexpr int most_upright_failures = 2;  // attempts whose loops are right, but not their faces
 constexpr double hold = 1e6;              // weight with which held vertices stay, over a cotangent
 
 /// An attempt to hold crossing loops at the part's loops.
@@ -128,7 +128,7 @@ public:
                              context) &&
                 lies_one_to_one(piece, piece.points) && survives_storing(piece))
                 return true;
-            if (++failures == most_failures) return false;
+            if (++failures == most_upright_failures) return false;
             is_held.assign(is_held.size(), 1);
         }
         return false;

@@ -2,9 +2,8 @@
 
 #include "core/connectivity.h"
 #include "part_maps/part_mesh.h"
+#include "parts/tension.h"
 #include "quality/distortion.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +17,6 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t fewest_cells = 4;
-constexpr double flat = 1e-5;         // height over extent of a part in a plane
 constexpr double most_bending = 3.0;  // degrees of angle error of a rectangle that is made by itself,
 constexpr double most_ratio = 1.6;    // and densest over least dense texels of its columns and rows
 
@@ -129,14 +127,6 @@ double scaled_to_size(const FlatPart& part, PlanarPoints& points)
     return std::exp(density.u.maxCoeff() - density.u.minCoeff());
 }
 
-bool is_flat(const Vertices& vertices)
-{
-    const Vertices from_middle = vertices.rowwise() - vertices.colwise().mean();
-    const Eigen::Matrix3d spread = from_middle.transpose() * from_middle;
-    const Eigen::Vector3d squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
-    return !(squares[0] > flat * flat * squares[2]);
-}
-
 }  // namespace
 
 void rectify_grids(std::vector<FlatPart>& parts, bool any)
@@ -154,7 +144,7 @@ void rectify_grids(std::vector<FlatPart>& parts, bool any)
         const double ratio = scaled_to_size(part, points);
         if (!lies_one_to_one(part, points)) continue;
         const double bent = error(points), before = error(part.points);
-        const bool is_near = !is_flat(part.vertices) && bent <= most_bending && ratio <= most_ratio;
+        const bool is_near = !is_true_to_size(part) && bent <= most_bending && ratio <= most_ratio;
         if (!any && bent > before && !is_near) continue;
         part.points = std::move(points);
         part.one_to_one = true;

@@ -1,12 +1,18 @@
 #include "parts/hard_surface.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 namespace koebe {
 namespace {
+
+// Islands must get larger by their number to this power: twice as many have to cover 15 % more.
+constexpr double larger_by_count = 0.1;
+constexpr std::size_t fewest_parts = 4;  // fewer, such as the cross of a box, stay as they are
 
 template <typename Value>
 std::vector<Value> values_at(const std::vector<Value>& values, const std::vector<Index>& places)
@@ -15,6 +21,14 @@ std::vector<Value> values_at(const std::vector<Value>& values, const std::vector
     if (!values.empty())
         for (const Index i : places) found.push_back(values[i]);
     return found;
+}
+
+/// Whether parts cut for room are worth it: they get larger when packed, by more than their number tells.
+bool are_worth_it(const std::vector<FlatPart>& roomier, const std::vector<FlatPart>& parts)
+{
+    if (roomier.size() == parts.size() || parts.size() < fewest_parts) return false;
+    const double count = static_cast<double>(roomier.size()) / static_cast<double>(parts.size());
+    return quickly_packed_scale(roomier) > std::pow(count, larger_by_count) * quickly_packed_scale(parts);
 }
 
 }  // namespace
@@ -36,6 +50,7 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
 {
     OpenedSurface opened;
     std::vector<Index> rest;
+    std::vector<FlatPart> roomier;
     int handles = 0;
     for (const SurfacePiece& piece : connected.pieces) {
         Surface surface = analyze_surface(piece.triangles, static_cast<Index>(piece.source_vertex.size()));
@@ -45,13 +60,17 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
         whole.shown = cut_prices(options.show, piece.source_vertex);
         if (std::optional<UnfoldedParts> hard = hard_parts(whole, context, unfolding_of(options))) {
             for (const Index f : hard->rest) rest.push_back(piece.source_face[f]);
-            note_shown(whole.shown, hard->parts);
-            name_by_source(piece, hard->parts);
-            std::ranges::move(hard->parts, std::back_inserter(parts));
+            if (hard->roomier.empty()) hard->roomier = hard->parts;
+            for (const auto& [own, all] : {std::pair(&hard->parts, &parts), std::pair(&hard->roomier, &roomier)}) {
+                note_shown(whole.shown, *own);
+                name_by_source(piece, *own);
+                std::ranges::move(*own, std::back_inserter(*all));
+            }
         } else {
             rest.insert(rest.end(), piece.source_face.begin(), piece.source_face.end());
         }
     }
+    if (are_worth_it(roomier, parts)) parts = std::move(roomier);
     if (!rest.empty()) {
         std::ranges::sort(rest);
         opened = open_surface(

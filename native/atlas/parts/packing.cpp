@@ -34,7 +34,7 @@ constexpr std::int64_t fewest_tests = 1'000'000, most_tests = 40'000'000;
 constexpr std::int64_t tests_an_attempt = 4000;  // to empty the board
 constexpr std::size_t most_tight = 100;          // islands that are packed more tightly,
 constexpr std::int64_t words_a_point = 24'000;   // with so much work
-constexpr std::int64_t fewest_words = 20'000'000, most_words = 200'000'000;
+constexpr std::int64_t fewest_words = 100'000'000, most_words = 200'000'000;
 constexpr std::size_t few_islands = 3;   // other turns are tried for so few islands,
 constexpr double held = 0.8;             // or if one is that long, in sides of the square, in the first packing
 constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that
@@ -267,9 +267,11 @@ void tighten(const std::vector<Outline>& outlines, const PackingTime& time, Isla
     for (const Outline& outline : outlines) points += outline.points.rows();
     const std::int64_t words = std::clamp(words_a_point * points, fewest_words, most_words);
     std::uint64_t seed = 0;
+    const IslandPacking first = best;
     const auto attempt = [&](IslandTurns turns, double gain, std::int64_t most) {
         if (time.is_over && time.is_over()) return;
-        const TightSearch search{turns, most, seed};
+        TightSearch search{turns, most, seed};
+        if (seed == 0) search.from = &first;
         if (IslandPacking tight = pack_tightly(outlines, best.margin, search, time); tight.scale > gain * best.scale)
             best = std::move(tight);
     };

@@ -7,10 +7,13 @@
 #include "planar/convex_hull.h"
 #include "planar/planar_predicates.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -27,7 +30,8 @@ constexpr double straight = 0.004;    // no corner is nearer to the line between
 constexpr double long_side = 0.15;    // longer sides get a corner in their middle
 constexpr int square_angles = 32;     // turns in which the smallest square is looked for
 constexpr std::size_t most_ways = 3;  // cuts of a part that are tried
-constexpr double price_at_rim = 8.0;  // of an edge that touches the boundary: the path stays inside
+constexpr double cosine_of_crease = 0.643;  // of 50 degrees
+constexpr double price_at_rim = 8.0;        // of an edge that touches the boundary: the path stays inside
 
 /// A loop with its most important corners only.
 struct Corners {
@@ -40,7 +44,8 @@ class CornerSearch {
 public:
     CornerSearch(const VertexLoop& loop, const PlanarPoints& points) : at_(points(loop, Eigen::all)) {}
 
-    Corners find(std::size_t most)
+    /// @param ends places in the loop that are corners, too, unless they are more
+    Corners find(std::size_t most, const std::vector<std::size_t>& ends = {})
     {
         const Eigen::RowVector2d start = at_.row(0);
         Eigen::Index opposite = 0;
@@ -64,7 +69,9 @@ public:
             longest = span(longest.from, middle);
             spans.push_back(second);
         }
+        if (ends.size() <= most) corners.place.insert(corners.place.end(), ends.begin(), ends.end());
         std::ranges::sort(corners.place);
+        corners.place.erase(std::unique(corners.place.begin(), corners.place.end()), corners.place.end());
         corners.points.resize(static_cast<Eigen::Index>(corners.place.size()), 2);
         for (std::size_t i = 0; i < corners.place.size(); ++i)
             corners.points.row(static_cast<Eigen::Index>(i)) = at_.row(static_cast<Eigen::Index>(corners.place[i]));
@@ -155,10 +162,15 @@ PlanarPoints between(const PlanarPoints& corners, Eigen::Index from, Eigen::Inde
 class RoomSearch {
 public:
     RoomSearch(const FlatPart& flat, double square, const ThroughPrice& price)
-        : flat_(flat), square_(square), price_(price), loop_(outer_loop(flat)), outer_(corners_of(loop_, most_corners))
+        : flat_(flat),
+          square_(square),
+          price_(price),
+          loop_(outer_loop(flat)),
+          mesh_(priced(flat, price.smooth)),
+          outer_(CornerSearch(loop_, flat.points).find(most_corners, ends_of_edges()))
     {
         for (const VertexLoop& loop : flat.surface.loops)
-            if (&loop != &loop_) holes_.push_back(corners_of(loop, most_hole_corners).points);
+            if (&loop != &loop_) holes_.push_back(CornerSearch(loop, flat.points).find(most_hole_corners).points);
         const bool along_axes = flat.kind == PartKind::tube;
         room_ = room_of(outer_.points, square_, along_axes ? 1 : square_angles);
         saved_at_most_ = room_ - area_inside(outer_.points);
@@ -170,16 +182,27 @@ public:
                                          [&](const VertexLoop& loop) { return enclosed_area(loop, flat.points); });
     }
 
+    /// The cuts along edges that are worth most, with ends apart.
     std::vector<ThroughCut> best() const
     {
         std::vector<ThroughCut> cuts;
-        std::vector<Chord> chords = paying_chords();
+        const std::vector<Chord> chords = paying_chords();
         if (chords.empty()) return cuts;
-        const SeamedMesh mesh = seamed(flat_, flat_.shown);
-        const EdgeGraph graph(mesh, price_at_rim);
+        const EdgeGraph graph(mesh_, price_at_rim);
         const std::vector<char> outside = boundary_mask(flat_.surface);
-        for (const Chord& chord : chords)
-            if (auto cut = along_edges(chord, mesh, graph, outside)) cuts.push_back(std::move(*cut));
+        std::map<Eigen::Index, PathTree> trees;
+        std::vector<Chord> made;
+        for (const Chord& chord : chords) {
+            if (std::ranges::any_of(made, [&](const Chord& other) { return share_an_end(chord, other); })) continue;
+            auto tree = trees.find(chord.from);
+            if (tree == trees.end())
+                tree = trees.emplace(chord.from, shortest_paths(graph, {vertex_at(chord.from)})).first;
+            auto cut = along_edges(chord, tree->second, outside);
+            if (!cut) continue;
+            cuts.push_back(std::move(*cut));
+            made.push_back(chord);
+            if (made.size() == most_ways) break;
+        }
         return cuts;
     }
 
@@ -190,9 +213,33 @@ private:
         double worth = 0.0;  // gain over cost
     };
 
-    Corners corners_of(const VertexLoop& loop, std::size_t most) const
+    /// The part's edges. A cut over a smooth place shows: there an edge counts as longer.
+    static SeamedMesh priced(const FlatPart& flat, double smooth)
     {
-        return CornerSearch(loop, flat_.points).find(most);
+        SeamedMesh mesh = seamed(flat, flat.shown);
+        if (smooth == 1.0) return mesh;
+        const auto normal = [&](Index f) -> Eigen::RowVector3d {
+            const auto corner = [&](int k) { return flat.vertices.row(flat.surface.triangles(f, k)); };
+            return (corner(1) - corner(0)).cross(corner(2) - corner(0));
+        };
+        for (Index h = 0; h < mesh.halfedge_count(); ++h) {
+            if (mesh.whole[h]) continue;
+            const Eigen::RowVector3d a = normal(face_of(h)), b = normal(face_of(mesh.twin[h]));
+            if (a.dot(b) > cosine_of_crease * a.norm() * b.norm()) mesh.length[h] *= smooth;
+        }
+        return mesh;
+    }
+
+    /// The places in the outer loop where an inner edge ends that may be cut.
+    std::vector<std::size_t> ends_of_edges() const
+    {
+        std::vector<char> is_end(static_cast<std::size_t>(flat_.surface.vertex_count), 0);
+        for (Index h = 0; h < mesh_.halfedge_count(); ++h)
+            if (!mesh_.whole[h]) is_end[origin(mesh_.fans, h)] = 1;
+        std::vector<std::size_t> ends;
+        for (std::size_t i = 0; i < loop_.size(); ++i)
+            if (is_end[loop_[i]]) ends.push_back(i);
+        return ends;
     }
     Complex corner(Eigen::Index i) const
     {
@@ -202,13 +249,15 @@ private:
     bool is_hollow(Eigen::Index i) const { return cross(corner(i) - corner(i - 1), corner(i + 1) - corner(i)) < 0.0; }
     double cost_of(double length) const { return price_.length * length + *price_.piece; }
 
-    /// The chords worth most, with ends apart.
+    Index vertex_at(Eigen::Index corner) const { return loop_[outer_.place[static_cast<std::size_t>(corner)]]; }
+
+    /// The chords that pay, first those worth most.
     std::vector<Chord> paying_chords() const
     {
-        std::vector<Chord> found, best;
+        std::vector<Chord> found;
         const Eigen::Index count = outer_.points.rows();
         const double least = area_inside(outer_.points) - 2.0 * least_room_piece;
-        if (count < 4 || least < 0.0 || worth_of_room * saved_at_most_ < cost_of(0.0)) return best;
+        if (count < 4 || least < 0.0 || worth_of_room * saved_at_most_ < cost_of(0.0)) return found;
         const bool is_long = room_ > area_inside(outer_.points(convex_hull(outer_.points), Eigen::all));
         for (Eigen::Index i = 0; i < count; ++i)
             for (Eigen::Index j = i + 2; j < count; ++j) {
@@ -219,12 +268,7 @@ private:
                 if (gain > cost) found.push_back({i, j, gain / cost});
             }
         std::ranges::stable_sort(found, std::ranges::greater(), &Chord::worth);
-        for (const Chord& chord : found) {
-            if (best.size() == most_ways) break;
-            if (std::ranges::none_of(best, [&](const Chord& other) { return share_an_end(chord, other); }))
-                best.push_back(chord);
-        }
-        return best;
+        return found;
     }
 
     static bool share_an_end(const Chord& a, const Chord& b)
@@ -262,18 +306,17 @@ private:
     }
 
     /// The shortest path between the chord's ends, if it pays.
-    std::optional<ThroughCut> along_edges(const Chord& chord, const SeamedMesh& mesh, const EdgeGraph& graph,
+    std::optional<ThroughCut> along_edges(const Chord& chord, const PathTree& tree,
                                           const std::vector<char>& outside) const
     {
         const std::size_t i = outer_.place[static_cast<std::size_t>(chord.from)];
         const std::size_t j = outer_.place[static_cast<std::size_t>(chord.to)];
-        const PathTree tree = shortest_paths(graph, {loop_[i]});
         ThroughCut cut;
         for (Index v = loop_[j]; v != loop_[i]; v = tree.parent[v]) {
             if (tree.parent[v] == v || (v != loop_[j] && outside[v])) return {};
             cut.vertices.push_back(v);
             cut.halfedges.push_back(tree.halfedge[v]);
-            cut.length += mesh.length[tree.halfedge[v]];
+            cut.length += mesh_.length[tree.halfedge[v]];
         }
         cut.vertices.push_back(loop_[i]);
         VertexLoop one(loop_.begin() + static_cast<std::ptrdiff_t>(i), loop_.begin() + static_cast<std::ptrdiff_t>(j));
@@ -291,6 +334,7 @@ private:
     double square_;
     ThroughPrice price_;
     const VertexLoop& loop_;
+    SeamedMesh mesh_;
     Corners outer_;
     std::vector<PlanarPoints> holes_;
     double room_ = 0.0, saved_at_most_ = 0.0;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr EvenEffort trial_effort{6, 2};
 constexpr double least_kept = 0.5;        // share of a forecast that the next trial may release
-constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room
+constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room, unless it is true to size
 
 /// A cut as vertices of the whole: cuts of other parts have numbers of their own.
 struct NamedCut {
@@ -132,7 +132,9 @@ private:
     static bool has_crumbs(const Trial& trial)
     {
         for (std::size_t k = 0; k < trial.pieces.size(); ++k)
-            if (trial.changed[k] && trial.pieces[k].flat.faces.size() < fewest_faces) return true;
+            if (const FlatPart& flat = trial.pieces[k].flat;
+                trial.changed[k] && flat.faces.size() < fewest_faces && !is_true_to_size(flat))
+                return true;
         return false;
     }
 

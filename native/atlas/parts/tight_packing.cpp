@@ -10,14 +10,14 @@
 namespace koebe {
 namespace {
 
-constexpr int coarse_side = 160;       // cells of the square at first, where islands cover
-constexpr double first_share = 0.5;    // that share of it
-constexpr int refinement = 7;          // fine cells along a coarse one
-constexpr int most_larger = 20;        // squares that are tried until the islands have room
-constexpr int most_failures = 40;      // disturbed arrangements in a row
-constexpr double coarse_share = 0.65;  // of the work
-constexpr int angles = 64;             // turns between 0 and 90 degrees, to find the smallest square round an island
-constexpr int angles_apart = 16;       // of these every sixteenth is a pose
+constexpr int coarse_side = 256;      // cells of the square at first, where islands cover
+constexpr double first_share = 0.5;   // that share of it
+constexpr int refinement = 4;         // fine cells along a coarse one
+constexpr int most_larger = 20;       // squares that are tried until the islands have room
+constexpr int most_failures = 40;     // disturbed arrangements in a row
+constexpr double coarse_share = 0.8;  // of the work
+constexpr int angles = 64;            // turns between 0 and 90 degrees, to find the smallest square round an island
+constexpr int angles_apart = 16;      // of these every sixteenth is a pose
 
 /// A turn of k/angles of 90 degrees, nearly: of absolute value 1, without sines.
 Complex turn_of(int k)
@@ -53,7 +53,7 @@ struct Drawn {
 class TightPacker {
 public:
     TightPacker(const std::vector<Outline>& outlines, double margin, const TightSearch& search, const PackingTime& time)
-        : margin_(margin), seed_(search.seed), time_(time)
+        : margin_(margin), seed_(search.seed), from_(search.from), outlines_(outlines), time_(time)
     {
         const IslandTurns turns = search.turns;
         for (const Outline& outline : outlines) {
@@ -124,6 +124,7 @@ private:
         for (IslandSpot& spot : spots_)
             spot = {0, static_cast<int>(separation.random() % coarse_side),
                     static_cast<int>(separation.random() % coarse_side)};
+        if (from_) begin_with(*from_);
         for (int k = 0; !separation.separate(side_, spots_, false, most); side_ += side_ / 20)
             if (++k == most_larger || separation.work() > most || is_over()) return false;
         int step = side_ / 32;
@@ -140,6 +141,24 @@ private:
             }
         }
         return true;
+    }
+
+    /// The arrangement of a packing, rounded to cells.
+    void begin_with(const IslandPacking& packing)
+    {
+        const double unit = scale_ / packing.scale;
+        side_ = static_cast<int>(std::ceil(unit / static_cast<double>(grid_cell)));
+        for (std::size_t i = 0; i < spots_.size(); ++i) {
+            const UprightIsland& island = islands_[i].front();
+            const Complex turn = packing.places[i].turn / island.turn;
+            const int pose = std::abs(turn.real()) > std::abs(turn.imag()) ? (turn.real() > 0.0 ? 0 : 2)
+                                                                           : (turn.imag() > 0.0 ? 1 : 3);
+            spots_[i].pose = held_[i] ? 0 : pose;
+            const PlanarPoints at = place_island(outlines_[i].points, packing.places[i], packing.scale);
+            const Eigen::RowVector2d corner = (at.colwise().minCoeff().array() - 0.5 * margin_) * unit;
+            spots_[i].x = static_cast<int>(corner[0] / static_cast<double>(grid_cell));
+            spots_[i].y = static_cast<int>(corner[1] / static_cast<double>(grid_cell));
+        }
     }
 
     bool is_over() const { return time_.is_over && time_.is_over(); }
@@ -220,6 +239,8 @@ private:
 
     const double margin_;
     const std::uint64_t seed_;
+    const IslandPacking* from_;
+    const std::vector<Outline>& outlines_;
     const PackingTime& time_;
     std::vector<std::vector<UprightIsland>> islands_;  // in all their angles
     std::vector<char> held_;                           // 1: the island keeps its turn

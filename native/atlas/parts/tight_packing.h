@@ -18,8 +18,9 @@ enum class IslandTurns {
 
 struct TightSearch {
     IslandTurns turns = IslandTurns::quarter;
-    std::int64_t most = 0;   ///< work, in words compared
-    std::uint64_t seed = 0;  ///< of the arrangement at first
+    std::int64_t most = 0;                ///< work, in words compared
+    std::uint64_t seed = 0;               ///< of the arrangement at first,
+    const IslandPacking* from = nullptr;  ///< unless it is that of a packing by quarter turns
 };
 
 /// Packs islands by moving them apart in a square that becomes smaller and smaller: first on a coarse board, anywhere

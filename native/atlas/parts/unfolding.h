@@ -18,6 +18,9 @@ struct UnfoldOptions {
 
 struct UnfoldedParts {
     std::vector<FlatPart> parts;
+    /// With `roomy`, and without `cut_hard`: the parts cut between planar regions, where the pieces need less room.
+    /// Empty: nowhere.
+    std::vector<FlatPart> roomier;
     std::vector<Index> rest;  ///< faces in no part, ascending
     double cut_length = 0.0;  ///< in the unit of the vertices
 };
@@ -25,8 +28,8 @@ struct UnfoldedParts {
 /// Cuts a surface along its creases into charts, and lays the charts flat. A chart that closes round a hole, such as
 /// the side of a cylinder, or that has a tip, such as a cone, is slit. Then charts with a straight border in common are
 /// joined again, the longest border first, if they do not overlap. So a cube becomes a cross of six squares.
-/// @return parts that keep all lengths, up to rounding. No value if a chart is curved in both directions, or overlaps
-/// itself
+/// @return parts that keep all lengths, up to rounding, none roomier. No value if a chart is curved in both directions,
+/// or overlaps itself
 std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContext& context,
                                       const UnfoldOptions& options = {});
 
@@ -36,5 +39,8 @@ std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContex
 /// @return no value if the surface is not hard: large flat and rolled regions hold less than half of the area
 std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
                                         const UnfoldOptions& options = {});
+
+/// The scale at which parts fill the square, packed quickly with the usual margin.
+double quickly_packed_scale(const std::vector<FlatPart>& parts);
 
 }  // namespace koebe
