@@ -2,16 +2,13 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
-#include "core/length.h"
+#include "holes/fan_filling.h"
 #include "parts/darts.h"
 #include "parts/tension.h"
 #include "parts/through_cuts.h"
 #include "surface/loop_edges.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace koebe {
@@ -20,37 +17,30 @@ namespace {
 constexpr double longest_rim = 0.12;   // of a pinhole, over the root of the mesh's area: the eye of a mask has 0.15
 constexpr double thinnest_fan = 1e-3;  // least area of a face that fills, over the square of its edge on the rim
 
-/// The middle of a rim, if faces between it and the rim's edges are not too thin.
-std::optional<Eigen::RowVector3d> middle_of(const Vertices& vertices, const VertexLoop& rim)
+/// Whether no face between a rim's edges and the middle of the rim is too thin.
+bool can_be_filled(const Vertices& rim, const VectorXd& edges)
 {
-    const Eigen::RowVector3d middle = vertices(rim, Eigen::all).colwise().mean();
-    for (std::size_t i = 0; i < rim.size(); ++i) {
-        const Eigen::RowVector3d a = vertices.row(rim[i]), b = vertices.row(rim[(i + 1) % rim.size()]);
-        if (!(0.5 * length_of((a - middle).cross(b - middle)) > thinnest_fan * (b - a).squaredNorm())) return {};
-    }
-    return middle;
+    const SurfacePatch fan = fill_on_surface(rim);
+    return (face_areas(fan.vertices, fan.triangles).array() > thinnest_fan * edges.array().square()).all();
 }
 
-/// The loops to fill.
-std::vector<const VertexLoop*> pinholes(const PieceInput& input, const Surface& surface)
+/// The ranks of the loops to fill.
+std::vector<Index> pinholes(const PieceInput& input, const Surface& surface)
 {
+    const Vertices& vertices = input.piece.vertices;
     std::vector<char> at_cut(static_cast<std::size_t>(surface.vertex_count), 0);
     if (!input.seam.empty())
         for (Index h = 0; h < static_cast<Index>(surface.twin.size()); ++h)
             if (surface.twin[h] == no_twin && input.seam[h]) at_cut[origin(surface.triangles, h)] = 1;
-    std::vector<const VertexLoop*> found;
-    const VertexLoop* longest = nullptr;
-    double most = 0.0;
-    for (const VertexLoop& loop : surface.loops) {
-        const double length = loop_edges(input.piece.vertices, loop).sum();
-        if (!(length <= most)) {
-            most = length;
-            longest = &loop;
-        }
-        if (loop.size() >= 3 && length < longest_rim && std::ranges::none_of(loop, [&](Index v) { return at_cut[v]; }))
-            found.push_back(&loop);
+    const Index longest = longest_loop(vertices, surface);
+    std::vector<Index> found;
+    for (Index k = 0; k < static_cast<Index>(surface.loops.size()); ++k) {
+        const VertexLoop& loop = surface.loops[k];
+        const VectorXd edges = loop_edges(vertices, loop);
+        if (k != longest && edges.sum() < longest_rim && can_be_filled(vertices(loop, Eigen::all), edges) &&
+            std::ranges::none_of(loop, [&](Index v) { return at_cut[v]; }))
+            found.push_back(k);
     }
-    std::erase(found, longest);
     return found;
 }
 
@@ -71,36 +61,27 @@ void draw_corners_apart(const std::vector<Index>& source, FlatPart& piece)
 
 std::optional<PieceInput> without_pinholes(const PieceInput& input, const Surface& surface)
 {
-    std::vector<std::array<Index, 3>> faces;
+    const std::vector<Index> ranks = pinholes(input, surface);
+    if (ranks.empty()) return {};
     PieceInput filled = input;
     SurfacePiece& piece = filled.piece;
-    std::vector<Eigen::RowVector3d> middles;
-    for (const VertexLoop* rim : pinholes(input, surface)) {
-        const auto middle = middle_of(input.piece.vertices, *rim);
-        if (!middle) continue;
-        const Index own = static_cast<Index>(input.piece.vertices.rows()) + static_cast<Index>(middles.size());
-        middles.push_back(*middle);
-        piece.source_vertex.push_back(piece.source_vertex[rim->front()]);
-        if (!input.shown.empty()) filled.shown.push_back(input.shown[rim->front()]);
-        for (std::size_t i = 0; i < rim->size(); ++i) faces.push_back({(*rim)[(i + 1) % rim->size()], (*rim)[i], own});
+    FilledSurface fans = fill_holes(piece.vertices, piece.triangles, ranks);
+    const auto added = static_cast<std::size_t>(fans.triangles.rows() - piece.triangles.rows());
+    piece.vertices = std::move(fans.vertices);
+    piece.triangles = std::move(fans.triangles);
+    piece.source_face.resize(piece.source_face.size() + added, -1);
+    piece.turned.resize(piece.turned.size() + added, 0);
+    for (const Index k : ranks) {
+        const Index beside = surface.loops[k].front();
+        piece.source_vertex.push_back(piece.source_vertex[beside]);
+        if (!input.shown.empty()) filled.shown.push_back(input.shown[beside]);
     }
-    if (middles.empty()) return {};
-    const Eigen::Index first_vertex = piece.vertices.rows(), first_face = piece.triangles.rows();
-    const auto count = static_cast<Eigen::Index>(faces.size());
-    piece.vertices.conservativeResize(first_vertex + static_cast<Eigen::Index>(middles.size()), 3);
-    for (std::size_t i = 0; i < middles.size(); ++i)
-        piece.vertices.row(first_vertex + static_cast<Eigen::Index>(i)) = middles[i];
-    piece.triangles.conservativeResize(first_face + count, 3);
-    for (Eigen::Index f = 0; f < count; ++f)
-        for (int k = 0; k < 3; ++k) piece.triangles(first_face + f, k) = faces[static_cast<std::size_t>(f)][k];
-    piece.source_face.resize(piece.source_face.size() + faces.size(), -1);
-    piece.turned.resize(piece.turned.size() + faces.size(), 0);
     if (!input.polygon.empty()) {
         Index next = *std::ranges::max_element(input.polygon);
-        for (std::size_t f = 0; f < faces.size(); ++f) filled.polygon.push_back(++next);
+        for (std::size_t f = 0; f < added; ++f) filled.polygon.push_back(++next);
     }
     for (std::vector<char>* marks : {&filled.slit, &filled.seam})
-        if (!marks->empty()) marks->resize(marks->size() + 3 * faces.size(), 0);
+        if (!marks->empty()) marks->resize(marks->size() + 3 * added, 0);
     return filled;
 }
 
