@@ -48,10 +48,11 @@ def test_the_options_of_a_shape_reach_its_map(options):
     of, make = MODELS[options["shape"]]
     obj = make()
     scenes.select(obj)
-    own = {name: value for name, value in options.items() if name != "shape"}
+    own = {name: value for name, value in options.items() if name not in ("shape", "write_seams")}  # seams are cuts
     getattr(bpy.ops.uv, f"koebe_{of}")(layer="Own", **own)
     bpy.ops.uv.koebe_unwrap(**options)
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), scenes.corner_uv(obj.data, "Own"))
+    assert any(edge.use_seam for edge in obj.data.edges) == options.get("write_seams", False)
 
 
 SAMPLE_SHAPES = [

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
+#include "foldover/repair_effort.h"
 #include "foldover/void_mesh.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
@@ -45,7 +46,8 @@ public:
     bool is_upright(Index f, const PlanarPoints& points) const { return signed_area(points, triangles_, f) > 0.0; }
 
     /// @return the points after; `right` says whether all faces are upright
-    std::pair<bool, PlanarPoints> moved(int rings, LoopsMay loops_may, const ExecutionContext& context) const
+    std::pair<bool, PlanarPoints> moved(int rings, LoopsMay loops_may, RepairEffort& effort,
+                                        const ExecutionContext& context) const
     {
         FoldoverProblem problem;
         problem.points = points_;
@@ -64,8 +66,12 @@ public:
                 return {false, points_};
             }
         }
-        const bool right = !faces.empty() && minimize_foldover_free(problem, context).foldover_free &&
-                           problem.points.allFinite() &&
+        const Eigen::Index all = problem.triangles.rows();
+        const int steps = faces.empty() ? 0 : effort.affordable(all);
+        if (steps == 0) return {false, points_};
+        const FoldoverResult done = minimize_foldover_free(problem, context, {.max_iterations = steps});
+        effort.spend(all, done.iterations);
+        const bool right = done.foldover_free && problem.points.allFinite() &&
                            std::ranges::all_of(faces, [&](Index f) { return is_upright(f, problem.points); }) &&
                            std::ranges::all_of(fallen_, [&](Index f) { return is_upright(f, problem.points); });
         return {right, problem.points.topRows(points_.rows())};
@@ -117,9 +123,11 @@ bool turn_upright(const Vertices& vertices, const Triangles& triangles, const st
     const FallenFaces first(vertices, triangles, loops, fixed, points);
     if (first.faces().empty()) return true;
     FallenFaces fallen = first;
+    RepairEffort effort(triangles.rows());
     for (const LoopsMay loops_may : {LoopsMay::stay, LoopsMay::move_apart, LoopsMay::move})
         for (const int rings : reach) {
-            auto [right, after] = (loops_may == LoopsMay::move ? first : fallen).moved(rings, loops_may, context);
+            auto [right, after] =
+                (loops_may == LoopsMay::move ? first : fallen).moved(rings, loops_may, effort, context);
             // A void face without area holds nothing apart.
             if (right && (loops_may != LoopsMay::move_apart || crossing_boundary_edges(loops, after, 0.0).empty())) {
                 points = std::move(after);
