@@ -269,6 +269,17 @@ double sum_of_angle_errors(const FlatPart& part)
            measure_distortion(part.vertices, part.surface.triangles, part.points).angle_error_deg.mean;
 }
 
+double sum_of_upright_angle_errors(const FlatPart& part)
+{
+    std::vector<Index> upright;
+    for (Index f = 0; f < static_cast<Index>(part.faces.size()); ++f)
+        if (signed_area(part.points, part.surface.triangles, f) > 0.0) upright.push_back(f);
+    if (upright.empty()) return 0.0;
+    const Triangles triangles = part.surface.triangles(upright, Eigen::all);
+    return static_cast<double>(upright.size()) *
+           measure_distortion(part.vertices, triangles, part.points).angle_error_deg.mean;
+}
+
 double angle_error(const std::vector<FlatPart>& parts)
 {
     double sum = 0.0, faces = 0.0;

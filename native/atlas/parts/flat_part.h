@@ -74,6 +74,8 @@ void take_vertices(const FlatPart& part, const std::vector<Index>& vertices, Fla
 
 /// The sum of the angle errors of a part's faces, in degrees.
 double sum_of_angle_errors(const FlatPart& part);
+/// The same of the faces that are not turned over.
+double sum_of_upright_angle_errors(const FlatPart& part);
 
 /// Mean angle error of the parts' faces, in degrees.
 double angle_error(const std::vector<FlatPart>& parts);

@@ -380,7 +380,9 @@ private:
             for (const std::size_t group : own.group) bounds.group.push_back(first + group);
             bounds.most.resize(first + groups_of(own), 0.0);
             for (std::size_t k = 0; k < own.conformal.size(); ++k)
-                bounds.most[first + own.uncut_group[k]] += sum_of_angle_errors(own.conformal[k]);
+                bounds.most[first + own.uncut_group[k]] += own.is_measured
+                                                               ? sum_of_upright_angle_errors(own.conformal[k])
+                                                               : sum_of_angle_errors(own.conformal[k]);
         }
         if (std::ranges::any_of(pieces_, &MeshPiece::is_measured))
             bounds.exact = [this] {
