@@ -215,7 +215,7 @@ private:
         const Index faces = static_cast<Index>(own.input.piece.triangles.rows());
         const Index coarse =
             std::max(least_proxy, static_cast<Index>(proxy_faces * static_cast<double>(faces) / total_));
-        bool by_proxy = total_ > proxy_from && faces > coarse && options_.slits.empty();
+        const bool by_proxy = total_ > proxy_from && faces > coarse && options_.slits.empty();
         if (!by_proxy && faces <= proxy_from) price_by_visibility(own.input);
         PieceSurface surface = surface_of(own.input);
         std::optional<UnfoldedParts> true_to_size;
@@ -228,27 +228,15 @@ private:
             take_unfolded();
             return;
         }
-        if (by_proxy) {
-            own.filled = may_carry() ? without_pinholes(own.input, surface.whole.surface) : std::nullopt;
-            if (own.filled) {
-                own.open = std::move(surface);
-                surface = surface_of(*own.filled);
-            }
-            own.proxy = proxy_of(own.filled ? *own.filled : own.input, std::move(surface), coarse, context);
-        } else if (faces >= least_mirrored && may_carry() && is_only_nearly_mirror(own.input)) {
-            own.proxy = proxy_of(own.input, std::move(surface), static_cast<Index>(mirrored_share * faces), context);
-            by_proxy = own.proxy->is_mirrored;
-            if (!by_proxy) surface = std::move(own.proxy->fine);
-        }
-        if (by_proxy) {
+        make_proxy(own, by_proxy ? coarse : 0, surface, context);
+        if (own.proxy) {
             price_by_visibility(own.proxy->input);
             own.is_fine = false;
-            PieceSurface coarse = surface_of(own.proxy->input);
-            coarse.whole.exact = false;
-            own.parts = flat_piece(own.proxy->input, std::move(coarse), options_, threads, context, effort).parts;
+            PieceSurface judged = surface_of(own.proxy->input);
+            judged.whole.exact = false;
+            own.parts = flat_piece(own.proxy->input, std::move(judged), options_, threads, context, effort).parts;
             name_by_source(own.proxy->input.piece, own.parts);
         } else {
-            own.proxy.reset();
             own.parts = flat_piece(own.input, std::move(surface), options_, threads, context, effort).parts;
         }
         if (!true_to_size) return;
@@ -258,6 +246,25 @@ private:
         own.proxy.reset();
         own.filled.reset();
         own.is_fine = true;
+    }
+
+    /// Makes a proxy of a large piece, or of one that is its own mirror image but for its triangulation.
+    /// @param coarse faces of a large piece's proxy; 0: the piece is not large @param surface of the input; the proxy
+    /// takes it
+    void make_proxy(MeshPiece& own, Index coarse, PieceSurface& surface, ExecutionContext& context) const
+    {
+        const auto faces = static_cast<Index>(own.input.piece.triangles.rows());
+        if (coarse > 0) {
+            own.filled = may_carry() ? without_pinholes(own.input, surface.whole.surface) : std::nullopt;
+            if (own.filled) own.open = std::exchange(surface, surface_of(*own.filled));
+            own.proxy = proxy_of(own.filled ? *own.filled : own.input, std::exchange(surface, {}), coarse, context);
+        } else if (faces >= least_mirrored && may_carry() && is_only_nearly_mirror(own.input)) {
+            own.proxy =
+                proxy_of(own.input, std::exchange(surface, {}), static_cast<Index>(mirrored_share * faces), context);
+            if (own.proxy->is_mirrored) return;
+            surface = std::move(own.proxy->fine);
+            own.proxy.reset();
+        }
     }
 
     /// Whether parts that were decided on a proxy may keep their darts, and no form was chosen for loops or cuts.

@@ -9,6 +9,7 @@
 #include "surface/loop_edges.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace koebe {
@@ -51,8 +52,8 @@ void draw_corners_apart(const std::vector<Index>& source, FlatPart& piece)
     std::ranges::sort(sorted);
     std::vector<char> moves;
     for (const Index v : source) {
-        const auto same = std::ranges::equal_range(sorted, v);
-        moves.push_back(same.size() > 1);
+        const auto next = std::next(std::ranges::lower_bound(sorted, v));
+        moves.push_back(next != sorted.end() && *next == v);
     }
     if (std::ranges::count(moves, 1) > 0) draw_apart(piece, moves);
 }
