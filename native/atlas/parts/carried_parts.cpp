@@ -114,9 +114,7 @@ public:
         std::vector<FlatPart> pieces;
         std::vector<Index> piece_of(whole.faces.size());
         for (const SeamedMesh& own : connected_parts(mesh)) {
-            std::vector<Index> source(static_cast<std::size_t>(own.fan_count));
-            for (Eigen::Index c = 0; c < own.fans.size(); ++c) source[own.fans.data()[c]] = own.corners.data()[c];
-            auto piece = opened_piece(whole, own.face, own.fans, source);
+            auto piece = opened_piece(whole, own.face, own.fans, vertices_of_fans(own));
             if (!piece) return {};
             for (const Index f : own.face) piece_of[f] = static_cast<Index>(pieces.size());
             pieces.push_back(std::move(*piece));

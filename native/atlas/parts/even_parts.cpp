@@ -173,19 +173,18 @@ public:
     /// with an E at which they may be no worse: angles go about with the third root of E.
     EvenParts relax_carried(double even, AngleBounds bounds)
     {
-        const auto most = [&] { return std::accumulate(bounds.most.begin(), bounds.most.end(), 0.0); };
         const auto done = [&](std::vector<std::size_t> worse) {
             return EvenParts{worse.size() < bounds.most.size() ? even : 0.0, left_, std::move(worse)};
         };
         for (auto next = less_even_with_darts.begin();;) {
             relax_cut(even, look);
-            if (bounds.exact && angles() > most_worse * most()) bounds = bounds.exact();
-            if (bounds.most.empty() || angles() <= most_worse * most())
+            if (bounds.exact && angles() > most_worse * bounds.sum()) bounds = bounds.exact();
+            if (bounds.most.empty() || angles() <= most_worse * bounds.sum())
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
             if (bounds.most.empty()) return {even, left_};
             std::vector<std::size_t> worse = worst_groups(bounds);
             if (share_of(worse, bounds) <= few_worse) return done(std::move(worse));
-            const double times = angles() / most();
+            const double times = angles() / bounds.sum();
             next = std::find_if(next, less_even_with_darts.end(), [&](double less) {
                 return less < even && less * std::pow(times, 3) < tolerant * even;
             });
@@ -235,8 +234,7 @@ private:
     /// The groups that must go back to E = 0, so that angles are no worse than there: those that gain most.
     std::vector<std::size_t> worst_groups(AngleBounds& bounds) const
     {
-        if (bounds.exact && angles() > std::accumulate(bounds.most.begin(), bounds.most.end(), 0.0))
-            bounds = bounds.exact();
+        if (bounds.exact && angles() > bounds.sum()) bounds = bounds.exact();
         std::vector<double> excess(bounds.most.size(), 0.0);
         for (std::size_t k = 0; k < parts_.size(); ++k) excess[bounds.group[k]] += sum_of_angle_errors(parts_[k].flat);
         std::ranges::transform(excess, bounds.most, excess.begin(), std::minus<>());

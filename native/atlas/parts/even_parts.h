@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct AngleBounds {
     std::vector<std::size_t> group;           ///< (parts) of parts that were one part before they were cut
     std::vector<double> most;                 ///< (groups) sum of angle errors at E = 0; empty: no bounds
     std::function<AngleBounds()> exact = {};  ///< these were measured roughly, and this measures well
+
+    double sum() const { return std::accumulate(most.begin(), most.end(), 0.0); }
 };
 
 /// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, it also

@@ -263,10 +263,14 @@ void note_shown(const std::vector<double>& shown, std::vector<FlatPart>& parts)
     }
 }
 
+double summed_angle_error(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
+{
+    return measure_distortion(vertices, triangles, points).angle_error_deg.mean * static_cast<double>(triangles.rows());
+}
+
 double sum_of_angle_errors(const FlatPart& part)
 {
-    return static_cast<double>(part.faces.size()) *
-           measure_distortion(part.vertices, part.surface.triangles, part.points).angle_error_deg.mean;
+    return summed_angle_error(part.vertices, part.surface.triangles, part.points);
 }
 
 double sum_of_upright_angle_errors(const FlatPart& part)
@@ -275,9 +279,7 @@ double sum_of_upright_angle_errors(const FlatPart& part)
     for (Index f = 0; f < static_cast<Index>(part.faces.size()); ++f)
         if (signed_area(part.points, part.surface.triangles, f) > 0.0) upright.push_back(f);
     if (upright.empty()) return 0.0;
-    const Triangles triangles = part.surface.triangles(upright, Eigen::all);
-    return static_cast<double>(upright.size()) *
-           measure_distortion(part.vertices, triangles, part.points).angle_error_deg.mean;
+    return summed_angle_error(part.vertices, part.surface.triangles(upright, Eigen::all), part.points);
 }
 
 double angle_error(const std::vector<FlatPart>& parts)

@@ -72,7 +72,10 @@ constexpr double packed_side = 1.25;  ///< about the side of a square that holds
 void take_faces(const FlatPart& part, const std::vector<Index>& faces, FlatPart& piece);
 void take_vertices(const FlatPart& part, const std::vector<Index>& vertices, FlatPart& piece);
 
-/// The sum of the angle errors of a part's faces, in degrees.
+/// The sum of the angle errors of faces, in degrees.
+double summed_angle_error(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points);
+
+/// The same of a part's faces.
 double sum_of_angle_errors(const FlatPart& part);
 /// The same of the faces that are not turned over.
 double sum_of_upright_angle_errors(const FlatPart& part);

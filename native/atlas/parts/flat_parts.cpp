@@ -6,7 +6,6 @@
 #include "execution/side_by_side.h"
 #include "foldover/angle_polish.h"
 #include "pipeline/uniformize.h"
-#include "quality/distortion.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>
@@ -129,11 +128,6 @@ void polish(FlatPart& flat, ExecutionContext& context)
     const std::vector<Circle> circles(flat.surface.loops.size());
     if (polish_angles(flat.vertices, flat.surface, flat.surface.loops, circles, boundary, points, context))
         flat.points = box.points(0.5 * (points.array() + 1.0));
-}
-
-double summed_angle_error(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& points)
-{
-    return measure_distortion(vertices, triangles, points).angle_error_deg.mean * static_cast<double>(triangles.rows());
 }
 
 /// Turns flips back. Notes the cost of the repair if it is more than a part: the repaired part may be far less even

@@ -99,8 +99,7 @@ std::vector<FlatPart> with_pinholes(FlatPart part, Index faces)
         if (mesh.twin[h] != no_twin && fills(h) != fills(mesh.twin[h])) mesh.cut(h);
     for (const SeamedMesh& own : connected_parts(mesh)) {
         if (part.faces[own.face.front()] >= faces) continue;
-        std::vector<Index> source(static_cast<std::size_t>(own.fan_count));
-        for (Eigen::Index c = 0; c < own.fans.size(); ++c) source[own.fans.data()[c]] = own.corners.data()[c];
+        const std::vector<Index> source = vertices_of_fans(own);
         std::optional<FlatPart> piece = opened_piece(part, own.face, own.fans, source);
         if (!piece) throw SolverError("a part is no surface any more with its pinholes");
         piece->kind = part.kind;

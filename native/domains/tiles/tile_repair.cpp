@@ -42,12 +42,9 @@ TileSheet sheet_of(const PeriodicSurface& domain, const FlatMap& map, const std:
     // One vertex of the sheet for each fan, at the place of its lift.
     TileSheet sheet;
     sheet.surface = analyze_surface(mesh.fans, mesh.fan_count);
-    sheet.source.resize(mesh.fan_count);
+    sheet.source = vertices_of_fans(mesh);
     sheet.lift.resize(mesh.fan_count);
-    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-        sheet.source[origin(mesh.fans, h)] = origin(mesh.corners, h);
-        sheet.lift[origin(mesh.fans, h)] = lift[h];
-    }
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) sheet.lift[origin(mesh.fans, h)] = lift[h];
     sheet.vertices = domain.vertices(sheet.source, Eigen::all);
     VectorXcd points(mesh.fan_count);
     for (Index v = 0; v < mesh.fan_count; ++v) points[v] = lifted(map, map.z[sheet.source[v]], sheet.lift[v]);

@@ -364,9 +364,7 @@ SurfacePiece to_piece(const SeamedMesh& mesh, const Vertices& vertices)
     piece.triangles = mesh.fans;
     piece.source_face = mesh.face;
     piece.turned = mesh.turned;
-    piece.source_vertex.resize(mesh.fan_count);
-    for (Index h = 0; h < mesh.halfedge_count(); ++h)
-        piece.source_vertex[origin(mesh.fans, h)] = origin(mesh.corners, h);
+    piece.source_vertex = vertices_of_fans(mesh);
     piece.vertices = vertices(piece.source_vertex, Eigen::all);
     return piece;
 }

@@ -59,6 +59,13 @@ void number_fans(SeamedMesh& mesh)
     }
 }
 
+std::vector<Index> vertices_of_fans(const SeamedMesh& mesh)
+{
+    std::vector<Index> vertices(static_cast<std::size_t>(mesh.fan_count));
+    for (Index h = 0; h < mesh.halfedge_count(); ++h) vertices[origin(mesh.fans, h)] = origin(mesh.corners, h);
+    return vertices;
+}
+
 void join_idle_seams(SeamedMesh& mesh)
 {
     for_each_edge(mesh.fans, mesh.fan_count, [&](std::span<const Index> run) {

@@ -29,6 +29,9 @@ struct SeamedMesh {
 /// Numbers the fans again after the twins have changed.
 void number_fans(SeamedMesh& mesh);
 
+/// The vertex of the input at which each fan is.
+std::vector<Index> vertices_of_fans(const SeamedMesh& mesh);
+
 /// Joins seams that separate nothing: both sides have the same fans at their ends. The fans do not change.
 void join_idle_seams(SeamedMesh& mesh);
 
