@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 namespace koebe {
 
 TEST(Convergence, circles_change_by_the_distance_of_their_centres_and_radii)
@@ -15,6 +18,17 @@ TEST(Convergence, circles_change_by_the_distance_of_their_centres_and_radii)
     EXPECT_NEAR(circle_change(before, after), 0.13, 1e-15);
     EXPECT_FALSE(has_converged(before, after, 0.129));
     EXPECT_TRUE(has_converged(before, after, 0.131));
+}
+
+TEST(Convergence, rounds_that_come_no_nearer_are_a_standstill)
+{
+    std::vector<double> falling, rising;
+    for (int round = 0; round < 12; ++round) {
+        falling.push_back(std::pow(0.99, round));
+        rising.push_back(std::pow(1.01, round));
+        EXPECT_FALSE(is_at_standstill(falling));
+        EXPECT_EQ(is_at_standstill(rising), round >= 10);
+    }
 }
 
 }  // namespace koebe

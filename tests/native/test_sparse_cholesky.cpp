@@ -181,23 +181,26 @@ TEST(SparseCholesky, renewal_by_a_matrix_that_is_not_positive_definite_is_told_a
 TEST(SparseCholesky, blocks_that_change_leave_nothing_of_the_ones_before)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);
-    SparseCholesky cholesky(matrix, cliques[0], cliques);
     const MatrixXd f = MatrixXd::Random(matrix.rows(), 2);
-    for (const double scale : {0.5, 100.0, 0.0}) {
-        const std::vector<MatrixXd> blocks = blocks_on_cliques(scale);
-        cholesky.refactorize(blocks);
-        const MatrixXd inverse = with_blocks(matrix, blocks).inverse();
-        EXPECT_LT((cholesky.solve(f) - inverse * f).cwiseAbs().maxCoeff(), 1e-11) << scale;
-        const std::vector<MatrixXd> selected = cholesky.inverse_blocks(cliques);
-        for (std::size_t k = 0; k < cliques.size(); ++k)
-            EXPECT_LT((selected[k] - MatrixXd(inverse(cliques[k], cliques[k]))).cwiseAbs().maxCoeff(), 1e-12) << scale;
+    for (const bool by_fill : {false, true}) {
+        SparseCholesky cholesky(matrix, cliques[0], cliques, by_fill);
+        for (const double scale : {0.5, 100.0, 0.0}) {
+            const std::vector<MatrixXd> blocks = blocks_on_cliques(scale);
+            cholesky.refactorize(blocks);
+            const MatrixXd inverse = with_blocks(matrix, blocks).inverse();
+            EXPECT_LT((cholesky.solve(f) - inverse * f).cwiseAbs().maxCoeff(), 1e-11) << scale;
+            const std::vector<MatrixXd> selected = cholesky.inverse_blocks(cliques);
+            for (std::size_t k = 0; k < cliques.size(); ++k)
+                EXPECT_LT((selected[k] - MatrixXd(inverse(cliques[k], cliques[k]))).cwiseAbs().maxCoeff(), 1e-12)
+                    << scale;
+        }
     }
 }
 
 TEST(SparseCholesky, a_change_that_is_not_positive_definite_is_told_and_forgotten)
 {
     const SparseMatrix matrix = grid_with_cliques(cliques);
-    SparseCholesky cholesky(matrix, {}, cliques);
+    SparseCholesky cholesky(matrix, {}, cliques, false);
     EXPECT_THROW(cholesky.refactorize(blocks_on_cliques(-100.0)), SolverError);
     const std::vector<MatrixXd> blocks = blocks_on_cliques(1.0);
     cholesky.refactorize(blocks);

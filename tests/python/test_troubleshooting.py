@@ -15,8 +15,7 @@ NOT_CALLED_FROM_BLENDER = {"baselines", "certified", "cli", "fit", "flow", "io",
 
 # Errors that no mesh in Blender can cause: wrong calls, guards of inner steps, and what the add-on has ruled out.
 NOT_FROM_BLENDER = (
-    "the mesh has no vertices", "the mesh has no faces", "does not exist", "twice", "is closed: no face can be added",
-    "already has a face on that side", "cannot be linked with the fans", "separate parts (faces",
+    "the mesh has no vertices", "the mesh has no faces", "does not exist", "twice", "separate parts (faces",
     "must be shrunk at least once", "is no inner vertex", "no path joins", "points of a polygon coincide",
     "polygons cross", "a polygon", "there is no boundary loop", "dense ", "sparse factorization",
     "the order must name", "center and balance exclude", "a circle domain has one circle", "the first circle must be",

@@ -12,6 +12,8 @@
 namespace koebe {
 namespace {
 
+constexpr std::size_t many_around = 64;  // faces: round such a vertex they are looked at only if there are no others
+
 Eigen::RowVector3d middle_of(const CornersInSpace& at) { return (at[0] + at[1] + at[2]) / 3.0; }
 
 }  // namespace
@@ -32,9 +34,12 @@ Index NearFaces::nearest(Index fine) const
     const CutSurface& whole = proxy_.fine.whole;
     const Eigen::RowVector3d middle = middle_of(corners_of(whole.vertices, whole.surface.triangles, fine));
     std::pair<double, Index> best{std::numeric_limits<double>::infinity(), -1};
-    for (int k = 0; k < 3; ++k)
-        for (const Index face : around_[proxy_.coarse.vertex_at[whole.surface.triangles(fine, k)]])
-            best = std::min(best, {squared_distance(middle, face), face});
+    for (const bool among_many : {false, true})
+        for (int k = 0; k < 3 && (!among_many || best.second < 0); ++k) {
+            const std::vector<Index>& faces = around_[proxy_.coarse.vertex_at[whole.surface.triangles(fine, k)]];
+            if ((faces.size() > many_around) != among_many) continue;
+            for (const Index face : faces) best = std::min(best, {squared_distance(middle, face), face});
+        }
     return best.second;
 }
 

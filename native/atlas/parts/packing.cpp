@@ -24,7 +24,6 @@ constexpr double least_factor = 0.8;
 constexpr int most_scales = 600;
 constexpr double first_step = 0.04, last_step = 0.0005;  // larger by that share, halved where that has no room,
 constexpr double last_step_of_many = 0.008;
-constexpr std::size_t many_islands = 200;
 constexpr std::size_t islands_on_shelves = 1000;  // so many islands are packed by shelf_packing.h
 constexpr double least_gain = 0.002;              // what a further attempt has to bring
 constexpr int attempts_an_order = 24;             // before a new order is begun
@@ -40,7 +39,6 @@ constexpr double held = 0.8;             // or if one is that long, in sides of 
 constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that
 constexpr double worth_one_turn = 0.95;  // times the scale: less is given up so that equal islands lie alike
 constexpr double least_scale = 1e-4;     // of the first one that is tried, beside islands that keep their place
-constexpr double similar = 0.8;          // area over that of the island before which all places were looked at
 
 enum class Rule { lowest_top, lowest, smallest_square };
 constexpr std::array rules = {Rule::lowest_top, Rule::lowest, Rule::smallest_square};

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 namespace koebe {
@@ -16,7 +17,12 @@ namespace {
 
 constexpr std::size_t most_open = 16;  // sheets on which room is looked for
 
-/// A board for each sheet, of which the cells beyond the sheet are taken.
+/// A board for a sheet, of which the cells beyond the sheet are taken.
+struct OpenSheet {
+    CellBoard board;
+    int from = 0;  ///< row below which no room is looked for
+};
+
 class SheetPacker {
 public:
     SheetPacker(const std::vector<Outline>& outlines, double margin, const SheetSize& sheet)
@@ -39,22 +45,28 @@ public:
         std::iota(order.begin(), order.end(), 0);
         std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return islands_[k].area; });
         SheetPacking packing{std::vector<IslandPlace>(islands_.size()), std::vector<int>(islands_.size(), -1), 0};
+        double area = std::numeric_limits<double>::infinity();
         for (const std::size_t k : order) {
+            if (islands_[k].area < similar * area) {
+                area = islands_[k].area;
+                for (OpenSheet& sheet : sheets_) sheet.from = 0;
+            }
             const Complex corner(islands_[k].corner[0], islands_[k].corner[1]);
             packing.places[k] = {islands_[k].turn, 0.5 * margin * Complex(1.0, 1.0) - corner};
             CellSpot spot;
             if (!has_room_on_empty(drawn_[k])) continue;
             std::size_t open = 0;
-            while (open < boards_.size() && !find(boards_[open], drawn_[k], spot)) ++open;
-            if (open == boards_.size()) {
-                if (open == most_open) boards_.erase(boards_.begin());
-                boards_.push_back(empty());
-                open = boards_.size() - 1;
+            while (open < sheets_.size() && !find(sheets_[open], drawn_[k], spot)) ++open;
+            if (open == sheets_.size()) {
+                if (open == most_open) sheets_.erase(sheets_.begin());
+                sheets_.push_back({empty()});
+                open = sheets_.size() - 1;
                 ++packing.sheets;
-                if (!find(boards_[open], drawn_[k], spot)) throw SolverError("an island has no room on its sheet");
+                if (!find(sheets_[open], drawn_[k], spot)) throw SolverError("an island has no room on its sheet");
             }
-            boards_[open].take(drawn_[k][spot.turn].shape, spot.x, spot.y);
-            packing.sheet[k] = packing.sheets - static_cast<int>(boards_.size() - open);
+            sheets_[open].board.take(drawn_[k][spot.turn].shape, spot.x, spot.y);
+            if (islands_.size() >= many_islands) sheets_[open].from = spot.y;
+            packing.sheet[k] = packing.sheets - static_cast<int>(sheets_.size() - open);
             const double length = static_cast<double>(grid_cell) * side_ / unit_;
             packing.places[k] = place_of_spot(islands_[k], drawn_[k], spot, unit_ * length, 1.0 / length);
             packing.places[k].offset *= length;
@@ -86,13 +98,13 @@ private:
     }
 
     /// The lowest place, then the leftmost.
-    bool find(const CellBoard& board, const DrawnTurns& turns, CellSpot& spot) const
+    bool find(OpenSheet& sheet, const DrawnTurns& turns, CellSpot& spot) const
     {
         std::array<int, 2> best = {INT_MAX, INT_MAX};
         for (int t = 0; t < 4; ++t) {
             const CellShape& shape = turns[t].shape;
-            for (int y = 0; y + shape.height <= rows_ && y + shape.height <= best[0]; ++y) {
-                const int x = board.first_room(shape, turns[t].order, y);
+            for (int y = sheet.from; y + shape.height <= rows_ && y + shape.height <= best[0]; ++y) {
+                const int x = sheet.board.first_room(shape, turns[t].order, y);
                 if (x < 0) continue;
                 if (const std::array score = {y + shape.height, x + shape.width}; score < best) {
                     best = score;
@@ -101,7 +113,9 @@ private:
                 break;
             }
         }
-        return best[0] < INT_MAX;
+        const bool is_found = best[0] < INT_MAX;
+        if (!is_found && islands_.size() >= many_islands) sheet.from = rows_;
+        return is_found;
     }
 
     const int side_;
@@ -109,7 +123,7 @@ private:
     const int columns_, rows_;
     std::vector<UprightIsland> islands_;
     std::vector<DrawnTurns> drawn_;
-    std::vector<CellBoard> boards_;  // of the last sheets
+    std::vector<OpenSheet> sheets_;  // the last ones
 };
 
 }  // namespace

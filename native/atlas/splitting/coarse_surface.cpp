@@ -18,6 +18,7 @@ using Vertex = HalfedgeMesh::VertexHandle;
 using Halfedge = HalfedgeMesh::HalfedgeHandle;
 
 constexpr double least_cosine = 0.2;  // of the angle by which a collapse turns a face
+constexpr int hub = 500;              // faces: a vertex with more of them goes nowhere, and its faces are not looked at
 
 OpenMesh::Vec3d normal(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const OpenMesh::Vec3d& c)
 {
@@ -28,12 +29,14 @@ class Coarsening {
 public:
     Coarsening(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& image,
                const std::vector<char>& border)
-        : mesh(to_halfedge_mesh(vertices, triangles)),
+        : mesh(to_halfedge_mesh(vertices, analyze_surface(triangles, static_cast<Index>(vertices.rows())))),
           parent(static_cast<std::size_t>(vertices.rows())),
           image_(image),
           border_(border),
-          reach_(parent.size(), 0.0)
+          reach_(parent.size(), 0.0),
+          around_(parent.size(), 0)
     {
+        for (const Index v : triangles.reshaped()) ++around_[v];
         note_tips(vertices, triangles);
         mesh.request_vertex_status();
         mesh.request_halfedge_status();
@@ -152,8 +155,10 @@ private:
 
     bool may_collapse(Halfedge h)
     {
+        if (is_hub(mesh.from_vertex_handle(h))) return false;
         if (mesh.is_boundary(mesh.from_vertex_handle(h)) && !mesh.is_boundary(mesh.edge_handle(h))) return false;
-        return keeps_border(h) && mesh.is_collapse_ok(h) && stays_upright(h);
+        const bool is_manifold = is_hub(mesh.to_vertex_handle(h)) ? stays_manifold_at_hub(h) : mesh.is_collapse_ok(h);
+        return keeps_border(h) && is_manifold && stays_upright(h);
     }
 
     /// The mirror image of a half-edge; and whether it has none because its vertices have none.
@@ -170,20 +175,39 @@ private:
     void collapse(Halfedge h)
     {
         const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        const bool at_hub = is_hub(to);
+        std::vector<Edge> changed;  // edges with another end or reach
+        if (at_hub) changed.assign(mesh.cve_begin(from), mesh.cve_end(from));
+        around_[to.idx()] += around_[from.idx()] - 2;
         left_ -= mesh.is_boundary(mesh.edge_handle(h)) ? 1 : 2;
         reach_[to.idx()] = std::max(reach_[to.idx()], reach_after(h));
         mesh.collapse(h);
         parent[from.idx()] = to.idx();
-        for (auto out = mesh.cvoh_iter(to); out.is_valid(); ++out) {
-            const Edge next = mesh.edge_handle(*out);
-            queue_.emplace(reach_after(first_choice(next)), next.idx());
-        }
+        if (!at_hub) changed.assign(mesh.cve_begin(to), mesh.cve_end(to));
+        for (const Edge next : changed)
+            if (!mesh.status(next).deleted()) queue_.emplace(reach_after(first_choice(next)), next.idx());
+    }
+
+    bool is_hub(Vertex v) const { return around_[v.idx()] > hub; }
+
+    /// The link condition, without a walk round the target: both ends have only the opposite corners in common, and the
+    /// edge does not join two places of the boundary.
+    bool stays_manifold_at_hub(Halfedge h) const
+    {
+        const Vertex from = mesh.from_vertex_handle(h), to = mesh.to_vertex_handle(h);
+        const Halfedge back = mesh.opposite_halfedge_handle(h);
+        if (mesh.is_boundary(from) && mesh.is_boundary(to) && !mesh.is_boundary(mesh.edge_handle(h))) return false;
+        int common = 0;
+        for (auto v = mesh.cvv_iter(from); v.is_valid(); ++v)
+            common += *v != to && mesh.find_halfedge(*v, to).is_valid();
+        return common == !mesh.is_boundary(h) + !mesh.is_boundary(back);
     }
 
     const std::vector<Index>& image_;  // (V)
     const std::vector<char>& border_;  // (V)
     // (V) how far a vertex has drawn others: without it a vertex would go along a row of equal edges to its end.
     std::vector<double> reach_;
+    std::vector<int> around_;  // (V) about the number of faces
     Queue queue_;
     Index left_ = 0;  // faces
 };

@@ -103,10 +103,10 @@ private:
         std::size_t largest = 0;
         for (std::size_t k = 0; k < area.size(); ++k)
             if (first[k] && (!first[largest] || area[k] > area[largest])) largest = k;
+        const double least = least_piece_of_side * whole_.areas.sum();
         for (std::size_t f = 0; f < piece.size(); ++f) {
             const auto own = static_cast<std::size_t>(piece[f]);
-            if (first[own] ? own != largest : area[own] < least_piece_of_side * whole_.areas.sum())
-                is_first[f] = !is_first[f];
+            if (first[own] ? own != largest : area[own] < least) is_first[f] = !is_first[f];
         }
     }
 
@@ -258,12 +258,22 @@ void note_others(const CutSurface& whole, const Sides& sides, CoarseSurface& coa
                 coarse.vertex_at[w] = coarse.vertex_at[v];
 }
 
+/// Whether a vertex has so many faces that boxes do not tell them apart: images are found in a tree of boxes.
+bool has_needles(const CutSurface& whole)
+{
+    constexpr int most_around = 500;
+    std::vector<int> around(static_cast<std::size_t>(whole.vertices.rows()), 0);
+    for (const Index v : whole.surface.triangles.reshaped()) ++around[v];
+    return std::ranges::max(around) > most_around;
+}
+
 }  // namespace
 
 std::optional<CoarseSurface> mirrored_coarse_surface(const CutSurface& whole, const MirrorPlane& plane,
                                                      const std::vector<Index>& image, Index faces,
                                                      ExecutionContext& context)
 {
+    if (has_needles(whole)) return {};
     // One side, with its border in the plane.
     Sides sides(whole, plane);
     if (!sides.smooth()) return {};

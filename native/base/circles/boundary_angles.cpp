@@ -51,9 +51,10 @@ VectorXcd unit_circle_points(const VectorXd& angles)
 VectorXd arc_length_angles(const VectorXd& edges)
 {
     VectorXd angles(edges.size());
+    const double length = edges.sum();
     double walked = 0.0;
     for (Eigen::Index b = 0; b < edges.size(); ++b) {
-        angles[b] = 2.0 * pi * walked / edges.sum();
+        angles[b] = 2.0 * pi * walked / length;
         walked += edges[b];
     }
     return angles;

@@ -29,7 +29,7 @@ SparseMatrix with_room_for_disks(const SparseMatrix& laplacian, const std::vecto
     for (std::size_t k = 0; k < loops.size(); ++k) {
         for (const Index v : loops[k]) loop_of[v] = static_cast<Index>(k);
         std::sort(sorted[k].begin(), sorted[k].end());
-        entries += static_cast<std::ptrdiff_t>(loops[k].size() * loops[k].size());
+        if (k != first) entries += static_cast<std::ptrdiff_t>(loops[k].size() * loops[k].size());
     }
     // Merges each sorted column of K with the sorted rows of its loop.
     SparseMatrix result(laplacian.rows(), laplacian.cols());
@@ -100,7 +100,8 @@ FilledLaplacian::FilledLaplacian(const SparseMatrix& laplacian, const std::vecto
       cholesky_([&] {
           for (const NodedLoop& noded : noded_) factor_size_ += static_cast<Index>(noded.ties.size());
           const std::vector<std::vector<Index>> rows = disk_rows();
-          return SparseCholesky(with_room_for_disks(with_nodes(laplacian), rows), rows[1], changing_rows());
+          const bool has_nodes = rows[1].front() >= surface_size_;
+          return SparseCholesky(with_room_for_disks(with_nodes(laplacian), rows), rows[1], changing_rows(), has_nodes);
       }())
 {
 }

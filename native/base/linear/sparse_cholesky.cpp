@@ -77,8 +77,8 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Ind
 }
 
 SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last,
-                               const std::vector<std::vector<Index>>& changing)
-    : impl_(Impl::of(analyze(matrix, last), last))
+                               const std::vector<std::vector<Index>>& changing, bool by_fill)
+    : impl_(Impl::of(analyze(matrix, last, by_fill), last))
 {
     impl_->fronts = std::make_unique<MultifrontalFactor>(impl_->l, matrix, changing);
 }

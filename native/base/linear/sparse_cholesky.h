@@ -22,8 +22,9 @@ public:
 
     /// Prepares factors of A + blocks on some sets of rows, A = matrix. refactorize(blocks) makes the first factor.
     /// @param changing the sets; A has an entry, if only an explicit 0, between any two rows of a set
+    /// @param by_fill whether the order weighs the fill in B (factor/elimination_order.h)
     SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last,
-                   const std::vector<std::vector<Index>>& changing);
+                   const std::vector<std::vector<Index>>& changing, bool by_fill);
     ~SparseCholesky();
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;

@@ -32,4 +32,10 @@ bool has_converged(const CircleState& before_sweep, const CircleState& after, do
     return after.circles.size() == 2 || circle_change(before_sweep, after) < tolerance;
 }
 
+bool is_at_standstill(const std::vector<double>& changes)
+{
+    constexpr std::size_t patience = 10;  // rounds
+    return changes.size() > patience && !(changes.back() < changes[changes.size() - 1 - patience]);
+}
+
 }  // namespace koebe

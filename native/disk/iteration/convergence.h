@@ -24,4 +24,8 @@ double circle_change(const CircleState& before, const CircleState& after);
 /// depend on the state before.
 bool has_converged(const CircleState& before_sweep, const CircleState& after, double tolerance);
 
+/// Whether more rounds would be in vain: the last one moved the circles as far as the one ten rounds before.
+/// @param changes of all rounds so far
+bool is_at_standstill(const std::vector<double>& changes);
+
 }  // namespace koebe

@@ -298,6 +298,7 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
                                          ? round_of_changing_pairs(loop_count)
                                          : std::vector<Sweep>{fixed_sweep(loop_count, options.method)};
     CircleState now, at_round_start;
+    std::vector<double> changes;  // of each round
     while (!outcome.converged && outcome.sweeps < options.max_sweeps) {
         const Sweep& sweep = round[outcome.sweeps % round.size()];
         if (&sweep == &round.front()) at_round_start = now;
@@ -322,7 +323,10 @@ KoebeMeshResult koebe_mesh(const Vertices& vertices, const Triangles& triangles,
         }
         ++outcome.sweeps;
         outcome.raised_angles = state.take_raised();
-        outcome.converged = &sweep == &round.back() && has_converged(at_round_start, now, options.tolerance);
+        if (&sweep != &round.back()) continue;
+        outcome.converged = has_converged(at_round_start, now, options.tolerance);
+        changes.push_back(circle_change(at_round_start, now));
+        if (is_at_standstill(changes)) break;
     }
     return result;
 }

@@ -40,7 +40,8 @@ struct KoebeMeshResult {
 ///
 /// After each step the map takes S and D_1..D_n to the unit disk. It is harmonic, with loop 0 where the last step that
 /// opened it has put it. Circles are fitted to the map by least squares. The iteration stops when (sum |c' - c|^2 +
-/// r' - r|^2)^(1/2) falls under the tolerance over a sweep, with changing partners over a round of sweeps.
+/// r' - r|^2)^(1/2) falls under the tolerance over a sweep, with changing partners over a round of sweeps. It stops
+/// without converging if ten rounds have not lowered this number.
 ///
 /// With one loop the result is disk_map's up to an automorphism, with two loops that of a single step.
 ///

@@ -3,7 +3,6 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "core/sort_unique.h"
-#include "mesh/halfedge_mesh.h"
 #include "planar/planar_predicates.h"
 
 #include <cmath>
@@ -109,23 +108,26 @@ FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
 {
     validate_arrays(vertices, triangles);
     const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
-    HalfedgeMesh mesh = to_halfedge_mesh(vertices, surface.triangles);
-    std::vector<Index> label(surface.triangles.rows(), -1);
-    for (const Index k : chosen_ranks(surface, loops)) {
+    const std::vector<Index> ranks = chosen_ranks(surface, loops);
+    Eigen::Index rows = triangles.rows();
+    for (const Index k : ranks) rows += static_cast<Eigen::Index>(surface.loops[k].size());
+    FilledSurface filled{Vertices(vertices.rows() + static_cast<Eigen::Index>(ranks.size()), 3), Triangles(rows, 3),
+                         std::vector<Index>(surface.triangles.rows(), -1), filling_warnings(surface.reoriented)};
+    filled.vertices.topRows(vertices.rows()) = vertices;
+    filled.triangles.topRows(triangles.rows()) = triangles;
+    auto added = static_cast<Index>(vertices.rows());
+    Eigen::Index row = triangles.rows();
+    for (const Index k : ranks) {
         const VertexLoop& loop = surface.loops[k];
         const SurfacePatch patch = fill_on_surface(vertices(loop, Eigen::all));
-        const auto center = patch.vertices.row(patch.vertices.rows() - 1);
-        const Index added = mesh.add_vertex(OpenMesh::Vec3d(center[0], center[1], center[2])).idx();
+        filled.vertices.row(added) = patch.vertices.row(patch.vertices.rows() - 1);
         const auto global = [&](Index i) { return i < static_cast<Index>(loop.size()) ? loop[i] : added; };
-        for (Eigen::Index f = 0; f < patch.triangles.rows(); ++f)
-            add_triangle(mesh, global(patch.triangles(f, 0)), global(patch.triangles(f, 1)),
-                         global(patch.triangles(f, 2)));
-        label.insert(label.end(), patch.triangles.rows(), k);
+        for (const auto corners : patch.triangles.rowwise())
+            filled.triangles.row(row++) << global(corners[0]), global(corners[1]), global(corners[2]);
+        filled.label.insert(filled.label.end(), patch.triangles.rows(), k);
+        ++added;
     }
-    MeshArrays arrays = to_arrays(mesh);
-    arrays.triangles.topRows(triangles.rows()) = triangles;
-    return {std::move(arrays.vertices), std::move(arrays.triangles), std::move(label),
-            filling_warnings(surface.reoriented)};
+    return filled;
 }
 
 }  // namespace koebe

@@ -1,66 +1,44 @@
 #include "mesh/halfedge_mesh.h"
 
-#include "core/errors.h"
-#include "core/process_setting.h"
+#include "core/connectivity.h"
 
-#include <string>
+#include <vector>
 
 namespace koebe {
-namespace {
 
-/// OpenMesh prints errors on its error stream. The library never prints.
-struct OpenMeshErrorsDisabled {
-    OpenMeshErrorsDisabled() { omerr().disable(); }
-    ~OpenMeshErrorsDisabled() { omerr().enable(); }
-};
-using SilentOpenMesh = ProcessSetting<OpenMeshErrorsDisabled>;
-
-void require_free_edge(const HalfedgeMesh& mesh, HalfedgeMesh::VertexHandle from, HalfedgeMesh::VertexHandle to)
+HalfedgeMesh to_halfedge_mesh(const Vertices& vertices, const Surface& surface)
 {
-    const auto halfedge = mesh.find_halfedge(from, to);
-    if (halfedge.is_valid() && !mesh.is_boundary(halfedge))
-        throw TopologyError(TopologyKind::nonmanifold_edge,
-                            "the edge from vertex " + std::to_string(from.idx()) + " to " + std::to_string(to.idx()) +
-                                " already has a face on that side",
-                            {from.idx(), to.idx()});
-}
-
-}  // namespace
-
-HalfedgeMesh::FaceHandle add_triangle(HalfedgeMesh& mesh, Index a, Index b, Index c)
-{
-    const Index corners[3] = {a, b, c};
-    HalfedgeMesh::VertexHandle handles[3];
-    for (int k = 0; k < 3; ++k) {
-        if (corners[k] < 0 || corners[k] >= static_cast<Index>(mesh.n_vertices()))
-            throw InputError("a face names vertex " + std::to_string(corners[k]) + ", which does not exist");
-        if (corners[k] == corners[(k + 1) % 3])
-            throw InputError("a face names vertex " + std::to_string(corners[k]) + " twice", ElementKind::vertices,
-                             {corners[k]});
-        handles[k] = HalfedgeMesh::VertexHandle(corners[k]);
-    }
-    for (int k = 0; k < 3; ++k) require_free_edge(mesh, handles[k], handles[(k + 1) % 3]);
-    for (const auto vertex : handles)
-        if (!mesh.is_boundary(vertex))
-            throw TopologyError(TopologyKind::nonmanifold_vertex,
-                                "vertex " + std::to_string(vertex.idx()) + " is closed: no face can be added there",
-                                {vertex.idx()});
-    const SilentOpenMesh silent;
-    const auto face = mesh.add_face(handles, 3);
-    if (!face.is_valid())
-        throw TopologyError(TopologyKind::nonmanifold_vertex,
-                            "a face cannot be linked with the fans round its vertices (vertices listed)", {a, b, c});
-    return face;
-}
-
-HalfedgeMesh to_halfedge_mesh(const Vertices& vertices, const Triangles& triangles)
-{
+    using Halfedge = HalfedgeMesh::HalfedgeHandle;
+    using Vertex = HalfedgeMesh::VertexHandle;
+    const auto count = static_cast<Index>(surface.twin.size());
     HalfedgeMesh mesh;
-    mesh.reserve(vertices.rows(), vertices.rows() + triangles.rows() + 1, triangles.rows());
+    mesh.reserve(vertices.rows(), vertices.rows() + surface.triangles.rows() + 1, surface.triangles.rows());
     for (Eigen::Index v = 0; v < vertices.rows(); ++v)
         mesh.add_vertex(OpenMesh::Vec3d(vertices(v, 0), vertices(v, 1), vertices(v, 2)));
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        add_triangle(mesh, triangles(f, 0), triangles(f, 1), triangles(f, 2));
+    std::vector<Halfedge> handle(surface.twin.size());
+    for (Index h = 0; h < count; ++h) {
+        if (handle[h].is_valid()) continue;
+        handle[h] = mesh.new_edge(Vertex(origin(surface.triangles, h)), Vertex(target(surface.triangles, h)));
+        if (surface.twin[h] != no_twin) handle[surface.twin[h]] = mesh.opposite_halfedge_handle(handle[h]);
+    }
+    // Faces, each with the half-edge that ends at its first corner.
+    for (Index h = 0; h < count; h += 3) {
+        const auto face = mesh.new_face();
+        mesh.set_halfedge_handle(face, handle[h + 2]);
+        for (Index k = 0; k < 3; ++k) {
+            mesh.set_face_handle(handle[h + k], face);
+            mesh.set_next_halfedge_handle(handle[h + k], handle[h + (k + 1) % 3]);
+            mesh.set_halfedge_handle(Vertex(origin(surface.triangles, h + k)), handle[h + k]);
+        }
+    }
+    // The boundary runs the other way. A boundary vertex keeps its outgoing half-edge on the boundary.
+    for (Index h = 0; h < count; ++h)
+        if (surface.twin[h] == no_twin)
+            mesh.set_halfedge_handle(Vertex(target(surface.triangles, h)), mesh.opposite_halfedge_handle(handle[h]));
+    for (Index h = 0; h < count; ++h)
+        if (surface.twin[h] == no_twin)
+            mesh.set_next_halfedge_handle(mesh.opposite_halfedge_handle(handle[h]),
+                                          mesh.halfedge_handle(Vertex(origin(surface.triangles, h))));
     return mesh;
 }
 

@@ -1,7 +1,8 @@
-// OpenMesh's half-edge mesh. Only this file calls its add_face.
+// OpenMesh's half-edge mesh.
 #pragma once
 
 #include "core/types.h"
+#include "mesh/topology.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
@@ -14,15 +15,9 @@ struct DoublePoints : OpenMesh::DefaultTraits {
 
 using HalfedgeMesh = OpenMesh::TriMesh_ArrayKernelT<DoublePoints>;
 
-/// Adds a triangle. Throws where OpenMesh's own add_face would print and return an invalid handle.
-/// @throws InputError a vertex that does not exist, or the same one twice
-/// @throws TopologyError nonmanifold_edge: the edge already has a face on that side (elements: its vertices);
-///         nonmanifold_vertex: the vertex is closed, or would join separate fans (elements: the vertices)
-HalfedgeMesh::FaceHandle add_triangle(HalfedgeMesh& mesh, Index a, Index b, Index c);
-
-/// Makes a half-edge mesh with the same vertices and faces in the same order.
-/// @throws as add_triangle
-HalfedgeMesh to_halfedge_mesh(const Vertices& vertices, const Triangles& triangles);
+/// Makes a half-edge mesh with the same vertices and faces in the same order. It takes the twins from the surface:
+/// OpenMesh's add_face looks for each edge round its vertex, which takes the square of a vertex's faces.
+HalfedgeMesh to_halfedge_mesh(const Vertices& vertices, const Surface& surface);
 
 struct MeshArrays {
     Vertices vertices;

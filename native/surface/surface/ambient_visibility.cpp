@@ -15,6 +15,34 @@ namespace {
 constexpr int directions = 32;
 constexpr double golden_angle = 2.399963229728653;  // the turn from one direction to the next: they spread evenly
 constexpr double off_surface = 1e-3;                // start of a ray, over the extent
+constexpr int most_looks = 200;                     // at boxes and faces, for a ray: needles that cross have no tree
+
+using TreeTraits = TriangleTree::AABB_traits;
+
+/// Looks for a face in the way of a ray; the parts are those that CGAL's traversal of a tree asks for.
+class WayOfRay {
+public:
+    explicit WayOfRay(const TreeTraits& traits) : traits_(traits) {}
+
+    bool go_further() const { return !is_blocked_ && looks_ < most_looks; }
+    void intersection(const TreeKernel::Ray_3& ray, const NumberedTriangle& face)
+    {
+        ++looks_;
+        is_blocked_ = is_blocked_ || traits_.do_intersect_object()(ray, face);
+    }
+    template <typename Node>
+    bool do_intersect(const TreeKernel::Ray_3& ray, const Node& node)
+    {
+        ++looks_;
+        return traits_.do_intersect_object()(ray, node.bbox());
+    }
+    bool is_blocked() const { return is_blocked_; }
+
+private:
+    const TreeTraits& traits_;
+    int looks_ = 0;
+    bool is_blocked_ = false;
+};
 
 /// Normals of vertices, weighted by area, towards the outer side. Each has the length of twice the area round it.
 Vertices outward_normals(const Vertices& vertices, const Triangles& triangles)
@@ -64,7 +92,9 @@ VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles
             const Eigen::RowVector3d to =
                 std::sqrt(share) * (std::cos(angle) * along + std::sin(angle) * across) + std::sqrt(1.0 - share) * up;
             const TreeKernel::Ray_3 ray({start[0], start[1], start[2]}, TreeKernel::Vector_3(to[0], to[1], to[2]));
-            free += !tree.do_intersect(ray);
+            WayOfRay way(tree.traits());
+            tree.traversal(ray, way);
+            free += !way.is_blocked();
         }
         seen[v] = static_cast<double>(free) / directions;
     }

@@ -161,12 +161,14 @@ Supernodes supernodes_by_groups(const SparseMatrix& matrix)
     return l;
 }
 
-/// @param last rows B that are kept to the end
-Supernodes supernodes_with_last(const SparseMatrix& matrix, const std::vector<Index>& last)
+/// @param last rows B that are kept to the end @param by_fill see analyze()
+Supernodes supernodes_with_last(const SparseMatrix& matrix, const std::vector<Index>& last, bool by_fill)
 {
     const auto ordered = [&](bool forced) {
         CholmodCommon common;
-        return supernodes_in_order(matrix, elimination_order(matrix, last, forced, common), !forced, common);
+        std::vector<Index> order = by_fill && !forced ? elimination_order_by_fill(matrix, last, common)
+                                                      : elimination_order(matrix, last, forced, common);
+        return supernodes_in_order(matrix, std::move(order), !forced, common);
     };
     // CHOLMOD's own postorder keeps B last whenever the graph of A_II is connected. Otherwise order and postorder A_II
     // by itself and forbid any further change.
@@ -320,11 +322,11 @@ double Analysis::memory() const
     return sizeof(double) * numbers;
 }
 
-Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last)
+Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last, bool by_fill)
 {
     Analysis result;
     Supernodes& l = result.supernodes;
-    l = last.empty() ? supernodes_by_groups(matrix) : supernodes_with_last(matrix, last);
+    l = last.empty() ? supernodes_by_groups(matrix) : supernodes_with_last(matrix, last, by_fill);
     result.tops = l.size();
     result.piece_count = 1;
     result.parts.push_back({0, l.size(), 0, l.count(), {}, {}});

@@ -31,8 +31,9 @@ struct Analysis {
 
 /// Analyzes a matrix as one piece with CHOLMOD, in the order of AMD.
 /// @param matrix symmetric: the lower triangle, or both triangles @param last rows that are kept to the end
+/// @param by_fill whether the order weighs the fill in the last rows (elimination_order_by_fill)
 /// @throws OutOfMemory where the factor would not fit
-Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last);
+Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last, bool by_fill = false);
 
 /// Analyzes a matrix by nested dissection. @return nothing if the graph cannot be cut
 /// @param matrix both triangles @param last rows kept to the end @param piece_rows about the largest size of a piece

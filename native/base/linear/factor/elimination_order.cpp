@@ -46,4 +46,17 @@ std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vect
     return order;
 }
 
+std::vector<Index> elimination_order_by_fill(const SparseMatrix& matrix, const std::vector<Index>& last,
+                                             CholmodCommon& common)
+{
+    std::vector<Index> order(matrix.rows());
+    cholmod_sparse lower = view(matrix, -1);
+    common.require(cholmod_amd(&lower, nullptr, 0, order.data(), common.get()) != 0, "ordering");
+    std::vector<char> is_last(matrix.rows(), 0);
+    for (const Index v : last) is_last[v] = 1;
+    std::erase_if(order, [&](Index v) { return is_last[v] != 0; });
+    order.insert(order.end(), last.begin(), last.end());
+    return order;
+}
+
 }  // namespace koebe::detail

@@ -13,4 +13,9 @@ namespace koebe::detail {
 std::vector<Index> elimination_order(const SparseMatrix& matrix, const std::vector<Index>& last, bool postordered,
                                      CholmodCommon& common);
 
+/// The order of least degree of all rows, from which the last ones are moved to the end. The fill in them counts: where
+/// each of many last rows touches a few others, a chain of eliminations would fill them all.
+std::vector<Index> elimination_order_by_fill(const SparseMatrix& matrix, const std::vector<Index>& last,
+                                             CholmodCommon& common);
+
 }  // namespace koebe::detail
