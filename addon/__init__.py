@@ -32,6 +32,7 @@ def _parts() -> tuple[ModuleType, ...]:
         option_presets,
         pack,
         parts,
+        render_layer,
         select_from_report,
         sequence,
         symmetrize,
@@ -54,7 +55,7 @@ def _parts() -> tuple[ModuleType, ...]:
         option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
         compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, flat_copy, even_slider,
-        lift, node_groups, hole_rings,
+        render_layer, lift, node_groups, hole_rings,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 

@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..blender import checker, map_writing, mesh_reading, sequence_player, uv_layers
+from ..blender import checker, map_writing, mesh_reading, rendered_layer, sequence_player, uv_layers
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, reason, with_own_meshes
@@ -244,6 +244,7 @@ class Job:
                 "Cuts, joins them in the UVs"
             )
         self._put_checker(run, outcome, plan.obj, material)
+        outcome.hints = rendered_layer.sentences(plan.obj, plan.layer)
 
     @staticmethod
     def _put_checker(run: Transaction, outcome: Any, obj: MeshObject, material: bpy.types.Material | None) -> None:

@@ -60,6 +60,7 @@ class Outcome:
     not_written  why nothing of it could be written, or None
     remarks      notes on the object beside its islands
     chosen       the shape that was taken and why, if nobody has chosen
+    hints        which other UV layers its materials show. The panel looks anew whenever it is drawn
     """
 
     task: Task
@@ -67,6 +68,7 @@ class Outcome:
     not_written: str | None = dataclasses.field(default=None, kw_only=True)
     remarks: list[str] = dataclasses.field(default_factory=list, kw_only=True)
     chosen: str = dataclasses.field(default="", kw_only=True)
+    hints: list[str] = dataclasses.field(default_factory=list, kw_only=True)
 
     @property
     def name(self) -> str:

@@ -3,6 +3,8 @@
 
 import bpy
 
+from ..blender import checker
+from ..blender.mesh_object import mesh_objects
 from ..maps.option_table import ROWS
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
@@ -56,6 +58,8 @@ def draw_object_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
 def draw_export_menu(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     """The entry in File ▸ Export."""
     self.layout.operator(UV_OT_koebe_flat_svg.bl_idname, text="Koebe Flat Pieces (.svg)")
+    if any(map(checker.is_on, mesh_objects(context.scene.objects))):
+        self.layout.label(text="The Koebe checker is on: its materials would be exported", icon="ERROR")
 
 
 MENUS = {

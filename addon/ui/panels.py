@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel "Koebe UV" in the sidebars of the 3D View and the UV Editor: its main part, and the registration."""
 
+from typing import Any
+
 import bpy
 
-from ..blender import checker, distortion_attribute
+from ..blender import checker, distortion_attribute, rendered_layer
 from ..blender.targets import target_objects
 from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.even_slider import UV_OT_koebe_even
+from ..operators.render_layer import UV_OT_koebe_use_for_rendering
 from ..operators.run_operator import is_used
 from ..operators.unwrap import MAPS
 from ..state.option_properties import KoebeSettings, option_names, settings_of
@@ -65,6 +68,12 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
     switch.layer, switch.checker_size, switch.checker_even = (
         settings.layer, settings.checker_size, settings.checker_even,
     )  # fmt: skip
+    if worn:
+        column.label(text="Take it off before you export", icon="INFO")
+    if objects and rendered_layer.hidden_by(objects[0], settings.layer):
+        icon: Any = "RESTRICT_RENDER_OFF"
+        render = column.operator(UV_OT_koebe_use_for_rendering.bl_idname, text="Use for Rendering", icon=icon)
+        render.layer = settings.layer
     shading = getattr(context.space_data, "shading", None)
     if worn and shading is not None and shading.type in {"WIREFRAME", "SOLID"}:
         row = column.row()

@@ -6,6 +6,7 @@ from typing import Any, Literal
 
 import bpy
 
+from ..blender import rendered_layer
 from ..maps.verdicts import Figure, figures, is_good
 from ..maps.wording import counted
 from ..operators.select_from_report import (
@@ -96,6 +97,7 @@ class ReportPanel(KoebePanel):
             draw_unroll(layout, context, entry)
             for number, warning in enumerate(entry.warnings):
                 draw_warning(layout.box().column(align=True), number, warning)
+            draw_layers(layout.column(align=True), entry)
         most = 0 if report.show_all else MOST_LINES
         note = "" if entry.moved else entry.note  # which speaks of the map before
         said = ("" if entry.mapped else entry.message, note, entry.moved)
@@ -115,6 +117,14 @@ def draw_figure(column: bpy.types.UILayout, figure: Figure) -> None:
     split.label(text=figure.name, icon="CHECKMARK" if figure.is_good else "ERROR")
     split.label(text=figure.value)
     draw_message(column, figure.advice)
+
+
+def draw_layers(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
+    """Which other UV layers are shown where the object's materials are."""
+    obj: Any = bpy.data.objects.get((entry.object_name, None))
+    if obj is not None and obj.type == "MESH":
+        for sentence in rendered_layer.sentences(obj, entry.layer):
+            draw_message(column, sentence)
 
 
 def draw_warning(column: bpy.types.UILayout, number: int, warning: KoebeWarningReport) -> None:
