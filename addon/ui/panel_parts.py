@@ -59,7 +59,7 @@ def draw_map_button(column: bpy.types.UILayout, settings: KoebeSettings, of: str
 def draw_pack(layout: bpy.types.UILayout, settings: KoebeSettings) -> None:
     """The button that packs a UV layer, with the panel's options."""
     button = layout.operator(UV_OT_koebe_pack.bl_idname, text="Pack Only", icon="PACKAGE")
-    for name in ("margin", "pixels", "average_scale", "seconds", "keep_places"):
+    for name in ("margin", "pixels", "average_scale", "tiles", "seconds", "keep_places"):
         setattr(button, name, getattr(settings, name))
 
 

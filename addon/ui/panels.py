@@ -18,6 +18,7 @@ from ..state.run_report import report_of
 from .circle_tool import CIRCLES_TOOL
 from .lift_panel import LiftPanel
 from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, SequencePanel, ToolsPanel
+from .packing_panel import PackingPanel
 from .panel_parts import KoebePanel, draw_unwrap
 from .preset_menu import KOEBE_PT_presets
 from .report_panel import DetailsPanel, KOEBE_UL_islands, ReportPanel
@@ -119,6 +120,7 @@ CHILDREN = {
     "disk": DiskPanel,
     "parts": PartsPanel,
     "domains": DomainsPanel,
+    "packing": PackingPanel,
     "layer": LayerPanel,
     "tools": ToolsPanel,
     "lift": LiftPanel,
