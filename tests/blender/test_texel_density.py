@@ -19,15 +19,6 @@ def middles(obj):
     return scenes.corner_uv(obj.data, "Old").reshape(6, 4, 2).mean(axis=1)
 
 
-def pin_first(obj):
-    """Pin the first face's UVs."""
-    layer, flags = obj.data.uv_layers["Old"], [True] * 4 + [False] * 20
-    if hasattr(layer, "pin"):
-        layer.pin.foreach_set("value", flags)
-    else:
-        layer.data.foreach_set("pin_uv", flags)
-
-
 def test_measured_of_all_of_the_selection_and_of_islands():
     """Faces of 2 x 2 units with squares of sides 1 to 6: 0.5 to 3 sides per unit."""
     obj = scattered_cube()
@@ -56,7 +47,7 @@ def test_told_in_the_units_of_the_scene(addon, system, scale, expected):
 def test_each_island_gets_the_density_about_its_middle_and_pins_stay(mode):
     obj = scattered_cube()
     obj.scale = (2.0, 2.0, 2.0)  # faces of 4 x 4 units
-    pin_first(obj)
+    scenes.pin(obj.data, "Old", [True] * 4 + [False] * 20)
     before, lengths = middles(obj), sides(obj)
     if mode == "EDIT":
         scenes.select_faces(obj, [0, 2, 3])
