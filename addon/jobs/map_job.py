@@ -66,7 +66,7 @@ class Job:
             )  # fmt: skip
         if options.outer == "active" and all(task.outer == "auto" for task in self.tasks):
             raise TransferError(
-                "Outer Loop is Active Vertex, but no vertex is active: in Edit Mode, select a vertex of the boundary"
+                "Outer Boundary is Active Vertex, but no vertex is active: in Edit Mode, select a vertex of it"
             )
         for wanted, found, what, where in (
             (options.center, [task.center for task in self.tasks], "Centre", "inside the surface"),

@@ -83,7 +83,7 @@ class PartsOutcome(Outcome):
         of_kind = ", ".join(counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
         words = [
             f"{counted(len(kinds), 'part')} ({of_kind})",
-            f"evenness 1 : {density_text(result.density_ratio_5_95)}",
+            f"texel density 1 : {density_text(result.density_ratio_5_95)}",
             f"angle error {result.angle_error_stored_deg['mean']:.2f}°",
             counted(result.flipped, "flip"),
             f"{result.seconds:.2f} s",

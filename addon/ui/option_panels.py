@@ -31,6 +31,7 @@ class DiskPanel(ClosedPanel):
     """Options of disks."""
 
     bl_label = "Disk and Round Holes"
+    help_at = "2-map"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -65,6 +66,7 @@ class PartsPanel(ClosedPanel):
     """Where parts are cut."""
 
     bl_label = "Seams and Cuts"
+    help_at = "6-any-model-unwrap-to-parts"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -79,6 +81,7 @@ class DomainsPanel(ClosedPanel):
     """Maps to domains that are no disk, and their options."""
 
     bl_label = "Seamless Shapes"
+    help_at = "7-textures-without-a-seam-torus-tile-cylinder-sphere"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -96,6 +99,7 @@ class SequencePanel(ClosedPanel):
     """Maps of an animation or of shape keys, and which they are."""
 
     bl_label = "Animation and Shape Keys"
+    help_at = "12-a-surface-that-moves"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -114,6 +118,7 @@ class LayerPanel(ClosedPanel):
     """What is written, and the checker that is put on."""
 
     bl_label = "UV Layer and Checker"
+    help_at = "9-texture"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -127,6 +132,7 @@ class ToolsPanel(ClosedPanel):
     """What is made of a map that is there."""
 
     bl_label = "Fill, Mirror, Flatten"
+    help_at = "8-fill-holes"
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.layout.column()
@@ -144,6 +150,7 @@ class AccuracyPanel(ClosedPanel):
     """What most runs leave alone."""
 
     bl_label = "Accuracy"
+    help_at = "what-is-lost"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.aligned_layout()

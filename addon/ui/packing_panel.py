@@ -20,6 +20,7 @@ class PackingPanel(ClosedPanel):
     """Texture size, margin, texel density, tiles, and packing without a new map."""
 
     bl_label = "Packing"
+    help_at = "packing-and-texel-density"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)

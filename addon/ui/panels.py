@@ -32,9 +32,11 @@ class MainPanel(KoebePanel):
     """The button, what it makes, and what judges a map."""
 
     bl_label = "Koebe UV"
+    help_at = "2-map"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         KOEBE_PT_presets.draw_panel_header(self.layout)
+        super().draw_header_preset(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, settings_of(context)
@@ -84,7 +86,7 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
     split = column.split(factor=NAMES)
     split.label(text="Distortion")
     row = split.row(align=True)
-    for value, text in (("angle", "Angle"), ("area", "Area"), ("none", "Off")):
+    for value, text in (("angle", "Angle"), ("area", "Texels"), ("none", "Off")):
         button = row.operator(UV_OT_koebe_distortion.bl_idname, text=text, depress=kind == value)
         button.kind, button.layer = value, settings.layer
     if context.space_data.type == "IMAGE_EDITOR":

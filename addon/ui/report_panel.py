@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The part of the panel that shows the last run, island by island."""
+"""The part of the panel that shows the last map of the active object, island by island."""
 
 import json
 from typing import Any, Literal
@@ -10,6 +10,7 @@ from ..blender import rendered_layer
 from ..maps.verdicts import Figure, figures, is_good
 from ..maps.wording import counted
 from ..operators.select_from_report import (
+    OBJECT_OT_koebe_show,
     UV_OT_koebe_select_cuts,
     UV_OT_koebe_select_flipped,
     UV_OT_koebe_select_loop,
@@ -18,17 +19,30 @@ from ..operators.select_from_report import (
     UV_OT_koebe_select_warning,
 )
 from ..state.option_properties import settings_of
-from ..state.run_report import KoebeIslandReport, KoebeWarningReport, active_entry, entries_of_object, report_of
+from ..state.run_report import (
+    KoebeIslandReport,
+    KoebeWarningReport,
+    active_entry,
+    entries_of_object,
+    failed_beside,
+    is_of_active,
+    report_of,
+)
 from .panel_parts import ClosedPanel, KoebePanel, draw_map_button, draw_message, draw_unwrap
 
 MAX_LOOP_BUTTONS = 40
+MAX_OTHERS = 5  # objects that could not be mapped, beside the active one
 MOST_LINES = 6  # of each message, until everything is requested
 # Radius of an annulus's hole, over its rim's. Below it texels differ by the inverse: it should be unrolled.
 LONG_TUBE = 0.2
 
 
 class KOEBE_UL_islands(bpy.types.UIList):
-    """The islands of the last run, one a line."""
+    """The islands of the active object, one a line."""
+
+    def filter_items(self, context: bpy.types.Context, data: Any, name: str) -> tuple[list[int], list[int]]:
+        """Show the active object's islands."""
+        return [self.bitflag_filter_item * is_of_active(context, entry) for entry in getattr(data, name)], []
 
     def draw_item(
         self,
@@ -62,26 +76,29 @@ def shared_coverage(context: bpy.types.Context, entry: KoebeIslandReport) -> flo
     """How much of the UV square the islands cover that share it with this one."""
     if entry.parts:
         return entry.coverage  # of all parts
-    islands = [one for one in report_of(context).islands if one.together] if entry.together else (
-        entries_of_object(context))
+    islands = [one for one in report_of(context).islands if one.together and one.run == entry.run] if (
+        entry.together) else entries_of_object(context)
     return sum(one.coverage for one in islands if one.shape == entry.shape)
 
 
 class ReportPanel(KoebePanel):
-    """The last run, island by island."""
+    """The last map of the active object, island by island."""
 
     bl_label = "Report"
+    help_at = "3-judge"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         report = report_of(context)
-        if not report.islands:
-            layout.label(text="No map yet: press Unwrap")
-        if len(report.islands) > 1:
-            layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
+        for name in failed_beside(context)[:MAX_OTHERS]:
+            layout.operator(OBJECT_OT_koebe_show.bl_idname, text=f"Not mapped: {name}", icon="ERROR").object_name = name
         entry = active_entry(context)
         if entry is None:
+            obj = context.active_object
+            layout.label(text="No map yet: press Unwrap" if obj is None else f"{obj.name}: no map yet")
             return
+        if len(entries_of_object(context)) > 1:
+            layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
         several = len([one for one in entries_of_object(context) if one.shape == entry.shape]) > 1
         which = f", island {entry.island + 1}" if several else ""
         if entry.shape:
@@ -149,6 +166,7 @@ class DetailsPanel(ClosedPanel):
     """The other figures of a map, its warnings as the solver says them, and its loops."""
 
     bl_label = "Details"
+    help_at = "3-judge"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -165,7 +183,7 @@ class DetailsPanel(ClosedPanel):
 def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     """Figures of a mapped island, and buttons that select its loops."""
     table = column.column(align=True)
-    sweeps = ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
+    sweeps = ("Iterations", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
     of_circles = [("Roundness", f"{entry.roundness:.1e}"), sweeps]
     of_parts = [
         ("Parts", f"{entry.parts}"),
@@ -173,20 +191,20 @@ def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     ]
     of_tile = [
         ("Modulus", entry.modulus),
-        *(("Period" if not number else "", text) for number, text in enumerate(entry.periods.split(" and "))),
+        *(("Repeats after" if not number else "", text) for number, text in enumerate(entry.periods.split(" and "))),
         sweeps,
     ]
     torn, moved, flipped = (
         len(json.loads(faces or "[]")) for faces in (entry.torn_faces, entry.moved_faces, entry.flipped_faces)
     )
     of_sphere = [
-        ("Caps", f"{len(entry.loops)}"),
+        ("Holes", f"{len(entry.loops)}"),
         ("Torn", counted(torn, "face")),
         ("Moved", counted(moved, "face")),
         sweeps,
     ]
     of_handles = [
-        ("Handles", f"{entry.handles}"),
+        ("Mug handles", f"{entry.handles}"),
         ("Holes", f"{len(entry.loops)}"),
         ("Cut along", "circles" if entry.by_circles else "edges"),
         sweeps,
@@ -203,7 +221,7 @@ def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         split.label(text=value)
     if not entry.loops:
         return
-    column.label(text="Select Loop")
+    column.label(text="Select Boundary")
     grid = column.grid_flow(row_major=True, columns=4, even_columns=True, align=True)
     for index in range(min(len(entry.loops), MAX_LOOP_BUTTONS)):
         text = entry.loops[index].name or ("Rim" if index == 0 else f"{index}")

@@ -51,13 +51,13 @@ def mapped_alone():
 
 
 def offending():
-    """A report that begins with an island that cannot be mapped, and another object selected."""
+    """A report of the active object, which cannot be mapped, and of another one."""
     states.new_file()
     good, bad = states.keyed(), states.broken()
     scenes.select(good, bad)
     bpy.ops.uv.koebe_uniformize()
     states.consistent([good, bad])
-    scenes.select(good)
+    scenes.select(bad)
 
 
 def flipped():
@@ -272,6 +272,7 @@ RUNS = {
     "add node groups": (states.many, "node.koebe_add_groups", {}),
     "loops around holes": (mapped_alone, "mesh.koebe_loops_around_holes", {}),
     "compare": (carried, "uv.koebe_compare_shapes", {}),
+    "show an object": (reported_in_object_mode, "object.koebe_show", {"object_name": "Keyed"}),
     "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),
     "select a loop in Object Mode": (reported_in_object_mode, "uv.koebe_select_loop", {"loop": 1}),
     "select what is wrong": (offending, "uv.koebe_select_offenders", {}),

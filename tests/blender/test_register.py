@@ -1,6 +1,8 @@
 """Enabled, disabled and enabled again: everything is there, nothing is left behind."""
 
 import importlib
+import re
+from pathlib import Path
 
 import addon_utils
 import bpy
@@ -58,6 +60,47 @@ def test_panels_are_where_artists_look():
     for panel, editor in ((bpy.types.VIEW3D_PT_koebe, "VIEW_3D"), (bpy.types.IMAGE_PT_koebe, "IMAGE_EDITOR")):
         assert (panel.bl_label, panel.bl_category) == ("Koebe UV", "Koebe")
         assert (panel.bl_space_type, panel.bl_region_type) == (editor, "UI")
+
+
+def test_each_part_of_the_panel_opens_the_guide_at_a_heading(addon, folder):
+    ids = set(re.findall(r'id="([^"]*)"', Path(folder, "guide.html").read_text(encoding="utf-8")))
+    panels = addon("ui.panels").CLASSES
+    parts = [panel for panel in panels if issubclass(panel, bpy.types.Panel)]
+    assert len(parts) == 2 * 13 and {panel.help_at for panel in parts} <= ids
+
+    class Layout:
+        """Notes the buttons that are drawn."""
+
+        def __init__(self):
+            self.urls, self.url = [], ""
+
+        def operator(self, name, **_):
+            assert name == "wm.url_open"
+            self.urls.append(self)
+            return self
+
+    layout = Layout()
+    addon("ui.help").draw_help(layout, "3-judge")
+    assert layout.urls and layout.url == f"{Path(folder, 'guide.html').resolve().as_uri()}#3-judge"
+    assert Path(folder, "troubleshooting.html").exists()
+
+
+# Words that need a manual, and the words for them. Scripts use the names of options, which stay.
+GONE = {"Stack Twins", "Stack Copies", "Loops", "Handles", "Caps", "Sweeps", "Truchet", "Prefer", "Period 1",
+        "Unit Square", "Outer Loop", "Evenness"}  # fmt: skip
+
+
+def test_labels_are_words_that_an_artist_knows():
+    owners = [getattr(getattr(bpy.ops, name.split("_OT_")[0].lower()), name.split("_OT_")[1]).get_rna_type()
+              for name in dir(bpy.types) if "_OT_koebe_" in name]  # fmt: skip
+    owners += [bpy.types.Scene.bl_rna.properties[name].fixed_type for name in ("koebe_uv", "koebe_lift")]
+    labels = {owner.name for owner in owners}
+    for owner in owners:
+        for prop in owner.properties:
+            labels.add(prop.name)
+            labels |= {item.name for item in getattr(prop, "enum_items", ())}
+    assert len(labels) > 100 and not labels & GONE
+    assert not any("Uniformize" in label for label in labels)
 
 
 def test_everything_an_artist_meets_has_a_tooltip_that_teaches():
