@@ -125,7 +125,14 @@ class Job:
         mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
         center, point = (self._named(self._place(obj, one)) for one in (self.options.center, self.options.point))
         importance = mesh_reading.vertex_weights(obj, self._importance) if self._importance else None
-        return Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
+        return Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance,
+                    rest=self._rest(obj, surface))  # fmt: skip
+
+    def _rest(self, obj: MeshObject, surface: Surface) -> np.ndarray | None:
+        """The UVs of the layer, if faces that are not selected have some there."""
+        if surface.selected.all() or self.options.layer not in obj.data.uv_layers:
+            return None
+        return mesh_reading.read_layer(obj, self.options.layer)
 
     def _check_room(self, obj: MeshObject) -> None:
         """Raise TransferError unless the results can be written to the object."""
@@ -244,7 +251,7 @@ class Job:
                 "Cuts, joins them in the UVs"
             )
         self._put_checker(run, outcome, plan.obj, material)
-        outcome.hints = rendered_layer.sentences(plan.obj, plan.layer)
+        outcome.hints += rendered_layer.sentences(plan.obj, plan.layer)
 
     @staticmethod
     def _put_checker(run: Transaction, outcome: Any, obj: MeshObject, material: bpy.types.Material | None) -> None:

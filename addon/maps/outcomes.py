@@ -34,6 +34,7 @@ class Task:
     vertices for the disk's centre and its right end; `old_uv` (C, 2) are the UVs of the surface's corners for the
     placement "keep"; `mirrored`: its object's scale is negative; `pinned`: UVs of the layer to write are pinned.
     `importance` (V,) in [0, 1] weighs the sizes of faces. `show` (V,) in [0, 1]: cuts of parts keep away from 1.
+    `rest` (C, 2) are the UVs of the layer if faces that are not selected stay there.
     `like` is the density that parts get: sides of the UV square per unit of length. `picked` (V,)
     bool are vertices that choose the rims of rings.
     """
@@ -50,6 +51,7 @@ class Task:
     show: np.ndarray | None = None
     like: float | None = None
     picked: np.ndarray | None = None
+    rest: np.ndarray | None = None
 
 
 @dataclasses.dataclass

@@ -18,7 +18,8 @@ MADE = {name: page((DOCS / f"{name}.md").read_text(encoding="utf-8"), name) for 
 
 def test_each_construct():
     made = page("# A *b*: `c*d`\n\nOne\ntwo, **three**.\n![no\npicture](x.png)\n- p\n  q\n- r\n\n"
-                "| h | i |\n| --- | --- |\n| [t](guide.md#a-b) | [u](even.md) |\n\n```text\n<x> *y*\n```\n", "T")  # fmt: skip
+                "| h | i |\n| --- | --- |\n| [t](guide.md#a-b) | [u](even.md) |\n\n"
+                "```text\n<x> *y*\n```\n", "T")  # fmt: skip
     body = made.split("<body>\n")[1].split("\n</body>")[0].splitlines()
     assert body == [
         '<h1 id="a-b-cd">A <em>b</em>: <code>c*d</code></h1>',

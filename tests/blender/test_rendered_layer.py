@@ -85,7 +85,7 @@ def test_the_end_of_a_run_says_so(addon):
 def covered(obj, layer, pixels):
     """How many triangles (pixels, pixels) have each pixel's middle inside."""
     _, corners = scenes.triangles(obj.data)
-    count = np.zeros((pixels, pixels), int)
+    count = np.zeros((4 * pixels, 4 * pixels), int)  # the square and what lies right of it
     for triangle in scenes.corner_uv(obj.data, layer).astype(float)[corners] * pixels - 0.5:
         low, high = np.maximum(np.floor(triangle.min(axis=0)), 0).astype(int), np.ceil(triangle.max(axis=0)).astype(int)
         x, y = np.meshgrid(*(np.arange(*ends) for ends in zip(low, high, strict=True)), indexing="ij")
