@@ -35,7 +35,10 @@ class ReportOperator(OperatorBase):
         if active_object(context) is None:
             cls.poll_message_set("There is no report, or the object of the report is gone")
             return False
-        return context.mode in {"OBJECT", "EDIT_MESH"}
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            cls.poll_message_set("Works in Object Mode and in Edit Mode")
+            return False
+        return True
 
     def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
         """Kind and numbers of the elements to select."""
