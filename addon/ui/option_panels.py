@@ -30,7 +30,7 @@ from .panel_parts import ClosedPanel, draw_map_button
 class DiskPanel(ClosedPanel):
     """Options of disks."""
 
-    bl_label = "Disk and Round Holes"
+    bl_label = "Disk, Round Holes"
     help_at = "2-map"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -98,7 +98,7 @@ class DomainsPanel(ClosedPanel):
 class SequencePanel(ClosedPanel):
     """Maps of an animation or of shape keys, and which they are."""
 
-    bl_label = "Animation and Shape Keys"
+    bl_label = "Animation"
     help_at = "12-a-surface-that-moves"
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -117,7 +117,7 @@ class SequencePanel(ClosedPanel):
 class LayerPanel(ClosedPanel):
     """What is written, and the checker that is put on."""
 
-    bl_label = "UV Layer and Checker"
+    bl_label = "Layer and Checker"
     help_at = "9-texture"
 
     def draw(self, context: bpy.types.Context) -> None:

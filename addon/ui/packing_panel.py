@@ -24,14 +24,24 @@ class PackingPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("pixels", "margin", "placement", "tiles", "stack", "stack_mirrored", "atlas", "rectify"):
+        for name in ("pixels", "margin", "placement", "tiles"):
             draw_option(column, settings, name, context)
+        draw_flags(column, settings, "stack", "stack_mirrored", "atlas", "rectify")
         column.separator()
         draw_density(column, context, settings)
         column.separator()
         draw_pack(column, settings)
-        for name in ("average_scale", "keep_places", "seconds"):
+        draw_flags(column, settings, "average_scale")
+        for name in ("keep_places", "seconds"):
             draw_option(column, settings, name, context)
+
+
+def draw_flags(column: bpy.types.UILayout, settings: KoebeSettings, *names: str) -> None:
+    """Switches that have the whole width for their names."""
+    flags = column.column()
+    flags.use_property_split = False
+    for name in names:
+        flags.prop(settings, name)
 
 
 def draw_density(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:
@@ -47,12 +57,11 @@ def draw_density(column: bpy.types.UILayout, context: bpy.types.Context, setting
             draw_line(column, "Most Island", density_words(context, found.most))
     column.operator(UV_OT_koebe_measure_density.bl_idname, text="Measure Density", icon="DRIVER_DISTANCE").take = False
     row = column.row(align=True)
-    row.prop(settings, "density")
+    row.prop(settings, "density", text="Px per Unit")
     row.operator(UV_OT_koebe_measure_density.bl_idname, text="", icon="EYEDROPPER").take = True
-    row = column.row(align=True)
-    button = row.operator(UV_OT_koebe_set_density.bl_idname, text="Set Density")
+    button = column.operator(UV_OT_koebe_set_density.bl_idname, text="Set Density")
     button.density, button.pixels = settings.density, settings.pixels
-    row.operator(UV_OT_koebe_copy_density.bl_idname, text="Copy from Active")
+    column.operator(UV_OT_koebe_copy_density.bl_idname, text="Copy from Active")
     for name in ("texels", *(("like",) if settings.texels == "layer" else ())):
         draw_option(column, settings, name, context)
 

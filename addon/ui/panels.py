@@ -19,7 +19,7 @@ from .circle_tool import CIRCLES_TOOL
 from .lift_panel import LiftPanel
 from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, SequencePanel, ToolsPanel
 from .packing_panel import PackingPanel
-from .panel_parts import KoebePanel, draw_unwrap
+from .panel_parts import KoebePanel, draw_message, draw_unwrap
 from .preset_menu import KOEBE_PT_presets
 from .report_panel import DetailsPanel, KOEBE_UL_islands, ReportPanel
 from .shape_panel import ShapesPanel
@@ -72,7 +72,7 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
         settings.layer, settings.checker_size, settings.checker_even,
     )  # fmt: skip
     if worn:
-        column.label(text="Take it off before you export", icon="INFO")
+        draw_message(column, "Take it off before you export")
     if objects and rendered_layer.hidden_by(objects[0], settings.layer):
         icon: Any = "RESTRICT_RENDER_OFF"
         render = column.operator(UV_OT_koebe_use_for_rendering.bl_idname, text="Use for Rendering", icon=icon)
@@ -86,7 +86,7 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
     split = column.split(factor=NAMES)
     split.label(text="Distortion")
     row = split.row(align=True)
-    for value, text in (("angle", "Angle"), ("area", "Texels"), ("none", "Off")):
+    for value, text in (("angle", "Angle"), ("area", "Texel"), ("none", "Off")):
         button = row.operator(UV_OT_koebe_distortion.bl_idname, text=text, depress=kind == value)
         button.kind, button.layer = value, settings.layer
     if context.space_data.type == "IMAGE_EDITOR":

@@ -18,7 +18,7 @@ MAX_ENTRIES = 12  # objects that were compared, or got a texture
 class ShapesPanel(ClosedPanel):
     """The conformal module of the active object, and the other selected ones held against it."""
 
-    bl_label = "Compare, Carry Texture"
+    bl_label = "Compare and Carry"
     help_at = "10-one-texture-for-several-shapes"
 
     def draw(self, context: bpy.types.Context) -> None:
