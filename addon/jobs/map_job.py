@@ -97,6 +97,7 @@ class Job:
         if not surface.selected.any():
             return
         self._check_room(obj)
+        self._check_pins(obj, surface)
         task = self._task(obj, surface)
         self.targets.append(Target.of(obj))
         self.tasks.append(task)
@@ -122,10 +123,10 @@ class Job:
             vertex = mesh_reading.active_vertex(obj)
             outer = "auto" if vertex is None else vertex
         outer = self._named(outer)
-        mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
+        mirrored = obj.matrix_world.determinant() < 0.0
         center, point = (self._named(self._place(obj, one)) for one in (self.options.center, self.options.point))
         importance = mesh_reading.vertex_weights(obj, self._importance) if self._importance else None
-        return Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance,
+        return Task(obj.name, surface, outer, mirrored, center=center, point=point, importance=importance,
                     rest=self._rest(obj, surface))  # fmt: skip
 
     def _rest(self, obj: MeshObject, surface: Surface) -> np.ndarray | None:
@@ -137,6 +138,17 @@ class Job:
     def _check_room(self, obj: MeshObject) -> None:
         """Raise TransferError unless the results can be written to the object."""
         uv_layers.check_layer(obj, self.options.layer)
+
+    def _check_pins(self, obj: MeshObject, surface: Surface) -> None:
+        """Raise TransferError if pinned UVs would move: no map here can keep them."""
+        pins = mesh_reading.pinned_corners(obj, self.options.layer)
+        pins &= np.repeat(surface.selected, surface.face_size)
+        if pins.any():
+            count = counted(len(np.unique(surface.corner_vertex[pins])), "vertex", "vertices")
+            raise TransferError(
+                f"{obj.name}: pinned UVs of {count} would move: in the UV Editor Shift P selects them and Alt P unpins "
+                "them. Or unwrap other faces, or to another UV layer"
+            )
 
     def _even_importance(self) -> None:
         """Subtract the least importance over all objects; without the group it is 0. Raises TransferError."""
