@@ -47,6 +47,7 @@ class Job:
         self.koebe = native_package.load()
         self.options, self.selected_only = options, selected_only
         self._first: np.ndarray | None = None  # of the surface that was read last, see `joined`
+        self._dropped = np.zeros(0, dtype=bool)  # faces (P,) of that surface that have no place once vertices are joined
         self._loose: dict[str, int] = {}  # by object: vertices at the place of another one
         self.refused = [] if refused is None else refused
         self.targets: list[Target] = []
@@ -104,10 +105,13 @@ class Job:
 
     def _surface(self, obj: MeshObject) -> Surface:
         surface, self._first = mesh_reading.read_surface(obj, self.selected_only, self._cut_at), None
+        self._dropped = np.zeros_like(surface.selected)
         if not np.isfinite(surface.positions).all():  # the solver refuses them, and names them
             return surface
         if self.options.weld > 0.0:
+            chosen = surface.selected
             surface, self._first = joined(self.koebe, surface, self.options.weld)
+            self._dropped = chosen & ~surface.selected
         elif loose := int(np.count_nonzero(np.diff(np.sort(self.koebe.weld(surface.positions))) == 0)):
             self._loose[obj.name] = loose
         return surface
@@ -130,10 +134,12 @@ class Job:
                     rest=self._rest(obj, surface))  # fmt: skip
 
     def _rest(self, obj: MeshObject, surface: Surface) -> np.ndarray | None:
-        """The UVs of the layer, if faces that are not selected have some there."""
-        if surface.selected.all() or self.options.layer not in obj.data.uv_layers:
+        """The UVs of the layer, if faces that are not selected have some there; NaN where nothing is to stay."""
+        if (surface.selected | self._dropped).all() or self.options.layer not in obj.data.uv_layers:
             return None
-        return mesh_reading.read_layer(obj, self.options.layer)
+        uv = mesh_reading.read_layer(obj, self.options.layer)
+        uv[np.repeat(self._dropped, surface.face_size)] = np.nan
+        return uv
 
     def _check_room(self, obj: MeshObject) -> None:
         """Raise TransferError unless the results can be written to the object."""

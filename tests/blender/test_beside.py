@@ -113,6 +113,21 @@ def test_a_layer_without_uvs_is_filled():
     assert areas(obj)[1] > 0.9
 
 
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_faces_that_merge_distance_leaves_out_are_in_nobodys_way(mode):
+    obj = scenes.add_object("Sliver", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (1 + 1e-4, 0.5, 0.3), (1, 0.5, 0.3)],
+                            [(0, 1, 2, 3), (1, 4, 5)])  # fmt: skip
+    scenes.select(obj)
+    for layer, distance in (("Own", 1e-3), ("Koebe", 0.0), ("Koebe", 1e-3)):
+        if mode == "EDIT":
+            scenes.select_faces(obj, [0, 1])
+        options = {"layer": layer, "weld": distance, "seams": "only"}
+        assert bpy.ops.uv.koebe_unwrap(checker=False, shape="PARTS", **options) == {"FINISHED"}
+        bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.array_equal(*(scenes.corner_uv(obj.data, layer)[:4] for layer in ("Own", "Koebe")))
+    assert np.ptp(scenes.corner_uv(obj.data, "Koebe")[4:]) > 0.0  # they have UVs, of the run between
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_random_selections_never_lie_over_the_others(seed):
     """Several times in a row, each on what the last left."""
