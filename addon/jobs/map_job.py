@@ -47,7 +47,7 @@ class Job:
         self.koebe = native_package.load()
         self.options, self.selected_only = options, selected_only
         self._first: np.ndarray | None = None  # of the surface that was read last, see `joined`
-        self._dropped = np.zeros(0, dtype=bool)  # faces (P,) of that surface that have no place once vertices are joined
+        self._dropped = np.zeros(0, dtype=bool)  # (P,) faces of that surface without a place once vertices are joined
         self._loose: dict[str, int] = {}  # by object: vertices at the place of another one
         self.refused = [] if refused is None else refused
         self.targets: list[Target] = []

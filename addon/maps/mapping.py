@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from . import places
-from .beside import put_beside
+from .beside import OVER, put_beside
 from .disk_outcomes import IslandOutcome, SurfaceOutcome
 from .errors import MapError
 from .islands import cut_into_islands, whole_island
@@ -360,7 +360,11 @@ def _lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Opt
         with failing_alone(koebe, [one for _, one in group]):
             _pack(koebe, group, options.margin / options.pixels)
     for outcome in moved:
-        if outcome.task.rest is not None and outcome.mapped:
+        if outcome.task.rest is None or not outcome.mapped:
+            continue
+        if options.placement == "together" and len(moved) > 1:  # one square for the other faces of all objects
+            outcome.remarks.append(OVER)
+        else:
             with failing_alone(koebe, outcome.mapped):
                 _put_beside(koebe, outcome, options, cancel)
 

@@ -107,6 +107,18 @@ def test_what_cannot_fit_in_is_told(options):
     assert any("it lies over the islands of the other faces" in text for text in said())
 
 
+def test_objects_together_are_told():
+    first, second = laid_out_cube(ROOMY), laid_out_cube(ROOMY)
+    scenes.select(first, second)
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    for obj in (first, second):
+        obj.data.polygons.foreach_set("select", [True, *[False] * 5])
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.uv.koebe_unwrap(checker=False, shape="DISK", placement="together") == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert said() == ["it lies over the islands of the other faces"] * 2
+
+
 def test_a_layer_without_uvs_is_filled():
     obj = laid_out_cube([(0, 0, 0)] * 6)
     unwrapped(obj, [1], shape="PARTS")
