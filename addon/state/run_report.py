@@ -175,20 +175,19 @@ def forget(run: Transaction, context: bpy.types.Context, name: str, layer: str) 
     report.active = min(report.active, max(len(report.islands) - 1, 0))
 
 
-def is_of_active(context: bpy.types.Context, entry: KoebeIslandReport) -> bool:
-    """Whether an island is of the active object, or of another object with the same mesh."""
-    obj = context.active_object
-    if obj is None or obj.type != "MESH" or entry.object_name == obj.name:
-        return obj is not None and entry.object_name == obj.name
-    other = bpy.data.objects.get((entry.object_name, None))
-    return other is not None and other.data == obj.data
+def names_of_active(context: bpy.types.Context) -> set[str]:
+    """Names of the active object and of the others with its mesh: the report on one is about all of them."""
+    obj: Any = context.active_object
+    if obj is None or obj.data is None or obj.data.users == 1:
+        return set() if obj is None else {obj.name}
+    return {other.name for other in bpy.data.objects if other.data == obj.data}
 
 
 def active_index(context: bpy.types.Context) -> int:
     """The number of the island whose details are shown: of the active object's islands the chosen one, else the first
     that could not be mapped, else the first; -1 without any."""
-    report = report_of(context)
-    own = [index for index, entry in enumerate(report.islands) if is_of_active(context, entry)]
+    report, names = report_of(context), names_of_active(context)
+    own = [index for index, entry in enumerate(report.islands) if entry.object_name in names]
     if report.active in own:
         return report.active
     return next((index for index in own if not report.islands[index].mapped), own[0] if own else -1)
@@ -202,7 +201,8 @@ def active_entry(context: bpy.types.Context) -> KoebeIslandReport | None:
 
 def entries_of_object(context: bpy.types.Context) -> list[KoebeIslandReport]:
     """All islands of the object whose details are shown."""
-    return [entry for entry in report_of(context).islands if is_of_active(context, entry)]
+    names = names_of_active(context)
+    return [entry for entry in report_of(context).islands if entry.object_name in names]
 
 
 def selectable_entries(context: bpy.types.Context) -> list[KoebeIslandReport]:
@@ -221,7 +221,7 @@ def failed_beside(context: bpy.types.Context) -> list[str]:
     islands = report_of(context).islands
     last = max((entry.run for entry in islands), default=0)
     failed = [entry.object_name for entry in islands if entry.run == last and not entry.mapped]
-    own = {entry.object_name for entry in entries_of_object(context)}
+    own = names_of_active(context)
     return [name for name in dict.fromkeys(failed) if name not in own]
 
 

@@ -25,7 +25,7 @@ from ..state.run_report import (
     active_entry,
     entries_of_object,
     failed_beside,
-    is_of_active,
+    names_of_active,
     report_of,
 )
 from .panel_parts import ClosedPanel, KoebePanel, draw_map_button, draw_message, draw_unwrap
@@ -42,7 +42,8 @@ class KOEBE_UL_islands(bpy.types.UIList):
 
     def filter_items(self, context: bpy.types.Context, data: Any, name: str) -> tuple[list[int], list[int]]:
         """Show the active object's islands."""
-        return [self.bitflag_filter_item * is_of_active(context, entry) for entry in getattr(data, name)], []
+        names = names_of_active(context)
+        return [self.bitflag_filter_item * (entry.object_name in names) for entry in getattr(data, name)], []
 
     def draw_item(
         self,

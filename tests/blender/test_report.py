@@ -58,7 +58,7 @@ def test_the_report_is_that_of_the_active_object(addon):
     for obj, expected in ((first, [3]), (second, [0, 1]), (bad, [2])):
         scenes.select(obj)
         assert state.active_index(bpy.context) == expected[0]
-        shown = [entry for entry in report.islands if state.is_of_active(bpy.context, entry)]
+        shown = [entry for entry in report.islands if entry.object_name in state.names_of_active(bpy.context)]
         assert shown == [report.islands[index] for index in expected] == state.entries_of_object(bpy.context)
         if obj is not bad:  # islands of one run share the square, and no other ones
             coverage = sum(report.islands[index].coverage for index in expected)
