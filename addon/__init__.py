@@ -32,13 +32,23 @@ def _parts() -> tuple[ModuleType, ...]:
         option_presets,
         pack,
         parts,
+        render_layer,
         select_from_report,
         sequence,
         symmetrize,
+        texel_density,
         uniformize,
         unwrap,
     )
-    from .state import lift_properties, moved_circles, option_properties, run_report, saved_report, shape_report
+    from .state import (
+        density_report,
+        lift_properties,
+        moved_circles,
+        option_properties,
+        run_report,
+        saved_report,
+        shape_report,
+    )
     from .ui import (
         circle_overlay,
         circle_tool,
@@ -52,9 +62,10 @@ def _parts() -> tuple[ModuleType, ...]:
 
     return (
         option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
+        density_report,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
         compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, flat_copy, even_slider,
-        lift, node_groups, hole_rings,
+        render_layer, texel_density, lift, node_groups, hole_rings,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip
 

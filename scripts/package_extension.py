@@ -16,6 +16,8 @@ import re
 import zipfile
 from pathlib import Path
 
+from guide_html import PAGES, page
+
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = "koebe_uv"
 DATE = (1980, 1, 1, 0, 0, 0)  # the oldest that a zip can hold
@@ -83,6 +85,8 @@ def members(addon: Path, version: str, wheels: list[Path]) -> dict[str, bytes]:
     }.items():
         files[name] = fill(files[name].decode()).encode()
     files["LICENSE"] = (ROOT / "LICENSE").read_bytes()
+    for name in PAGES:
+        files[f"{name}.html"] = page((ROOT / "docs" / f"{name}.md").read_text("utf-8"), f"Koebe UV: {name}").encode()
     files.update({f"maps/{path.name}": path.read_bytes() for path in (ROOT / "native" / "options").glob("*.json")})
     files.update({f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels})
     return files

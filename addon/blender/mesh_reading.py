@@ -136,17 +136,11 @@ def read_layout(obj: MeshObject, layer_name: str) -> tuple[np.ndarray, np.ndarra
     return vertex, edge, following, read_layer(obj, layer_name)
 
 
-def has_pins(obj: MeshObject, layer_name: str) -> bool:
-    """Whether UVs of that layer are pinned; in Edit Mode as in `read_surface`."""
-    if layer_name not in obj.data.uv_layers:
-        return False
-    with arrays(obj) as mesh:
-        return bool(compat.pins(mesh, mesh.uv_layers[layer_name]).any())
-
-
 def pinned_corners(obj: MeshObject, layer_name: str) -> np.ndarray:
-    """Whether each corner (C,) is pinned in a UV layer, as in `read_surface`."""
+    """Whether each corner (C,) is pinned in a UV layer, as in `read_surface`. No corner is in a missing layer."""
     with arrays(obj) as mesh:
+        if layer_name not in mesh.uv_layers:
+            return np.zeros(len(mesh.loops), dtype=bool)
         return compat.pins(mesh, mesh.uv_layers[layer_name])
 
 

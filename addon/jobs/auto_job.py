@@ -16,7 +16,10 @@ class AutoJob(PartsJob):
     """Has outcomes of both kinds."""
 
     def _map(self, task: Task, progress: Progress | None) -> Outcome:
-        return map_automatically(self.koebe, task, self.options, self.choice, progress, self.cancel_token)
+        outcome = map_automatically(self.koebe, task, self.options, self.choice, progress, self.cancel_token)
+        if isinstance(outcome, PartsOutcome):
+            self._move(outcome)
+        return outcome
 
     def _write_one(
         self, run: Transaction, outcome: Outcome, plan: map_writing.Plan, material: bpy.types.Material | None

@@ -9,6 +9,7 @@ import numpy as np
 from ..blender import checker, map_writing
 from ..blender.copied_object import add_copied_object
 from ..blender.transaction import Transaction
+from ..maps.beside import OVER
 from ..maps.domain_outcomes import DomainOutcome, map_domain
 from ..maps.outcomes import Progress, Task
 from ..maps.sphere_copy import sphere_copy
@@ -24,7 +25,10 @@ class DomainJob(ChoiceJob):
     """Maps to the domain of its choice."""
 
     def _map(self, task: Task, progress: Progress | None) -> DomainOutcome:
-        return map_domain(self.koebe, task, self.choice, progress, self.cancel_token, self.options.threads)
+        outcome = map_domain(self.koebe, task, self.choice, progress, self.cancel_token, self.options.threads)
+        if task.rest is not None and np.isfinite(task.rest).all() and np.ptp(task.rest, axis=0).max() > 0.0:
+            outcome.hints.append(OVER)  # a tile needs its place in the square
+        return outcome
 
     def _pattern(self, plan: map_writing.Plan, size: float) -> Pattern:
         """The checker that continues over the cuts."""

@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..blender import checker, map_writing, mesh_reading, sequence_player, uv_layers
+from ..blender import checker, map_writing, mesh_reading, rendered_layer, sequence_player, uv_layers
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, reason, with_own_meshes
@@ -47,6 +47,7 @@ class Job:
         self.koebe = native_package.load()
         self.options, self.selected_only = options, selected_only
         self._first: np.ndarray | None = None  # of the surface that was read last, see `joined`
+        self._dropped = np.zeros(0, dtype=bool)  # (P,) faces of that surface without a place once vertices are joined
         self._loose: dict[str, int] = {}  # by object: vertices at the place of another one
         self.refused = [] if refused is None else refused
         self.targets: list[Target] = []
@@ -66,7 +67,7 @@ class Job:
             )  # fmt: skip
         if options.outer == "active" and all(task.outer == "auto" for task in self.tasks):
             raise TransferError(
-                "Outer Loop is Active Vertex, but no vertex is active: in Edit Mode, select a vertex of the boundary"
+                "Outer Boundary is Active Vertex, but no vertex is active: in Edit Mode, select a vertex of it"
             )
         for wanted, found, what, where in (
             (options.center, [task.center for task in self.tasks], "Centre", "inside the surface"),
@@ -97,16 +98,20 @@ class Job:
         if not surface.selected.any():
             return
         self._check_room(obj)
+        self._check_pins(obj, surface)
         task = self._task(obj, surface)
         self.targets.append(Target.of(obj))
         self.tasks.append(task)
 
     def _surface(self, obj: MeshObject) -> Surface:
         surface, self._first = mesh_reading.read_surface(obj, self.selected_only, self._cut_at), None
+        self._dropped = np.zeros_like(surface.selected)
         if not np.isfinite(surface.positions).all():  # the solver refuses them, and names them
             return surface
         if self.options.weld > 0.0:
+            chosen = surface.selected
             surface, self._first = joined(self.koebe, surface, self.options.weld)
+            self._dropped = chosen & ~surface.selected
         elif loose := int(np.count_nonzero(np.diff(np.sort(self.koebe.weld(surface.positions))) == 0)):
             self._loose[obj.name] = loose
         return surface
@@ -122,14 +127,34 @@ class Job:
             vertex = mesh_reading.active_vertex(obj)
             outer = "auto" if vertex is None else vertex
         outer = self._named(outer)
-        mirrored, pinned = obj.matrix_world.determinant() < 0.0, mesh_reading.has_pins(obj, self.options.layer)
+        mirrored = obj.matrix_world.determinant() < 0.0
         center, point = (self._named(self._place(obj, one)) for one in (self.options.center, self.options.point))
         importance = mesh_reading.vertex_weights(obj, self._importance) if self._importance else None
-        return Task(obj.name, surface, outer, mirrored, pinned, center=center, point=point, importance=importance)
+        return Task(obj.name, surface, outer, mirrored, center=center, point=point, importance=importance,
+                    rest=self._rest(obj, surface))  # fmt: skip
+
+    def _rest(self, obj: MeshObject, surface: Surface) -> np.ndarray | None:
+        """The UVs of the layer, if faces that are not selected have some there; NaN where nothing is to stay."""
+        if (surface.selected | self._dropped).all() or self.options.layer not in obj.data.uv_layers:
+            return None
+        uv = mesh_reading.read_layer(obj, self.options.layer)
+        uv[np.repeat(self._dropped, surface.face_size)] = np.nan
+        return uv
 
     def _check_room(self, obj: MeshObject) -> None:
         """Raise TransferError unless the results can be written to the object."""
         uv_layers.check_layer(obj, self.options.layer)
+
+    def _check_pins(self, obj: MeshObject, surface: Surface) -> None:
+        """Raise TransferError if pinned UVs would move: no map here can keep them."""
+        pins = mesh_reading.pinned_corners(obj, self.options.layer)
+        pins &= np.repeat(surface.selected, surface.face_size)
+        if pins.any():
+            count = counted(len(np.unique(surface.corner_vertex[pins])), "vertex", "vertices")
+            raise TransferError(
+                f"{obj.name}: pinned UVs of {count} would move: in the UV Editor Shift P selects them and Alt P unpins "
+                "them. Or unwrap other faces, or to another UV layer"
+            )
 
     def _even_importance(self) -> None:
         """Subtract the least importance over all objects; without the group it is 0. Raises TransferError."""
@@ -244,6 +269,7 @@ class Job:
                 "Cuts, joins them in the UVs"
             )
         self._put_checker(run, outcome, plan.obj, material)
+        outcome.hints += rendered_layer.sentences(plan.obj, plan.layer)
 
     @staticmethod
     def _put_checker(run: Transaction, outcome: Any, obj: MeshObject, material: bpy.types.Material | None) -> None:

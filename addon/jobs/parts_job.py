@@ -11,9 +11,10 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.transaction import Transaction
 from ..maps.atlas import one_atlas
+from ..maps.beside import OVER
 from ..maps.options import PartsChoice
 from ..maps.outcomes import Progress, Task
-from ..maps.parts import PartsOutcome, cut_into_parts
+from ..maps.parts import PartsOutcome, cut_into_parts, move_parts
 from ..maps.surface import Surface
 from ..maps.uv_density import mean_density
 from .choice_job import ChoiceJob
@@ -54,11 +55,19 @@ class PartsJob(ChoiceJob):
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
         if self.choice.atlas and len(self.tasks) > 1:
             self.outcomes = one_atlas(self.koebe, self.tasks, self.choice, progress, self.cancel_token)
+            for outcome in self.outcomes:
+                outcome.remarks += [OVER] * (outcome.task.rest is not None and bool(outcome.mapped))
         else:
             super().compute(progress)
 
     def _map(self, task: Task, progress: Progress | None) -> PartsOutcome:
-        return cut_into_parts(self.koebe, task, self.choice, progress, self.cancel_token)
+        outcome = cut_into_parts(self.koebe, task, self.choice, progress, self.cancel_token)
+        self._move(outcome)
+        return outcome
+
+    def _move(self, outcome: PartsOutcome) -> None:
+        """Put parts in place, or beside the faces that are not selected."""
+        move_parts(self.koebe, outcome, self.choice, self.options.placement == "keep", self.cancel_token)
 
     def _write_one(
         self, run: Transaction, outcome: PartsOutcome, plan: map_writing.Plan, material: bpy.types.Material | None

@@ -50,7 +50,7 @@ class Worth:
         if not self.whole:
             return "a disk could not be made round"
         if self.flipped:
-            return f"a disk has no room for {counted(self.flipped, 'triangle')}"
+            return f"in one disk {counted(self.flipped, 'triangle')} would be turned over"
         if self.density > EVEN:
             return f"the texels of a disk are uneven, 1 : {density_text(self.density)}"
         return f"a disk bends the checker by {self.angle:.1f}°" if self.angle > TRUE else ""
@@ -80,11 +80,11 @@ def map_automatically(
     parts = cut_into_parts(koebe, task, choice, share_of(progress, 1, PARTS_WORK, PARTS_WORK + 1), cancel)
     if not disk.failed:
         if parts.failed:
-            disk.chosen = "Automatic took Disk, because the surface could not be cut into parts"
+            disk.chosen = "Automatic took Disk: the surface could not be cut into parts"
             return disk
         ours, theirs = worth_of_disk(disk).order, worth_of_parts(parts).order
         if ours < theirs if has_holes(disk) else ours[0] < theirs[0]:
-            disk.chosen = "Automatic took Disk, because parts are no better"
+            disk.chosen = "Automatic took Disk: cut into parts, texels and angles would be no better"
             return disk
     parts.chosen = f"Automatic took Parts: {reason}"
     return parts

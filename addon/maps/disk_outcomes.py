@@ -153,7 +153,7 @@ class SurfaceOutcome(Outcome):
         results = [one.result for one in self.mapped]
         words = [
             counted(sum(len(r.loops) for r in results), "loop"),
-            f"evenness 1 : {density_text(max(one.density_ratio for one in self.mapped))}",
+            f"texel density 1 : {density_text(max(one.density_ratio for one in self.mapped))}",
             f"angle error {self.mean_angle_error:.2f}°",
             counted(sum(len(one.flipped) for one in self.mapped), "flip"),
             f"{sum(r.seconds['total'] for r in results):.2f} s",

@@ -137,7 +137,7 @@ class DomainOutcome(Outcome):
         words = [
             counted(len(mapped), self.choice.domain.title),
             *self.figures(),
-            f"evenness 1 : {density_text(max(one.density_ratio for one in mapped))}",
+            f"texel density 1 : {density_text(max(one.density_ratio for one in mapped))}",
             f"angle error {max(one.angle_error for one in mapped):.2f}°",
             counted(sum(len(one.flipped) for one in mapped), "flip"),
             f"{sum(one.result.seconds['total'] for one in mapped):.2f} s",

@@ -98,12 +98,12 @@ def _circle(
 def _check_schottky(handles: int, loops: int) -> None:
     if not handles:
         raise DomainError(
-            "this surface has no handle: Unwrap Handles needs at least one", "uniformize" if loops else "sphere"
+            "this surface has no handle: Unwrap Pretzel needs at least one", "uniformize" if loops else "sphere"
         )
 
 
 SCHOTTKY = Domain(
-    "schottky", "fundamental domain", "Unwrap Handles", "META_ELLIPSOID",
+    "schottky", "fundamental domain", "Unwrap Pretzel", "META_ELLIPSOID",
     "HANDLES", ("normalization", "layer", "checker", "checker_size"), _check_schottky, SchottkyOutcome,
     "Unwrap a surface with any number of handles, closed or with holes, into a disk. Angles are kept, and holes are "
     "round. Each handle is cut open, in the UVs only",

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from . import places
+from .beside import OVER, put_beside
 from .disk_outcomes import IslandOutcome, SurfaceOutcome
 from .errors import MapError
 from .islands import cut_into_islands, whole_island
@@ -49,7 +50,7 @@ def map_surfaces(
     outcomes = [SurfaceOutcome(task, islands) for task, islands in zip(tasks, run.map(tasks), strict=True)]
     for outcome in outcomes:
         _unroll(koebe, outcome, options)
-    _lay_out(koebe, outcomes, options)
+    _lay_out(koebe, outcomes, options, cancel)
     for outcome in outcomes:
         for one in outcome.mapped:
             if not np.isfinite(one.uv).all():  # computed here, on this thread
@@ -349,19 +350,42 @@ def _outer_loop(island: Island, outer: str | int) -> str | int:
     return int(here[0]) if len(here) else "auto"
 
 
-def _lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Options) -> None:
+def _lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Options, cancel: Any) -> None:
     """Give every mapped island its placement."""
+    moved = [outcome for outcome in outcomes if not (options.placement == "keep" and _keep_places(outcome))]
+    groups = [[(outcome.task, one) for one in outcome.mapped] for outcome in moved]
     if options.placement == "together":
-        groups = [[(outcome.task, one) for outcome in outcomes for one in outcome.mapped]]
-    else:
-        groups = [
-            [(outcome.task, one) for one in outcome.mapped]
-            for outcome in outcomes
-            if not (options.placement == "keep" and _keep_places(outcome))
-        ]
+        groups = [list(itertools.chain.from_iterable(groups))]
     for group in groups:
         with failing_alone(koebe, [one for _, one in group]):
             _pack(koebe, group, options.margin / options.pixels)
+    for outcome in moved:
+        if outcome.task.rest is None or not outcome.mapped:
+            continue
+        if options.placement == "together" and len(moved) > 1:  # one square for the other faces of all objects
+            outcome.remarks.append(OVER)
+        else:
+            with failing_alone(koebe, outcome.mapped):
+                _put_beside(koebe, outcome, options, cancel)
+
+
+def _put_beside(koebe: ModuleType, outcome: SurfaceOutcome, options: Options, cancel: Any) -> None:
+    """Move the placed islands of a surface into the room that the islands of the other faces leave."""
+    mapped = outcome.mapped
+    placed = [one.placement.apply(one.flat) for one in mapped]
+    corners = np.concatenate([one.sheet.corners for one in mapped])
+    uv = np.concatenate([at[one.sheet.corner_vertex] for one, at in zip(mapped, placed, strict=True)])
+    made = put_beside(koebe, outcome.task, corners, uv, options.margin, options.pixels, cancel=cancel)
+    if made is None:
+        return
+    layer = np.zeros((len(outcome.task.surface.corner_vertex), 2))
+    layer[corners] = made.uv
+    for one in mapped:
+        placement = fit_placement(one.flat, layer[one.sheet.some_corner()])
+        if placement is None:
+            raise MapError("it is too small beside the other faces: unwrap them together")
+        one.placement = placement
+    outcome.remarks += [made.remark] * bool(made.remark)
 
 
 def _pack(koebe: ModuleType, group: list[tuple[Task, IslandOutcome]], margin: float) -> None:

@@ -11,7 +11,7 @@ from .errors import elements_of, kind_of
 from .offending_elements import offending_elements
 from .surface import Surface
 from .warning_words import in_words
-from .wording import MIRRORED, PINNED, explain, failure_line, own_warning
+from .wording import MIRRORED, explain, failure_line, own_warning
 
 Progress = Callable[[float, str], None]  # called with a fraction and a stage
 # A vertex of the surface, or a place (3,) in its space: then the nearest vertex is meant.
@@ -32,8 +32,9 @@ class Task:
 
     `name` is its object's; `outer` is "auto", "longest" or a vertex of the surface; `center` and `point` are the
     vertices for the disk's centre and its right end; `old_uv` (C, 2) are the UVs of the surface's corners for the
-    placement "keep"; `mirrored`: its object's scale is negative; `pinned`: UVs of the layer to write are pinned.
+    placement "keep"; `mirrored`: its object's scale is negative.
     `importance` (V,) in [0, 1] weighs the sizes of faces. `show` (V,) in [0, 1]: cuts of parts keep away from 1.
+    `rest` (C, 2) are the UVs of the layer if faces that are not selected stay there.
     `like` is the density that parts get: sides of the UV square per unit of length. `picked` (V,)
     bool are vertices that choose the rims of rings.
     """
@@ -42,7 +43,6 @@ class Task:
     surface: Surface
     outer: str | int = "auto"
     mirrored: bool = False
-    pinned: bool = False
     old_uv: np.ndarray | None = None
     center: Place = None
     point: Place = None
@@ -50,6 +50,7 @@ class Task:
     show: np.ndarray | None = None
     like: float | None = None
     picked: np.ndarray | None = None
+    rest: np.ndarray | None = None
 
 
 @dataclasses.dataclass
@@ -60,6 +61,7 @@ class Outcome:
     not_written  why nothing of it could be written, or None
     remarks      notes on the object beside its islands
     chosen       the shape that was taken and why, if nobody has chosen
+    hints        which other UV layers its materials show. The panel looks anew whenever it is drawn
     """
 
     task: Task
@@ -67,6 +69,7 @@ class Outcome:
     not_written: str | None = dataclasses.field(default=None, kw_only=True)
     remarks: list[str] = dataclasses.field(default_factory=list, kw_only=True)
     chosen: str = dataclasses.field(default="", kw_only=True)
+    hints: list[str] = dataclasses.field(default_factory=list, kw_only=True)
 
     @property
     def name(self) -> str:
@@ -129,8 +132,7 @@ class Outcome:
 
     def _own_warnings(self) -> list[dict[str, Any]]:
         """Warnings about all islands, beside the solver's."""
-        task = self.task
-        return [own_warning("mirrored", MIRRORED)] * task.mirrored + [own_warning("pinned", PINNED)] * task.pinned
+        return [own_warning("mirrored", MIRRORED)] * self.task.mirrored
 
     # ---------------------------------------------------------------- the JSON report of the batch script
 

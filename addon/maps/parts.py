@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .beside import OVER, in_place, put_beside
 from .islands import cut_into_islands, put_together
 from .mapping import failing_alone
 from .option_table import ROWS, solver_default
@@ -14,7 +15,8 @@ from .options import PartsChoice
 from .outcomes import LATER, Outcome, Progress, Task
 from .seams import cut_edges, inner_seams, tube_slits
 from .stored import LostAreaError
-from .surface import Numbers, next_corners
+from .surface import Numbers, Surface, next_corners
+from .triangles import signed_areas
 from .warning_words import of_solver
 from .wording import counted, density_text, in_mesh
 
@@ -47,6 +49,8 @@ class PartsIsland:
     numbers      the solver's triangles and vertices in the surface's numbers
     corners, uv  corners (m,) of the surface and their UVs (m, 2) in 32 bits
     cuts         (E,) bool, edges of the surface along which the UVs are cut
+    coverage     share of the UV square, if the parts were moved after the solver packed them
+    turned       triangles that rounding to 32 bits turned over then
     """
 
     result: Any = None
@@ -55,11 +59,18 @@ class PartsIsland:
     corners: np.ndarray = LATER
     uv: np.ndarray = LATER
     cuts: np.ndarray = LATER
+    coverage: float | None = None
+    turned: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0, dtype=np.int32))
+
+    @property
+    def flipped(self) -> int:
+        """Triangles that are turned over in the UVs."""
+        return int(self.result.flipped) + len(self.turned)
 
     @property
     def flipped_faces(self) -> np.ndarray:
         """Faces of the surface with triangles that are turned over in the UVs."""
-        faces = np.unique(self.numbers.triangle_face[self.result.flipped_faces])
+        faces = np.unique(self.numbers.triangle_face[np.append(self.result.flipped_faces, self.turned)])
         return faces[faces != OTHERS]
 
 
@@ -83,9 +94,9 @@ class PartsOutcome(Outcome):
         of_kind = ", ".join(counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
         words = [
             f"{counted(len(kinds), 'part')} ({of_kind})",
-            f"evenness 1 : {density_text(result.density_ratio_5_95)}",
+            f"texel density 1 : {density_text(result.density_ratio_5_95)}",
             f"angle error {result.angle_error_stored_deg['mean']:.2f}°",
-            counted(result.flipped, "flip"),
+            counted(self.mapped[0].flipped, "flip"),
             f"{result.seconds:.2f} s",
         ]
         if result.stacked:
@@ -119,8 +130,8 @@ class PartsOutcome(Outcome):
         result = one.result
         return {
             "parts": len(result.parts), "angle_error": result.angle_error_stored_deg["mean"],
-            "flipped": result.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds,
-            "density": result.density_ratio_5_95, "coverage": result.coverage,
+            "flipped": one.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds,
+            "density": result.density_ratio_5_95, "coverage": result.coverage if one.coverage is None else one.coverage,
             "cut_length": result.cut_length, "even": result.even,
             **({"cut_edges": np.flatnonzero(one.cuts).tolist()} if one.cuts.any() else {}),
         }  # fmt: skip
@@ -150,6 +161,42 @@ def cut_into_parts(
         if not slits.any() or (inner_seams(surface) & ~one.cuts).any():
             _map(koebe, one, task, np.zeros_like(slits), arguments, progress, cancel)
     return PartsOutcome(task, [one])
+
+
+def move_parts(koebe: ModuleType, outcome: PartsOutcome, choice: PartsChoice, keep: bool, cancel: Any = None) -> None:
+    """Put new parts of selected faces where the old ones lay, with `keep`, or beside the islands of the other faces.
+
+    Parts on several tiles, and parts that lie on each other, stay where the solver put them. Any error is the
+    outcome's; `koebe.Cancelled` is raised.
+    """
+    (one,) = outcome.islands
+    if one.error is not None or (outcome.task.rest is None and not keep):
+        return
+    with failing_alone(koebe, [one]):
+        task, uv, remark = outcome.task, one.uv.astype(np.float64), ""
+        placed = in_place(task, one.corners, uv) if keep else None
+        if placed is None and (choice.tiles != 1 or one.result.stacked):
+            remark = OVER * (task.rest is not None)
+        elif placed is None:
+            own_size = choice.texels != "fill"
+            made = put_beside(koebe, task, one.corners, uv, choice.margin, choice.pixels, own_size, cancel)
+            placed, remark = (None, "") if made is None else (made.uv, made.remark)
+        outcome.remarks += [remark] * bool(remark)
+        if placed is not None:
+            _take_place(one, task.surface, placed)
+
+
+def _take_place(one: PartsIsland, surface: Surface, uv: np.ndarray) -> None:
+    """Give the parts other UVs (m, 2), and measure them again where a similarity and rounding change them."""
+    one.uv = uv.astype(np.float32)
+    layer = np.zeros((len(surface.corner_vertex), 2))
+    layer[one.corners] = one.uv
+    area = signed_areas(layer, surface.triangle_corners[surface.selected[surface.triangle_face]])
+    upright = np.ones(len(area), dtype=bool)
+    for stacked in one.result.stacked:
+        upright[one.result.part == stacked["part"]] = not stacked["mirrored"]
+    one.turned = np.setdiff1d(np.flatnonzero(np.where(upright, area, -area) <= 0.0), one.result.flipped_faces)
+    one.coverage = float(np.abs(area).sum())
 
 
 def _weights(task: Task, source: np.ndarray) -> dict[str, np.ndarray]:

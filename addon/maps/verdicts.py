@@ -53,7 +53,7 @@ def _evenness(entry: Any) -> Figure:
         else:  # Automatic has the slider for parts, where Keep Angles moves it
             advice = "Texels are uneven: with Shape: Disk raise Even, or choose Shape: Parts"
     value = f"1 : {density_text(entry.density)}" if entry.density <= MOST_SHOWN else f"over {MOST_SHOWN:.0f}"
-    return Figure("Evenness", value, advice)
+    return Figure("Texel density", value, advice)
 
 
 def _coverage(entry: Any, coverage: float) -> Figure:

@@ -23,7 +23,6 @@ REASONS = {
     "nonmanifold_vertex": "{vertices} where separate parts of it touch: split them",
     "nonorientable": "the surface is one-sided, like a Möbius strip: mark a seam across it",
 }
-PINNED = "pinned UVs have moved too: this map cannot keep pins"
 MIRRORED = "the object's scale is negative, so textures look mirrored: apply the scale"
 UNEVEN_TEXELS = "texels are very uneven: Unwrap to Parts makes them even"
 MOST_UNEVEN = 100.0  # texel density at 95 % of the area over that at 5 %; above it the UVs cannot be painted on

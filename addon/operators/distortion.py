@@ -18,7 +18,7 @@ from .polls import has_targets
 KINDS = [
     ("none", "Off", "Take the colours off and show the materials again"),
     (distortion.ANGLE, "Angle", "Colour the faces by how far the angles of the UVs are from the angles of the surface"),
-    (distortion.AREA, "Area", "Colour the faces by how many texels they get, compared with the mean"),
+    (distortion.AREA, "Texel Density", "Colour the faces by how many texels they get, compared with the mean"),
 ]
 SHADING_KEY = "koebe_shading"  # on the screen: the former surface colours of its 3D Views
 

@@ -25,7 +25,7 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     which: bpy.props.EnumProperty(
-        name="Loops",
+        name="Boundaries",
         items=[
             (hole_filling.HOLES, "Holes", "All boundaries except the longest boundary of each connected part"),
             (hole_filling.SELECTED, "Selected", "The boundary loops whose edges are all selected"),

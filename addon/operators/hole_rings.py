@@ -25,12 +25,12 @@ class MESH_OT_koebe_loops_around_holes(bpy.types.Operator):
     along circles around each hole. The UVs must have circles as holes"""
 
     bl_idname = "mesh.koebe_loops_around_holes"
-    bl_label = "Koebe Hole Loops"
+    bl_label = "Koebe Edge Loops Around Holes"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     hole: IntProperty(name="Hole", min=0, description="Number of the hole, as in the report. 0: all holes")
-    rings: IntProperty(name="Loops", default=3, min=1, soft_max=20, description="Number of loops around each hole")
+    rings: IntProperty(name="Edge Loops", default=3, min=1, soft_max=20, description="Number of loops around each hole")
     ratio: FloatProperty(
         name="Growth", default=1.3, min=1.001, soft_max=3.0,
         description="Each circle is so many times as large as the last, beginning with the hole",

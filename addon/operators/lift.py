@@ -75,8 +75,9 @@ class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
                 _hide(run, source)
             failures = job.failures()
             done = {outcome.name for outcome, _, _ in made}
-            old = run_report.report_of(context).islands
-            if failures or (old and all(not one.mapped and one.object_name in done for one in old)):
+            for name in sorted(done):
+                run_report.forget(run, context, name, layer="")  # why it had no copy before
+            if failures:
                 run_report.record(run, context, [outcome.row() for outcome in failures])
             redraw(context)
             return self._say(job, [outcome for outcome, _, _ in made])

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that save the panel's options as a preset, and that reset them to the defaults."""
+"""The operators that save the panel's options as a preset, take one that comes with the add-on, and reset them."""
 
 import contextlib
 import os
+from typing import Any
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -10,8 +11,10 @@ from bl_operators.presets import AddPresetBase
 from ..blender import edit_mode
 from ..blender.noted_properties import note_group
 from ..blender.transaction import transaction
+from ..maps.presets import PRESETS
 from ..state.option_properties import SETTING_NAMES, settings_of
 from .answers import refused
+from .tooltip import tooltip
 
 FOLDER = "koebe_uv"  # of the presets, within the user's presets
 
@@ -44,6 +47,30 @@ class UV_OT_koebe_preset_add(AddPresetBase, bpy.types.Operator):
                 os.unlink(temporary)
 
 
+class UV_OT_koebe_preset(bpy.types.Operator):
+    """Set the options of the panel for a purpose. Texture Size stays, and all other options get their defaults"""
+
+    bl_idname = "uv.koebe_preset"
+    bl_label = "Koebe Preset"
+    bl_description = tooltip(__doc__)
+    bl_options = {"REGISTER", "UNDO"}
+
+    preset: bpy.props.EnumProperty(
+        name="Preset",
+        items=[(word, row.label, row.does[0].upper() + row.does[1:]) for word, row in PRESETS.items()],
+        description="Purpose of the UVs",
+    )
+
+    @classmethod
+    def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Each preset has its own tooltip."""
+        does = PRESETS[properties.preset].does
+        return does[0].upper() + does[1:]
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        return _set_options(context, PRESETS[self.preset].values(settings_of(context).pixels))
+
+
 class UV_OT_koebe_reset(bpy.types.Operator):
     """Give all options of the panel their default values"""
 
@@ -52,13 +79,21 @@ class UV_OT_koebe_reset(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        with transaction() as run:
-            note_group(run, settings_of(context))
-            for name in SETTING_NAMES:
-                settings_of(context).property_unset(name)
-            edit_mode.undo_all(context)
-            return {"FINISHED"}
+        return _set_options(context, {})
 
 
-CLASSES = (UV_OT_koebe_preset_add, UV_OT_koebe_reset)
+def _set_options(context: bpy.types.Context, values: dict[str, Any]) -> set[str]:
+    """Give the options of the panel these values, and the others their defaults."""
+    settings = settings_of(context)
+    with transaction() as run:
+        note_group(run, settings)
+        for name in SETTING_NAMES:
+            settings.property_unset(name)
+        for name, value in values.items():
+            setattr(settings, name, value)
+        edit_mode.undo_all(context)
+        return {"FINISHED"}
+
+
+CLASSES = (UV_OT_koebe_preset_add, UV_OT_koebe_preset, UV_OT_koebe_reset)
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

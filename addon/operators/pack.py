@@ -36,7 +36,7 @@ class UV_OT_koebe_pack(ModalRun, bpy.types.Operator):
     margin: option("margin")
     pixels: option("pixels")
     average_scale: option("average_scale")
-
+    tiles: option("tiles")
     seconds: option("seconds")
     keep_places: option("keep_places")
 
@@ -47,6 +47,8 @@ class UV_OT_koebe_pack(ModalRun, bpy.types.Operator):
     def _job(self, context: bpy.types.Context) -> PackJob:
         options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale,
                    "seconds": self.seconds or None}  # fmt: skip
+        if self.keep_places == "NONE":  # the free space is that of one tile
+            options["tiles"] = max(1, self.tiles)
         job = PackJob(native_package.load(), self.layer, context.mode == "EDIT_MESH", self.keep_places, options)
         self._problems: list[str] = []
         for obj in with_own_meshes(target_objects(context)):

@@ -20,8 +20,12 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
     options_shown = PART_OPTION_NAMES
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> PartsJob:
-        choice, options = choice_of("parts", self), written_options_of(self)
-        return PartsJob(target_objects(context), options, choice, selected_only, refused=[])
+        keep = getattr(self, "placement", "") == "keep"  # of the operator of all shapes
+        choice, options = choice_of("parts", self), written_options_of(self, **({"placement": "keep"} if keep else {}))
+        job = PartsJob(target_objects(context), options, choice, selected_only, refused=[])
+        if keep:
+            job.read_old_uv()
+        return job
 
 
 register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_parts,))

@@ -23,18 +23,26 @@ def has_targets(
     return False
 
 
-def in_object_mode(cls: type[bpy.types.Operator], context: bpy.types.Context, least: int) -> bool:
-    """Whether so many objects are selected, the active one among them. If not, tells the user what to do."""
+def in_object_mode(
+    cls: type[bpy.types.Operator], context: bpy.types.Context, least: int, last: str = "the object that has the texture"
+) -> bool:
+    """Whether so many objects are selected, the active one among them. If not, tells the user what to do.
+
+    last  what the active one of several objects is
+    """
     if context.mode != "OBJECT":
         cls.poll_message_set("Works in Object Mode, on whole objects")
         return False
     if len(target_objects(context)) < least or context.active_object not in context.selected_objects:
         cls.poll_message_set(
             "Select mesh objects. One of them must be the active object" if least == 1
-            else "Select the other surfaces first, and last the surface that has the texture"
+            else f"Select the other objects first, and last {last}"
         )  # fmt: skip
         return False
-    return context.active_object.type == "MESH"
+    if context.active_object.type != "MESH":
+        cls.poll_message_set("The active object is no mesh")
+        return False
+    return True
 
 
 def native_or_error(operator: bpy.types.Operator) -> ModuleType | None:

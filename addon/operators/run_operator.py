@@ -129,7 +129,7 @@ class MapOperator(ModalRun):
         for outcome in job.outcomes:
             if outcome.mapped:
                 self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.line())
-                for note in [*[outcome.chosen] * bool(outcome.chosen), *outcome.said_notes()]:
+                for note in [*[outcome.chosen] * bool(outcome.chosen), *outcome.said_notes(), *outcome.hints]:
                     self.report({"INFO"}, f"{outcome.name}: {note}")
                 for warning in dict.fromkeys([*outcome.said_warnings(), *outcome.remarks]):
                     self.report({"WARNING"}, f"{outcome.name}: {warning}")

@@ -8,20 +8,20 @@ import bpy
 from ..blender import edit_mode
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
-from ..blender.selection import edges_along, select_only
+from ..blender.selection import edges_along, select_objects, select_only
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
 from ..maps.offending_elements import EDGES, FACES, VERTICES
-from ..state.run_report import KoebeIslandReport, active_entry, entries_of_object
+from ..state.run_report import KoebeIslandReport, selectable_entries
 from .answers import refused
 from .modal_run import OperatorBase
 from .tooltip import tooltip
 
 
 def active_object(context: bpy.types.Context) -> MeshObject | None:
-    """The mesh object of the island whose details are shown, or None if it no longer exists."""
-    entry = active_entry(context)
-    obj = context.view_layer.objects.get(entry.object_name) if entry is not None else None
+    """The mesh object of the island whose elements are selected, or None if it no longer exists."""
+    entries = selectable_entries(context)
+    obj = context.view_layer.objects.get(entries[0].object_name) if entries else None
     return obj if obj is not None and obj.type == "MESH" else None
 
 
@@ -35,20 +35,23 @@ class ReportOperator(OperatorBase):
         if active_object(context) is None:
             cls.poll_message_set("There is no report, or the object of the report is gone")
             return False
-        return context.mode in {"OBJECT", "EDIT_MESH"}
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            cls.poll_message_set("Works in Object Mode and in Edit Mode")
+            return False
+        return True
 
     def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
         """Kind and numbers of the elements to select."""
         raise NotImplementedError
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        entry, obj = active_entry(context), active_object(context)
-        assert entry is not None and obj is not None  # `poll` has checked this
+        entries, obj = selectable_entries(context), active_object(context)
+        assert obj is not None  # `poll` has checked this
         try:
             edit_mode.check(context, obj)
             with transaction() as run:
                 edit_mode.enter(run, context, obj)
-                select_only(run, context, [(obj, *self._chosen(obj, entry))])
+                select_only(run, context, [(obj, *self._chosen(obj, entries[0]))])
                 edit_mode.undo_all(context)
                 return {"FINISHED"}
         except TransferError as error:
@@ -65,7 +68,7 @@ class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if not super().poll(context):
             return False
-        if not active_entry(context).offenders:
+        if not selectable_entries(context)[0].offenders:
             cls.poll_message_set("The report names no wrong elements")
             return False
         return True
@@ -150,13 +153,13 @@ class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if not super().poll(context):
             return False
-        if not any(entry.cuts or entry.cut_edges for entry in entries_of_object(context)):
+        if not any(entry.cuts or entry.cut_edges for entry in selectable_entries(context)):
             cls.poll_message_set("This object was not cut")
             return False
         return True
 
     def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
-        entries = entries_of_object(bpy.context)
+        entries = selectable_entries(bpy.context)
         of_parts = [edge for one in entries if one.cut_edges for edge in json.loads(one.cut_edges)]
         if of_parts:
             return EDGES, of_parts
@@ -181,7 +184,33 @@ def select_offenders(run: Transaction, context: bpy.types.Context, job: Job) -> 
     return bool(chosen)
 
 
+class OBJECT_OT_koebe_show(bpy.types.Operator):
+    """Make this object the active one, so that the report shows its map"""
+
+    bl_idname = "object.koebe_show"
+    bl_label = "Koebe Show Object"
+    bl_options = {"REGISTER", "UNDO"}
+
+    object_name: bpy.props.StringProperty(name="Object", description="Name of an object of the report")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.mode != "OBJECT":
+            cls.poll_message_set("Works in Object Mode")
+            return False
+        return True
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        obj = context.view_layer.objects.get(self.object_name)
+        if obj is None:
+            return refused(self, f"there is no object {self.object_name!r} in this view layer")
+        with transaction() as run:
+            select_objects(run, context, [obj])
+        return {"FINISHED"}
+
+
 CLASSES = (
+    OBJECT_OT_koebe_show,
     UV_OT_koebe_select_offenders,
     UV_OT_koebe_select_flipped,
     UV_OT_koebe_select_warning,

@@ -15,7 +15,7 @@ class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operat
     directly is cut in the UVs only. In Edit Mode the selected faces are mapped. The mesh is not changed"""
 
     bl_idname = "uv.koebe_uniformize"
-    bl_label = "Koebe Uniformize"
+    bl_label = "Koebe Unwrap to Disk"
     bl_description = tooltip(__doc__)
     options_shown = tuple(sorted(OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
 

@@ -21,7 +21,7 @@ PATTERNS = [
     ("triangles", "Triangles", "A lattice of triangles that is even in the map"),
     ("diamonds", "Diamonds", "A lattice of diamonds that is even in the map"),
     ("stripes", "Stripes", "Stripes that are even in the map"),
-    ("truchet", "Truchet", "Tiles of quarter circles, turned at random, that are even in the map"),
+    ("truchet", "Quarter Circles", "Tiles of quarter circles, turned at random, that are even in the map"),
     ("file", "File", "The closed paths of an SVG file, or a PNG file whose white is raised"),
     ("object", "Curve or Text", "The closed curves of a curve object or text object of the scene"),
 ]

@@ -110,9 +110,9 @@ def choice_of(of: str, properties: Any) -> Any:
     return kind(**{name: _value(properties, name) for name in known})
 
 
-def written_options_of(properties: Any) -> Options:
-    """The `Options` for writing: layer and checker. Raises OptionError."""
-    return Options(**{name: _value(properties, name) for name in WRITTEN})
+def written_options_of(properties: Any, **others: Any) -> Options:
+    """The `Options` for writing: layer and checker, and those that are given. Raises OptionError."""
+    return Options(**{name: _value(properties, name) for name in WRITTEN}, **others)
 
 
 def options_of(properties: Any, **others: Any) -> Options:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last run's report, island by island, kept with the window manager for the panel to show."""
+"""The report on the objects' last maps, island by island, kept with the window manager for the panel to show."""
 
 import json
 from collections.abc import Iterable
@@ -46,8 +46,9 @@ class KoebeWarningReport(bpy.types.PropertyGroup):
 
 
 class KoebeIslandReport(bpy.types.PropertyGroup):
-    """An island of the last run."""
+    """An island of an object's last map."""
 
+    run: IntProperty(description="Number of the run that made it: islands of one run may share the UV square")
     object_name: StringProperty(description="Name of the object whose island this is")
     shape: StringProperty(description="Of a sequence: the frame or the shape key, else empty")
     island: IntProperty(description="Number of the island among those of its object")
@@ -93,9 +94,9 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
 
 
 class KoebeReport(bpy.types.PropertyGroup):
-    """The last run."""
+    """The last map of each object, the last run's first."""
 
-    islands: CollectionProperty(type=KoebeIslandReport, description="Islands of the last run")
+    islands: CollectionProperty(type=KoebeIslandReport, description="Islands of all objects")
     active: IntProperty(name="Island", description="Island whose details are shown")
     show_all: BoolProperty(
         name="Full Messages", default=False, description="Show the report's messages in full, however long they are"
@@ -114,18 +115,29 @@ def report_of(context: bpy.types.Context) -> KoebeReport:
 
 
 def record(run: Transaction, context: bpy.types.Context, rows: Iterable[dict[str, Any]]) -> None:
-    """Replace the report by rows as in `Outcome.rows`, with the names above. Lists are kept as JSON."""
-    report = report_of(context)
+    """Replace the report on some objects by rows as in `Outcome.rows`, with the names above. Lists are kept as JSON.
+
+    The report on other objects stays behind it, as long as they are there.
+    """
+    report, rows = report_of(context), list(rows)
     note_group(run, report)
-    report.islands.clear()
-    for row in rows:
+    number = 1 + max((entry.run for entry in report.islands), default=0)
+    names = {row["object_name"] for row in rows}
+    for index in reversed(range(len(report.islands))):
+        name = report.islands[index].object_name
+        if name in names or bpy.data.objects.get((name, None)) is None:
+            report.islands.remove(index)
+    for place, row in enumerate(rows):
         entry = report.islands.add()
         for name in COLLECTIONS:
             for item in row.pop(name, ()):
                 _fill(getattr(entry, name).add(), item)
         _fill(entry, row)
-    # Show islands with problems first.
-    report.active = next((index for index, entry in enumerate(report.islands) if not entry.mapped), 0)
+        entry.run = number
+        if place < len(report.islands) - 1:
+            report.islands.move(len(report.islands) - 1, place)
+    report.active = -1
+    report.active = max(active_index(context), 0)
 
 
 def _fill(group: bpy.types.PropertyGroup, row: dict[str, Any]) -> None:
@@ -163,18 +175,54 @@ def forget(run: Transaction, context: bpy.types.Context, name: str, layer: str) 
     report.active = min(report.active, max(len(report.islands) - 1, 0))
 
 
+def names_of_active(context: bpy.types.Context) -> set[str]:
+    """Names of the active object and of the others with its mesh: the report on one is about all of them."""
+    obj: Any = context.active_object
+    if obj is None or obj.data is None or obj.data.users == 1:
+        return set() if obj is None else {obj.name}
+    return {other.name for other in bpy.data.objects if other.data == obj.data}
+
+
+def active_index(context: bpy.types.Context) -> int:
+    """The number of the island whose details are shown: of the active object's islands the chosen one, else the first
+    that could not be mapped, else the first; -1 without any."""
+    report, names = report_of(context), names_of_active(context)
+    own = [index for index, entry in enumerate(report.islands) if entry.object_name in names]
+    if report.active in own:
+        return report.active
+    return next((index for index in own if not report.islands[index].mapped), own[0] if own else -1)
+
+
 def active_entry(context: bpy.types.Context) -> KoebeIslandReport | None:
     """The island of the report whose details are shown, or None."""
-    report = report_of(context)
-    if not 0 <= report.active < len(report.islands):
-        return None
-    return report.islands[report.active]
+    index = active_index(context)
+    return report_of(context).islands[index] if index >= 0 else None
 
 
 def entries_of_object(context: bpy.types.Context) -> list[KoebeIslandReport]:
     """All islands of the object whose details are shown."""
-    active = active_entry(context)
-    return [entry for entry in report_of(context).islands if active and entry.object_name == active.object_name]
+    names = names_of_active(context)
+    return [entry for entry in report_of(context).islands if entry.object_name in names]
+
+
+def selectable_entries(context: bpy.types.Context) -> list[KoebeIslandReport]:
+    """The island whose elements operators select, and behind it the other islands of its object: as shown, or, for
+    scripts, the island with the number `active` if the active object has no map."""
+    report = report_of(context)
+    islands = report.islands
+    first = active_entry(context) or (islands[report.active] if 0 <= report.active < len(islands) else None)
+    if first is None:
+        return []
+    return [first, *(entry for entry in islands if entry.object_name == first.object_name and entry != first)]
+
+
+def failed_beside(context: bpy.types.Context) -> list[str]:
+    """Names of the other objects of the last run that have an island without a map."""
+    islands = report_of(context).islands
+    last = max((entry.run for entry in islands), default=0)
+    failed = [entry.object_name for entry in islands if entry.run == last and not entry.mapped]
+    own = names_of_active(context)
+    return [name for name in dict.fromkeys(failed) if name not in own]
 
 
 GROUPS = (KoebeLoopReport, KoebeWarningReport, KoebeIslandReport, KoebeReport)

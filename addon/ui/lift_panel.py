@@ -13,6 +13,7 @@ class LiftPanel(ClosedPanel):
     """Patterns on the surface, as holes or a relief, and node groups that bend things onto it."""
 
     bl_label = "Pattern on Surface"
+    help_at = "13-patterns-on-the-surface"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), lift_settings_of(context)

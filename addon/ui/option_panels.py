@@ -24,13 +24,14 @@ from ..state.option_properties import (
     option_names,
     settings_of,
 )
-from .panel_parts import ClosedPanel, draw_map_button, draw_pack
+from .panel_parts import ClosedPanel, draw_map_button
 
 
 class DiskPanel(ClosedPanel):
     """Options of disks."""
 
-    bl_label = "Disk and Round Holes"
+    bl_label = "Disk, Round Holes"
+    help_at = "2-map"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -65,20 +66,22 @@ class PartsPanel(ClosedPanel):
     """Where parts are cut."""
 
     bl_label = "Seams and Cuts"
+    help_at = "6-any-model-unwrap-to-parts"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
         column.prop(settings, "darts")
         draw_weights(column, settings, "show", context)
         draw_weights(column, settings, "importance", context)
-        for name in ("seams", "write_seams", "weld"):
-            column.prop(settings, name)
+        for name in ("seams", "write_seams", "cut_at", "hard_angle", "cut_hard", "no_hard", "weld"):
+            draw_option(column, settings, name, context)
 
 
 class DomainsPanel(ClosedPanel):
     """Maps to domains that are no disk, and their options."""
 
     bl_label = "Seamless Shapes"
+    help_at = "7-textures-without-a-seam-torus-tile-cylinder-sphere"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -95,7 +98,8 @@ class DomainsPanel(ClosedPanel):
 class SequencePanel(ClosedPanel):
     """Maps of an animation or of shape keys, and which they are."""
 
-    bl_label = "Animation and Shape Keys"
+    bl_label = "Animation"
+    help_at = "12-a-surface-that-moves"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
@@ -111,19 +115,14 @@ class SequencePanel(ClosedPanel):
 
 
 class LayerPanel(ClosedPanel):
-    """What is written, where the islands lie, and the checker that is put on."""
+    """What is written, and the checker that is put on."""
 
-    bl_label = "UV Layer and Checker"
+    bl_label = "Layer and Checker"
+    help_at = "9-texture"
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("layer", "placement", "margin", "pixels", "checker", "checker_size"):
-            draw_option(column, settings, name, context)
-        column.prop(settings, "texels")
-        for name in {"number": ("density",), "layer": ("like",)}.get(settings.texels, ()):
-            draw_option(column, settings, name, context)
-        for name in ("tiles", "no_hard", "hard_angle", "cut_hard", "cut_at", "rectify", "stack", "stack_mirrored",
-                     "atlas"):
+        for name in ("layer", "checker", "checker_size"):
             draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)
@@ -133,6 +132,7 @@ class ToolsPanel(ClosedPanel):
     """What is made of a map that is there."""
 
     bl_label = "Fill, Mirror, Flatten"
+    help_at = "8-fill-holes"
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.layout.column()
@@ -141,9 +141,6 @@ class ToolsPanel(ClosedPanel):
         if context.mode == "EDIT_MESH":
             fill.operator(MESH_OT_koebe_fill_holes.bl_idname, text="Selected").which = "selected"
         column.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
-        draw_pack(column, settings_of(context))
-        for name in ("average_scale", "seconds", "keep_places"):
-            column.prop(settings_of(context), name)
         column.operator(MESH_OT_koebe_loops_around_holes.bl_idname, text="Loops Around Holes", icon="PROP_CON")
         column.operator(OBJECT_OT_koebe_flat_copy.bl_idname, text="Flat Copy", icon="MESH_PLANE")
         column.operator(UV_OT_koebe_flat_svg.bl_idname, text="Flat SVG", icon="EXPORT")
@@ -153,6 +150,7 @@ class AccuracyPanel(ClosedPanel):
     """What most runs leave alone."""
 
     bl_label = "Accuracy"
+    help_at = "what-is-lost"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.aligned_layout()

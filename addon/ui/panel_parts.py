@@ -11,6 +11,7 @@ from ..maps.stored import SERVES
 from ..operators.pack import UV_OT_koebe_pack
 from ..operators.unwrap import SHAPE_OF, UV_OT_koebe_unwrap
 from ..state.option_properties import KoebeSettings, copy_options
+from .help import draw_help
 
 CHARACTER = 7.8  # pixels of the sidebar's width per character of text, at a resolution scale of 1
 
@@ -26,10 +27,15 @@ else:
 
 
 class KoebePanel(PanelBase):
-    """What the panels have in common; mixed into one class per editor."""
+    """The common part of the panels, mixed into one class for each editor."""
 
     bl_region_type = "UI"
     bl_category = "Koebe"
+    help_at: str  # the heading of the guide about it
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        """The button that opens the guide."""
+        draw_help(self.layout, self.help_at)
 
     def aligned_layout(self) -> bpy.types.UILayout:
         """A layout with names on the left and without keyframe dots."""
@@ -59,7 +65,7 @@ def draw_map_button(column: bpy.types.UILayout, settings: KoebeSettings, of: str
 def draw_pack(layout: bpy.types.UILayout, settings: KoebeSettings) -> None:
     """The button that packs a UV layer, with the panel's options."""
     button = layout.operator(UV_OT_koebe_pack.bl_idname, text="Pack Only", icon="PACKAGE")
-    for name in ("margin", "pixels", "average_scale", "seconds", "keep_places"):
+    for name in ("margin", "pixels", "average_scale", "tiles", "seconds", "keep_places"):
         setattr(button, name, getattr(settings, name))
 
 

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel "Koebe UV" in the sidebars of the 3D View and the UV Editor: its main part, and the registration."""
 
+from typing import Any
+
 import bpy
 
-from ..blender import checker, distortion_attribute
+from ..blender import checker, distortion_attribute, rendered_layer
 from ..blender.targets import target_objects
 from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.even_slider import UV_OT_koebe_even
+from ..operators.render_layer import UV_OT_koebe_use_for_rendering
 from ..operators.run_operator import is_used
 from ..operators.unwrap import MAPS
 from ..state.option_properties import KoebeSettings, option_names, settings_of
@@ -15,7 +18,8 @@ from ..state.run_report import report_of
 from .circle_tool import CIRCLES_TOOL
 from .lift_panel import LiftPanel
 from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, SequencePanel, ToolsPanel
-from .panel_parts import KoebePanel, draw_unwrap
+from .packing_panel import PackingPanel
+from .panel_parts import KoebePanel, draw_message, draw_unwrap
 from .preset_menu import KOEBE_PT_presets
 from .report_panel import DetailsPanel, KOEBE_UL_islands, ReportPanel
 from .shape_panel import ShapesPanel
@@ -28,9 +32,11 @@ class MainPanel(KoebePanel):
     """The button, what it makes, and what judges a map."""
 
     bl_label = "Koebe UV"
+    help_at = "2-map"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         KOEBE_PT_presets.draw_panel_header(self.layout)
+        super().draw_header_preset(context)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, settings_of(context)
@@ -65,6 +71,12 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
     switch.layer, switch.checker_size, switch.checker_even = (
         settings.layer, settings.checker_size, settings.checker_even,
     )  # fmt: skip
+    if worn:
+        draw_message(column, "Take it off before you export")
+    if objects and rendered_layer.hidden_by(objects[0], settings.layer):
+        icon: Any = "RESTRICT_RENDER_OFF"
+        render = column.operator(UV_OT_koebe_use_for_rendering.bl_idname, text="Use for Rendering", icon=icon)
+        render.layer = settings.layer
     shading = getattr(context.space_data, "shading", None)
     if worn and shading is not None and shading.type in {"WIREFRAME", "SOLID"}:
         row = column.row()
@@ -74,7 +86,7 @@ def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings
     split = column.split(factor=NAMES)
     split.label(text="Distortion")
     row = split.row(align=True)
-    for value, text in (("angle", "Angle"), ("area", "Area"), ("none", "Off")):
+    for value, text in (("angle", "Angle"), ("area", "Texel"), ("none", "Off")):
         button = row.operator(UV_OT_koebe_distortion.bl_idname, text=text, depress=kind == value)
         button.kind, button.layer = value, settings.layer
     if context.space_data.type == "IMAGE_EDITOR":
@@ -110,6 +122,7 @@ CHILDREN = {
     "disk": DiskPanel,
     "parts": PartsPanel,
     "domains": DomainsPanel,
+    "packing": PackingPanel,
     "layer": LayerPanel,
     "tools": ToolsPanel,
     "lift": LiftPanel,

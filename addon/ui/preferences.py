@@ -7,6 +7,7 @@ import bpy
 
 from .. import __name__ as addon_name
 from ..operators.node_groups import NODE_OT_koebe_add_library, NODE_OT_koebe_remove_library
+from .help import draw_help
 
 OPERATOR = "uv.koebe_unwrap"
 # Where the shortcut Shift Alt U works: keymap and its space type.
@@ -51,6 +52,9 @@ class KoebePreferences(bpy.types.AddonPreferences):
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.label(text="In the 3D View press N and open the tab Koebe", icon="INFO")
         self.layout.prop(self, "shortcut")
+        row = self.layout.row(align=True)
+        draw_help(row, "", text="Guide")
+        draw_help(row, "", "troubleshooting", "Troubleshooting")
         row = self.layout.row(align=True)
         row.operator(NODE_OT_koebe_add_library.bl_idname, text="Add Node Groups as Asset Library", icon="ASSET_MANAGER")
         row.operator(NODE_OT_koebe_remove_library.bl_idname, text="", icon="X")

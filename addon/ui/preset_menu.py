@@ -4,7 +4,8 @@
 import bpy
 from bl_ui.utils import PresetPanel
 
-from ..operators.option_presets import FOLDER
+from ..maps.presets import PRESETS
+from ..operators.option_presets import FOLDER, UV_OT_koebe_preset
 
 
 class KOEBE_PT_presets(PresetPanel, bpy.types.Panel):
@@ -14,6 +15,14 @@ class KOEBE_PT_presets(PresetPanel, bpy.types.Panel):
     preset_subdir = FOLDER
     preset_operator = "script.execute_preset"
     preset_add_operator = "uv.koebe_preset_add"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """The presets that come with the add-on, and below them the user's."""
+        self.layout.emboss = "PULLDOWN_MENU"
+        column = self.layout.column()
+        for word, row in PRESETS.items():
+            column.operator(UV_OT_koebe_preset.bl_idname, text=row.label, icon="PRESET").preset = word
+        PresetPanel.draw(self, context)
 
 
 class KOEBE_MT_presets(bpy.types.Menu):

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The part of the panel that shows the last run, island by island."""
+"""The part of the panel that shows the last map of the active object, island by island."""
 
 import json
 from typing import Any, Literal
 
 import bpy
 
+from ..blender import rendered_layer
 from ..maps.verdicts import Figure, figures, is_good
 from ..maps.wording import counted
 from ..operators.select_from_report import (
+    OBJECT_OT_koebe_show,
     UV_OT_koebe_select_cuts,
     UV_OT_koebe_select_flipped,
     UV_OT_koebe_select_loop,
@@ -17,17 +19,31 @@ from ..operators.select_from_report import (
     UV_OT_koebe_select_warning,
 )
 from ..state.option_properties import settings_of
-from ..state.run_report import KoebeIslandReport, KoebeWarningReport, active_entry, entries_of_object, report_of
+from ..state.run_report import (
+    KoebeIslandReport,
+    KoebeWarningReport,
+    active_entry,
+    entries_of_object,
+    failed_beside,
+    names_of_active,
+    report_of,
+)
 from .panel_parts import ClosedPanel, KoebePanel, draw_map_button, draw_message, draw_unwrap
 
 MAX_LOOP_BUTTONS = 40
+MAX_OTHERS = 5  # objects that could not be mapped, beside the active one
 MOST_LINES = 6  # of each message, until everything is requested
 # Radius of an annulus's hole, over its rim's. Below it texels differ by the inverse: it should be unrolled.
 LONG_TUBE = 0.2
 
 
 class KOEBE_UL_islands(bpy.types.UIList):
-    """The islands of the last run, one a line."""
+    """The islands of the active object, one a line."""
+
+    def filter_items(self, context: bpy.types.Context, data: Any, name: str) -> tuple[list[int], list[int]]:
+        """Show the active object's islands."""
+        names = names_of_active(context)
+        return [self.bitflag_filter_item * (entry.object_name in names) for entry in getattr(data, name)], []
 
     def draw_item(
         self,
@@ -61,26 +77,29 @@ def shared_coverage(context: bpy.types.Context, entry: KoebeIslandReport) -> flo
     """How much of the UV square the islands cover that share it with this one."""
     if entry.parts:
         return entry.coverage  # of all parts
-    islands = [one for one in report_of(context).islands if one.together] if entry.together else (
-        entries_of_object(context))
+    islands = [one for one in report_of(context).islands if one.together and one.run == entry.run] if (
+        entry.together) else entries_of_object(context)
     return sum(one.coverage for one in islands if one.shape == entry.shape)
 
 
 class ReportPanel(KoebePanel):
-    """The last run, island by island."""
+    """The last map of the active object, island by island."""
 
     bl_label = "Report"
+    help_at = "3-judge"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         report = report_of(context)
-        if not report.islands:
-            layout.label(text="No map yet: press Unwrap")
-        if len(report.islands) > 1:
-            layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
+        for name in failed_beside(context)[:MAX_OTHERS]:
+            layout.operator(OBJECT_OT_koebe_show.bl_idname, text=f"Not mapped: {name}", icon="ERROR").object_name = name
         entry = active_entry(context)
         if entry is None:
+            obj = context.active_object
+            layout.label(text="No map yet: press Unwrap" if obj is None else f"{obj.name}: no map yet")
             return
+        if len(entries_of_object(context)) > 1:
+            layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
         several = len([one for one in entries_of_object(context) if one.shape == entry.shape]) > 1
         which = f", island {entry.island + 1}" if several else ""
         if entry.shape:
@@ -96,6 +115,7 @@ class ReportPanel(KoebePanel):
             draw_unroll(layout, context, entry)
             for number, warning in enumerate(entry.warnings):
                 draw_warning(layout.box().column(align=True), number, warning)
+            draw_layers(layout.column(align=True), entry)
         most = 0 if report.show_all else MOST_LINES
         note = "" if entry.moved else entry.note  # which speaks of the map before
         said = ("" if entry.mapped else entry.message, note, entry.moved)
@@ -115,6 +135,14 @@ def draw_figure(column: bpy.types.UILayout, figure: Figure) -> None:
     split.label(text=figure.name, icon="CHECKMARK" if figure.is_good else "ERROR")
     split.label(text=figure.value)
     draw_message(column, figure.advice)
+
+
+def draw_layers(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
+    """Which other UV layers are shown where the object's materials are."""
+    obj: Any = bpy.data.objects.get((entry.object_name, None))
+    if obj is not None and obj.type == "MESH":
+        for sentence in rendered_layer.sentences(obj, entry.layer):
+            draw_message(column, sentence)
 
 
 def draw_warning(column: bpy.types.UILayout, number: int, warning: KoebeWarningReport) -> None:
@@ -139,6 +167,7 @@ class DetailsPanel(ClosedPanel):
     """The other figures of a map, its warnings as the solver says them, and its loops."""
 
     bl_label = "Details"
+    help_at = "3-judge"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -155,7 +184,7 @@ class DetailsPanel(ClosedPanel):
 def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     """Figures of a mapped island, and buttons that select its loops."""
     table = column.column(align=True)
-    sweeps = ("Sweeps", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
+    sweeps = ("Iterations", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
     of_circles = [("Roundness", f"{entry.roundness:.1e}"), sweeps]
     of_parts = [
         ("Parts", f"{entry.parts}"),
@@ -163,20 +192,20 @@ def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     ]
     of_tile = [
         ("Modulus", entry.modulus),
-        *(("Period" if not number else "", text) for number, text in enumerate(entry.periods.split(" and "))),
+        *(("Repeats after" if not number else "", text) for number, text in enumerate(entry.periods.split(" and "))),
         sweeps,
     ]
     torn, moved, flipped = (
         len(json.loads(faces or "[]")) for faces in (entry.torn_faces, entry.moved_faces, entry.flipped_faces)
     )
     of_sphere = [
-        ("Caps", f"{len(entry.loops)}"),
+        ("Holes", f"{len(entry.loops)}"),
         ("Torn", counted(torn, "face")),
         ("Moved", counted(moved, "face")),
         sweeps,
     ]
     of_handles = [
-        ("Handles", f"{entry.handles}"),
+        ("Mug handles", f"{entry.handles}"),
         ("Holes", f"{len(entry.loops)}"),
         ("Cut along", "circles" if entry.by_circles else "edges"),
         sweeps,
@@ -193,7 +222,7 @@ def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
         split.label(text=value)
     if not entry.loops:
         return
-    column.label(text="Select Loop")
+    column.label(text="Select Boundary")
     grid = column.grid_flow(row_major=True, columns=4, even_columns=True, align=True)
     for index in range(min(len(entry.loops), MAX_LOOP_BUTTONS)):
         text = entry.loops[index].name or ("Rim" if index == 0 else f"{index}")

@@ -18,7 +18,8 @@ MAX_ENTRIES = 12  # objects that were compared, or got a texture
 class ShapesPanel(ClosedPanel):
     """The conformal module of the active object, and the other selected ones held against it."""
 
-    bl_label = "Compare, Carry Texture"
+    bl_label = "Compare and Carry"
+    help_at = "10-one-texture-for-several-shapes"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -39,10 +40,10 @@ class ShapesPanel(ClosedPanel):
 
 def draw_module(column: bpy.types.UILayout, shapes: KoebeShapes) -> None:
     """Draw the module's numbers, one hole per row: x, y and radius."""
-    column.label(text=f"Module of {shapes.source}", icon="MESH_CIRCLE")
+    column.label(text=f"Circles of {shapes.source}", icon="MESH_CIRCLE")
     numbers = list(shapes.module)
     if not numbers:
-        column.label(text="All disks have the same module")
+        column.label(text="Without holes all are the same")
     rows = {"": dict(zip("xyr", "xyr", strict=True))} if numbers else {}
     for number in numbers[:MAX_NUMBERS]:
         letter, hole = number.name.split("_")

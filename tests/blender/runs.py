@@ -51,13 +51,13 @@ def mapped_alone():
 
 
 def offending():
-    """A report that begins with an island that cannot be mapped, and another object selected."""
+    """A report of the active object, which cannot be mapped, and of another one."""
     states.new_file()
     good, bad = states.keyed(), states.broken()
     scenes.select(good, bad)
     bpy.ops.uv.koebe_uniformize()
     states.consistent([good, bad])
-    scenes.select(good)
+    scenes.select(bad)
 
 
 def flipped():
@@ -256,6 +256,14 @@ RUNS = {
     "move circles in Edit Mode": (mapped_in_edit_mode, "uv.koebe_moebius", {"hole": 2, "rotation": 1.0}),
     "symmetrize": (symmetric, "uv.koebe_symmetrize", {}),
     "symmetrize in Edit Mode": (symmetric_in_edit_mode, "uv.koebe_symmetrize", {}),
+    "use for rendering": (states.worn, "uv.koebe_use_for_rendering", {"layer": "Koebe"}),
+    "use for rendering in Edit Mode": (states.edited_worn, "uv.koebe_use_for_rendering", {"layer": "Koebe"}),
+    "preset": (chosen, "uv.koebe_preset", {}),
+    "preset in Edit Mode": (chosen_in_edit_mode, "uv.koebe_preset", {}),
+    "measure density in Edit Mode": (mapped_in_edit_mode, "uv.koebe_measure_density", {"take": True}),
+    "set density": (states.worn, "uv.koebe_set_density", {"layer": "Koebe"}),
+    "set density in Edit Mode": (mapped_in_edit_mode, "uv.koebe_set_density", {"layer": "Koebe"}),
+    "copy density": (carried, "uv.koebe_copy_density", {}),
     "pack": (mapped, "uv.koebe_pack", {}),
     "pack in Edit Mode": (mapped_in_edit_mode, "uv.koebe_pack", {"layer": "Koebe", "average_scale": True}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
@@ -264,6 +272,7 @@ RUNS = {
     "add node groups": (states.many, "node.koebe_add_groups", {}),
     "loops around holes": (mapped_alone, "mesh.koebe_loops_around_holes", {}),
     "compare": (carried, "uv.koebe_compare_shapes", {}),
+    "show an object": (reported_in_object_mode, "object.koebe_show", {"object_name": "Keyed"}),
     "select a loop": (reported, "uv.koebe_select_loop", {"loop": 2}),
     "select a loop in Object Mode": (reported_in_object_mode, "uv.koebe_select_loop", {"loop": 1}),
     "select what is wrong": (offending, "uv.koebe_select_offenders", {}),

@@ -122,6 +122,15 @@ def corner_uv(mesh, layer):
     return read(mesh.uv_layers[layer].data, "uv", np.float32, 2)
 
 
+def pin(mesh, layer, corners):
+    """Pin the UVs of the corners (C,) bool, and no others. Not in Edit Mode."""
+    if not hasattr(mesh.uv_layers[layer], "pin"):  # before 3.5
+        mesh.uv_layers[layer].data.foreach_set("pin_uv", corners)
+        return
+    mesh.uv_layers[layer].pin_ensure()
+    mesh.uv_layers[layer].pin.foreach_set("value", corners)
+
+
 def triangles(mesh):
     """Vertices (T, 3) and corners (T, 3) of Blender's own triangulation."""
     mesh.calc_loop_triangles()
@@ -151,9 +160,10 @@ def mesh_state(mesh, but_layer=None):
 
 
 def last_run():
-    """The report's entry, which is the only one."""
-    (entry,) = bpy.context.window_manager.koebe_uv.islands
-    return entry
+    """The report's entry of the last run, which is the only one of that run."""
+    first, *others = bpy.context.window_manager.koebe_uv.islands
+    assert all(entry.run < first.run for entry in others)
+    return first
 
 
 def written_faces(obj, layer="Koebe"):

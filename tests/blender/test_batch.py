@@ -82,7 +82,7 @@ def test_tiles_are_those_of_the_operators(batch, tmp_path, domain, options):
     done = batch("--output", "out.blend", "--report", "out.json", "--domain", domain, "--layer", "Own", *words)
     assert done.returncode == 0, done.stderr
     assert f"{obj.name}: 1 {'torus tile' if domain == 'torus' else 'cylinder'}, " in done.stdout
-    assert ", evenness 1 : " in done.stdout
+    assert ", texel density 1 : " in done.stdout
     assert getattr(bpy.ops.uv, f"koebe_{domain}")(layer="Own", **options) == {"FINISHED"}
     expected, name = scenes.corner_uv(obj.data, "Own").copy(), obj.name
     loops = {frozenset(loop) for loop in scenes.boundary_loops(obj.data)}

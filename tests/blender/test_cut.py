@@ -1,4 +1,4 @@
-"""Koebe Uniformize of any mesh: cut in the UVs where it has no map as it is."""
+"""Koebe Unwrap to Disk of any mesh: cut in the UVs where it has no map as it is."""
 
 import cmath
 

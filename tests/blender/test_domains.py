@@ -45,7 +45,7 @@ WRONG = {
     "a torus, no sphere": ("sphere", add_torus, "this surface has 1 handle, and a sphere has no handle", "torus"),
     "a pretzel, no sphere":
         ("sphere", two_handles, "this surface has 2 handles, and a sphere has no handle", "schottky parts"),
-    "a ball": ("schottky", add_ball, "this surface has no handle: Unwrap Handles needs at least one", "sphere"),
+    "a ball": ("schottky", add_ball, "this surface has no handle: Unwrap Pretzel needs at least one", "sphere"),
     "a panel without handles": ("schottky", scenes.add_panel, "this surface has no handle", "uniformize"),
 }
 

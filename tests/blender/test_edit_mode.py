@@ -36,7 +36,8 @@ def test_only_selected_faces_get_uvs(existing):
     others = corners_of(obj, outside)
     assert np.array_equal(uv[others], old[others])
     points = uv[corners_of(obj, inside)]
-    assert np.abs(np.hypot(*(points - 0.5).T).max() - 0.5) < 1e-6  # they fill the disk
+    if not existing:  # where there are others, test_beside.py has the place
+        assert np.abs(np.hypot(*(points - 0.5).T).max() - 0.5) < 1e-6  # they fill the disk
     assert np.flatnonzero(scenes.read(obj.data.polygons, "select", bool)).tolist() == inside.tolist()
 
 

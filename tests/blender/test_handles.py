@@ -1,4 +1,4 @@
-"""Unwrap Handles: UVs of surfaces with any number of handles, as the package makes them."""
+"""Unwrap Pretzel: UVs of surfaces with any number of handles, as the package makes them."""
 
 import collections
 import json

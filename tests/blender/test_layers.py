@@ -167,16 +167,26 @@ def pin_one(obj, layer="Koebe"):
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-def test_pins_that_are_not_kept_are_spoken_of(mode):
+@pytest.mark.parametrize("operator", ["unwrap", "uniformize", "parts", "ring", "sequence"])
+def test_pinned_uvs_never_move(mode, operator):
     obj = scenes.add_panel()
-    report = bpy.context.window_manager.koebe_uv
-    bpy.ops.uv.koebe_uniformize()
-    bpy.ops.uv.koebe_uniformize()
-    assert report.islands[0].message == ""
+    assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
+    before = scenes.corner_uv(obj.data, "Koebe")
     pin_one(obj)
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.object.mode_set(mode=mode)
+    with pytest.raises(RuntimeError, match="Panel: pinned UVs of 1 vertex would move: in the UV Editor Shift P"):
+        getattr(bpy.ops.uv, f"koebe_{operator}")()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), before)
+    bpy.ops.object.mode_set(mode=mode)
+    assert bpy.ops.uv.koebe_uniformize(layer="Other") == {"FINISHED"}
+
+
+def test_faces_beside_a_pin_are_mapped():
+    obj = scenes.add_panel()
     bpy.ops.uv.koebe_uniformize()
-    assert "this map cannot keep pins" in report.islands[0].message
-    bpy.ops.uv.koebe_uniformize(layer="Other")
-    assert report.islands[0].message == ""
+    pin_one(obj)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    scenes.select_faces(obj, range(60, 80))
+    assert bpy.ops.uv.koebe_unwrap(checker=False) == {"FINISHED"}

@@ -102,10 +102,7 @@ def test_islands_keep_their_places(keep):
     uv[1:] = uv[0] / 4 + 5 * np.arange(1, 6)[:, None, None]
     layer.data.foreach_set("uv", uv.ravel())
     if keep != "OTHERS":
-        if hasattr(layer, "pin"):
-            layer.pin.foreach_set("value", [True] * 4 + [False] * 20)
-        else:
-            layer.data.foreach_set("pin_uv", [True] * 4 + [False] * 20)
+        scenes.pin(obj.data, "Old", [True] * 4 + [False] * 20)
     chosen = [0, 1, 2, 3, 4, 5] if keep == "PINNED" else [1, 2] if keep == "OTHERS" else [0, 1, 2]
     scenes.select_faces(obj, chosen)
     assert bpy.ops.uv.koebe_pack(keep_places=keep, margin=4, pixels=512, seconds=0.2) == {"FINISHED"}

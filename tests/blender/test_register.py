@@ -1,11 +1,15 @@
 """Enabled, disabled and enabled again: everything is there, nothing is left behind."""
 
 import importlib
+import re
+import types
+from pathlib import Path
 
 import addon_utils
 import bpy
 import processes
 import pytest
+import scenes
 
 
 def registered():
@@ -58,6 +62,144 @@ def test_panels_are_where_artists_look():
     for panel, editor in ((bpy.types.VIEW3D_PT_koebe, "VIEW_3D"), (bpy.types.IMAGE_PT_koebe, "IMAGE_EDITOR")):
         assert (panel.bl_label, panel.bl_category) == ("Koebe UV", "Koebe")
         assert (panel.bl_space_type, panel.bl_region_type) == (editor, "UI")
+
+
+def operators():
+    """All operators of the add-on, by name."""
+    names = [f"{space}.{name}" for space in dir(bpy.ops) for name in dir(getattr(bpy.ops, space)) if "koebe_" in name]
+    return {name: getattr(getattr(bpy.ops, name.split(".")[0]), name.split(".")[1]) for name in names}
+
+
+def a_curve():
+    """A curve, selected and active."""
+    obj = bpy.data.objects.new("Curve", bpy.data.curves.new("Curve", "CURVE"))
+    bpy.context.collection.objects.link(obj)
+    scenes.select(obj)
+
+
+def sculpting():
+    """A mapped mesh in Sculpt Mode."""
+    scenes.add_panel(size=12)
+    bpy.ops.uv.koebe_uniformize()
+    bpy.ops.object.mode_set(mode="SCULPT")
+
+
+@pytest.mark.parametrize("state", [lambda: None, a_curve, sculpting, lambda: scenes.add_panel(size=12)])
+def test_an_operator_that_refuses_says_why(state):
+    state()
+    refused = [name for name, operator in operators().items() if not operator.poll()]
+    assert refused
+    for name in refused:
+        with pytest.raises(RuntimeError) as raised:
+            operators()[name]()
+        said = str(raised.value).partition("poll() ")[2]
+        assert len(said) > 10 and "context is incorrect" not in said, name
+
+
+NOT_IN_MENUS = {  # operators that need a choice which only their button makes
+    "uv.koebe_preset_add", "uv.koebe_select_warning", "object.koebe_show", "node.koebe_add_library",
+    "node.koebe_remove_library", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_torus", "uv.koebe_ring",
+    "uv.koebe_sphere", "uv.koebe_schottky",
+}  # fmt: skip
+
+
+def test_the_search_finds_every_operator_in_menus(addon):
+    """Blender's search (F3) looks in the menus that can be reached."""
+
+    class Layout:
+        """Notes what a menu draws."""
+
+        def __init__(self):
+            self.operators, self.words, self.menus = set(), set(), []
+
+        def operator(self, name, text="", icon=""):
+            self.words.add(text or operators()[name].get_rna_type().name)
+            self.operators.add(name)
+            return types.SimpleNamespace()
+
+        def menu(self, name):
+            self.menus.append(name)
+
+        def separator(self):
+            pass
+
+    menus, layout = addon("ui.menus"), Layout()
+    for draw in menus.MENUS.values():
+        draw(types.SimpleNamespace(layout=layout), bpy.context)
+    drawn = set()
+    while todo := set(layout.menus) - drawn:
+        for name in todo:
+            drawn.add(name)
+            getattr(menus, name).draw(types.SimpleNamespace(layout=layout), bpy.context)
+    assert drawn == {"KOEBE_MT_unwrap", "KOEBE_MT_tools"}
+    assert operators().keys() - layout.operators == NOT_IN_MENUS
+    for words in ("Unwrap", "Pack Only", "Use for Rendering", "Set Texel Density", "Lightmap Preset", "Fill Holes"):
+        assert words in layout.words, words
+
+
+def test_no_handler_is_left_after_disabling(addon, addon_name):
+    """Handlers, drawing over editors, properties, key maps, and classes."""
+
+    def left():
+        handlers = [f"{name}: {function.__module__}" for name in dir(bpy.app.handlers)
+                    if isinstance(getattr(bpy.app.handlers, name), list)
+                    for function in getattr(bpy.app.handlers, name)
+                    if getattr(function, "__module__", "").startswith(addon_name)]  # fmt: skip
+        properties = [f"{owner.__name__}.{name}" for owner in (bpy.types.Scene, bpy.types.WindowManager)
+                      for name in dir(owner) if name.startswith("koebe")]  # fmt: skip
+        classes = [name for name in dir(bpy.types) if "koebe" in name.lower()]
+        return handlers, properties, classes, list(addon("ui.drawing")._handles)
+
+    before = left()
+    assert all(before[:3])
+    drawing = addon("ui.drawing")
+    addon_utils.disable(addon_name)
+    try:
+        assert left()[:3] == ([], [], []) and not drawing._handles
+    finally:
+        addon_utils.enable(addon_name)
+    assert left() == before
+
+
+def test_each_part_of_the_panel_opens_the_guide_at_a_heading(addon, folder):
+    ids = set(re.findall(r'id="([^"]*)"', Path(folder, "guide.html").read_text(encoding="utf-8")))
+    panels = addon("ui.panels").CLASSES
+    parts = [panel for panel in panels if issubclass(panel, bpy.types.Panel)]
+    assert len(parts) == 2 * 13 and {panel.help_at for panel in parts} <= ids
+
+    class Layout:
+        """Notes the buttons that are drawn."""
+
+        def __init__(self):
+            self.urls, self.url = [], ""
+
+        def operator(self, name, **_):
+            assert name == "wm.url_open"
+            self.urls.append(self)
+            return self
+
+    layout = Layout()
+    addon("ui.help").draw_help(layout, "3-judge")
+    assert layout.urls and layout.url == f"{Path(folder, 'guide.html').resolve().as_uri()}#3-judge"
+    assert Path(folder, "troubleshooting.html").exists()
+
+
+# Words that need a manual, and the words for them. Scripts use the names of options, which stay.
+GONE = {"Stack Twins", "Stack Copies", "Loops", "Handles", "Caps", "Sweeps", "Truchet", "Prefer", "Period 1",
+        "Unit Square", "Outer Loop", "Evenness"}  # fmt: skip
+
+
+def test_labels_are_words_that_an_artist_knows():
+    owners = [getattr(getattr(bpy.ops, name.split("_OT_")[0].lower()), name.split("_OT_")[1]).get_rna_type()
+              for name in dir(bpy.types) if "_OT_koebe_" in name]  # fmt: skip
+    owners += [bpy.types.Scene.bl_rna.properties[name].fixed_type for name in ("koebe_uv", "koebe_lift")]
+    labels = {owner.name for owner in owners}
+    for owner in owners:
+        for prop in owner.properties:
+            labels.add(prop.name)
+            labels |= {item.name for item in getattr(prop, "enum_items", ())}
+    assert len(labels) > 100 and not labels & GONE
+    assert not any("Uniformize" in label for label in labels)
 
 
 def test_everything_an_artist_meets_has_a_tooltip_that_teaches():

@@ -33,7 +33,7 @@ def test_every_island_is_reported_with_its_figures(koebe):
     assert [entry.mapped for entry in (inner, outer, closed)] == [True, True, False]
     assert [len(entry.loops) for entry in (inner, outer, closed)] == [4, 2, 0]
     assert "closed" in closed.message
-    assert bpy.context.window_manager.koebe_uv.active == 2  # what has to be looked at
+    assert bpy.context.window_manager.koebe_uv.active == 0  # of the active object
     assert inner.converged and inner.flipped == 0 and inner.seconds > 0 and inner.angle_error > 0
     assert inner.loops[0].radius == pytest.approx(1.0) and 0 < inner.loops[1].radius < 1
 
@@ -43,6 +43,40 @@ def test_a_new_run_replaces_the_report():
     bpy.ops.uv.koebe_uniformize()
     bpy.ops.uv.koebe_uniformize()
     assert len(islands()) == 1
+
+
+def test_the_report_is_that_of_the_active_object(addon):
+    state, report = addon("state.run_report"), bpy.context.window_manager.koebe_uv
+    first, second, bad = scenes.add_panel("First"), add_seamed_panel("Second"), scenes.add_cube("Bad")
+    scenes.select(first)
+    bpy.ops.uv.koebe_uniformize(placement="together")
+    scenes.select(second, bad)
+    bpy.ops.uv.koebe_uniformize(cut=False, placement="together")
+    assert [entry.object_name for entry in report.islands] == ["Second", "Second", "Bad", "First"]
+    assert state.failed_beside(bpy.context) == ["Bad"]
+    shared = addon("ui.report_panel").shared_coverage
+    for obj, expected in ((first, [3]), (second, [0, 1]), (bad, [2])):
+        scenes.select(obj)
+        assert state.active_index(bpy.context) == expected[0]
+        shown = [entry for entry in report.islands if entry.object_name in state.names_of_active(bpy.context)]
+        assert shown == [report.islands[index] for index in expected] == state.entries_of_object(bpy.context)
+        if obj is not bad:  # islands of one run share the square, and no other ones
+            coverage = sum(report.islands[index].coverage for index in expected)
+            assert shared(bpy.context, shown[0]) == pytest.approx(coverage)
+    assert state.failed_beside(bpy.context) == []
+    scenes.select(second)
+    report.active = 1
+    assert state.active_index(bpy.context) == 1
+    twin = bpy.data.objects.new("Twin", first.data)
+    bpy.context.collection.objects.link(twin)
+    scenes.select(twin)
+    assert state.active_index(bpy.context) == 3
+    scenes.select(scenes.add_cube("New"))
+    assert state.active_entry(bpy.context) is None
+    bpy.data.objects.remove(second)
+    scenes.select(bad)
+    bpy.ops.uv.koebe_uniformize()
+    assert [entry.object_name for entry in report.islands] == ["Bad", "First"]
 
 
 def test_loops_are_selected_edge_by_edge_in_edit_mode():
@@ -82,7 +116,8 @@ def test_offenders_are_selected_from_object_mode():
     good = scenes.add_panel("Good")
     scenes.select(good, obj)
     bpy.ops.uv.koebe_uniformize(cut=False)
-    bpy.context.window_manager.koebe_uv.active = 1
+    assert not bpy.ops.uv.koebe_select_offenders.poll()  # it is the report of the active object
+    assert bpy.ops.object.koebe_show(object_name="Bad") == {"FINISHED"}
     assert bpy.ops.uv.koebe_select_offenders() == {"FINISHED"}
     assert bpy.context.active_object is obj and not good.select_get()
     vertices, edges, faces = selected(obj)

@@ -63,7 +63,7 @@ def applied(obj, frame):
 
 
 def uniformized(obj, **options):
-    """The UVs of Koebe Uniformize."""
+    """The UVs of Koebe Unwrap to Disk."""
     scenes.select(obj)
     assert bpy.ops.uv.koebe_uniformize(checker=False, layer="Alone", **options) == {"FINISHED"}
     return scenes.corner_uv(obj.data, "Alone").copy()

@@ -1,4 +1,4 @@
-"""Symmetry as an option of Koebe Uniformize."""
+"""Symmetry as an option of Koebe Unwrap to Disk."""
 
 import bpy
 import numpy as np

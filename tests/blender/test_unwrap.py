@@ -25,11 +25,6 @@ def add_bump(height):
     return scenes.add_panel(size=20, height=lambda x, y: 3.0 * height * np.exp(-4.0 * (x * x + y * y)))
 
 
-def report():
-    (entry,) = bpy.context.window_manager.koebe_uv.islands
-    return entry
-
-
 @pytest.mark.parametrize("shape", MODELS)
 def test_each_shape_is_that_of_its_own_operator(shape):
     of, make = MODELS[shape]
@@ -38,7 +33,7 @@ def test_each_shape_is_that_of_its_own_operator(shape):
     assert getattr(bpy.ops.uv, f"koebe_{of}")(layer="Own") == {"FINISHED"}
     assert bpy.ops.uv.koebe_unwrap(shape=shape) == {"FINISHED"}
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), scenes.corner_uv(obj.data, "Own"))
-    assert not report().note.startswith("Automatic")
+    assert not scenes.last_run().note.startswith("Automatic")
 
 
 @pytest.mark.parametrize("options", [{"shape": "DISK", "outer": "longest", "margin": 0.1},
@@ -72,7 +67,7 @@ def test_automatic_takes_the_shape_that_serves_and_says_why(sample, shape, addon
     obj = next(obj for obj in bpy.data.objects if obj.type == "MESH")
     scenes.select(obj)
     assert bpy.ops.uv.koebe_unwrap() == {"FINISHED"}
-    entry = report()
+    entry = scenes.last_run()
     assert entry.mapped and entry.flipped == 0 and (entry.parts > 0) == (shape == "Parts")
     assert entry.note.startswith(f"Automatic took {shape}: ")
     assert re.search(REASONS.get(sample, "its texels are even, 1 : [1-3]"), entry.note)
@@ -87,13 +82,13 @@ def test_automatic_has_no_fault_that_parts_have_not(addon):
 
     def faults(shape):
         bpy.ops.uv.koebe_unwrap(shape=shape, checker=False)
-        return {one.name for one in verdicts.figures(report(), 1.0) if one.advice}
+        return {one.name for one in verdicts.figures(scenes.last_run(), 1.0) if one.advice}
 
     for height in (0.2, 0.25, 0.3, 0.8):
         scenes.select(add_bump(height))
         assert faults("AUTO") <= faults("PARTS")
         bpy.ops.uv.koebe_unwrap(checker=False)
-        chosen.add(report().parts > 0)
+        chosen.add(scenes.last_run().parts > 0)
     assert chosen == {True, False}
 
 
@@ -116,7 +111,7 @@ def test_automatic_chooses_for_each_object_and_for_what_is_selected():
     scenes.select(cube)
     scenes.select_faces(cube, [1])
     assert bpy.ops.uv.koebe_unwrap() == {"FINISHED"}
-    assert report().parts == 1 and "no hole to make round" in report().note
+    assert scenes.last_run().parts == 1 and "no hole to make round" in scenes.last_run().note
 
 
 def test_automatic_lays_sheets_flat_as_they_are():
@@ -133,7 +128,7 @@ def test_automatic_lays_sheets_flat_as_they_are():
         uv = scenes.corner_uv(obj.data, "Koebe").reshape(-1, 4, 2).astype(float)
         along = np.abs(np.roll(uv, -1, axis=1) - uv)
         rim = along[np.isin(np.arange(len(uv)), np.arange(m) + 0)][:, 3]  # the first column of faces: their outer sides
-        assert report().parts == 1 and (rim.min(axis=1) < 1e-5).all()
+        assert scenes.last_run().parts == 1 and (rim.min(axis=1) < 1e-5).all()
         size = np.ptp(uv.reshape(-1, 2), axis=0)
         assert size.max() > 0.99 and (ratio is None or abs(size.max() / size.min() / ratio - 1) < 1e-4)
 
@@ -142,9 +137,9 @@ def test_automatic_lays_sheets_flat_as_they_are():
 def test_an_even_disk_serves_where_a_conformal_one_does_not():
     scenes.select(add_bump(0.3))
     bpy.ops.uv.koebe_unwrap()
-    assert report().parts > 0
+    assert scenes.last_run().parts > 0
     bpy.ops.uv.koebe_unwrap(keep_angles=False, even=0.1)
-    assert report().parts == 0 and np.isclose(report().even, 0.1)
+    assert scenes.last_run().parts == 0 and np.isclose(scenes.last_run().even, 0.1)
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])

@@ -151,14 +151,16 @@ def _scale(random, obj):
 
 
 def _marks(random, obj):
-    """Seams, sharp edges, smooth faces, a layer with pins."""
+    """Seams, sharp edges, smooth faces, another layer with pins, and perhaps the layer that is written."""
     mesh = obj.data
     mesh.edges.foreach_set("use_seam", random.random(len(mesh.edges)) < 0.2)
     mesh.edges.foreach_set("use_edge_sharp", random.random(len(mesh.edges)) < 0.2)
     mesh.polygons.foreach_set("use_smooth", random.random(len(mesh.polygons)) < 0.5)
-    name = str(random.choice(["Koebe", "First"]))
     values = random.uniform(0, 1, 2 * len(mesh.loops)).astype(np.float32)
-    mesh.uv_layers.new(name=name).data.foreach_set("uv", values)
+    name = "First"
+    for layer in [str(random.choice(["Koebe", name])), name]:
+        if layer not in mesh.uv_layers:
+            mesh.uv_layers.new(name=layer).data.foreach_set("uv", values)
     edited = bmesh.new()  # through `data` Blender 4.5 spoils its memory with pins
     edited.from_mesh(mesh)
     layer = edited.loops.layers.uv[name]

@@ -1,4 +1,4 @@
-"""Koebe Uniformize of a model that is closed: its button, the report's cuts, and a circle tool on the result."""
+"""Koebe Unwrap to Disk of a model that is closed: its button, the report's cuts, and a circle tool on the result."""
 
 from window import ENTRY, only
 

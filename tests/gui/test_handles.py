@@ -1,4 +1,4 @@
-"""Unwrap Handles by its button, offered where a torus tile refuses two handles."""
+"""Unwrap Pretzel by its button, offered where a torus tile refuses two handles."""
 
 from window import ENTRY
 

@@ -14,7 +14,7 @@ WIDTH, HEIGHT = 1280, 800
 START_SECONDS = 90
 TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to the tab Koebe, below Blender's own
 PARTS = (  # of the panel, that are closed at first
-    "disk", "parts", "domains", "layer", "tools", "lift", "shapes", "sequence", "accuracy",
+    "disk", "parts", "domains", "packing", "layer", "tools", "lift", "shapes", "sequence", "accuracy",
 )  # fmt: skip
 FIRST_PART, PART = 315, 26  # pixels from a sidebar's top to the first title before any run, and from title to title
 SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen

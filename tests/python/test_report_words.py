@@ -41,17 +41,17 @@ GOOD = {"density": 2.0, "coverage": 0.7, "angle_error": 1.0, "flipped": 0, "part
 def test_a_good_map_asks_for_nothing(addon):
     found = addon("maps.verdicts").figures(SimpleNamespace(**GOOD))
     assert [(figure.name, figure.value) for figure in found] == [
-        ("Evenness", "1 : 2.0"), ("Coverage", "70 %"), ("Angle error", "1.00°"), ("Flips", "none")]  # fmt: skip
+        ("Texel density", "1 : 2.0"), ("Coverage", "70 %"), ("Angle error", "1.00°"), ("Flips", "none")]  # fmt: skip
     assert all(figure.is_good for figure in found)
     assert addon("maps.verdicts").is_good(SimpleNamespace(**GOOD))
 
 
 @pytest.mark.parametrize("bad, name, advice", [
-    ({"density": 50.0}, "Evenness", "with Shape: Disk raise Even, or choose Shape: Parts"),
-    ({"density": 50.0, "domain": "ring"}, "Evenness", "uneven: raise Even, or choose Shape: Parts"),
-    ({"density": 50.0, "parts": 3}, "Evenness", "slider Parts"),
-    ({"density": 50.0, "domain": "sphere"}, "Evenness", "always has uneven texels"),
-    ({"density": 5e6}, "Evenness", "Shape: Parts"),
+    ({"density": 50.0}, "Texel density", "with Shape: Disk raise Even, or choose Shape: Parts"),
+    ({"density": 50.0, "domain": "ring"}, "Texel density", "uneven: raise Even, or choose Shape: Parts"),
+    ({"density": 50.0, "parts": 3}, "Texel density", "slider Parts"),
+    ({"density": 50.0, "domain": "sphere"}, "Texel density", "always has uneven texels"),
+    ({"density": 5e6}, "Texel density", "Shape: Parts"),
     ({"coverage": 0.1}, "Coverage", "mark a seam across the surface"),
     ({"coverage": 0.1, "parts": 1}, "Coverage", "mark a seam across the surface"),
     ({"coverage": 0.1, "parts": 2}, "Coverage", "Pack Islands"),

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Puts the new islands of selected faces beside the islands of the other faces, which stay where they are."""
+
+import dataclasses
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from .distortion import both_areas
+from .outcomes import Task
+from .packing import fit_placement
+from .uv_density import mean_density
+from .uv_islands import uv_islands
+
+SAME_SIZE = 0.995  # share of the wanted size that counts as all of it
+NO_ROOM = "no room beside the islands of the other faces: the new ones lie to the right of the UV square"
+OVER = "it lies over the islands of the other faces"
+
+
+@dataclasses.dataclass(frozen=True)
+class Beside:
+    """UVs (m, 2) of the new corners. @param share of the size that they should have"""
+
+    uv: np.ndarray
+    share: float
+    has_room: bool = True
+
+    @property
+    def remark(self) -> str:
+        """What to watch out for, or empty."""
+        if not self.has_room:
+            return NO_ROOM
+        if self.share >= SAME_SIZE:
+            return ""
+        return f"the free room beside the other islands takes the new ones at {100.0 * self.share:.0f} % of their size"
+
+
+def put_beside(
+    koebe: ModuleType,
+    task: Task,
+    corners: np.ndarray,
+    uv: np.ndarray,
+    margin: float,
+    pixels: int,
+    keep_size: bool = False,
+    cancel: Any = None,
+) -> Beside | None:
+    """The new islands in the free room of the UV square, at the texel density of the islands that stay, or smaller.
+
+    corners, uv  (m,), (m, 2) of the new islands. Their relative sizes and their form stay
+    margin       in pixels of a texture with this side
+    keep_size    they have the size that is wanted
+
+    None if nothing is in the way: no face beside them has an area in the UVs. Raises koebe.Cancelled.
+    """
+    if task.rest is None:
+        return None
+    surface, triangles = task.surface, task.surface.triangle_corners
+    layer = task.rest.astype(np.float64)
+    layer[corners] = uv
+    is_new = np.zeros(len(layer), dtype=bool)
+    is_new[corners] = True
+    new = is_new[triangles].all(axis=1)
+    area = both_areas(surface, layer)[1]
+    stays = ~new & np.isfinite(area) & (area != 0.0)
+    if not stays.any() or not new.any():
+        return None
+    if not keep_size:
+        layer[corners] *= _density(task, layer, stays) / _density(task, layer, new)
+    chosen = new | stays
+    # The new islands have vertices of their own, so that none is taken for a part of an island that stays.
+    count = len(surface.positions)
+    vertices = surface.corner_vertex[triangles] + count * new[:, None]
+    try:
+        made = koebe.pack(
+            np.concatenate([surface.positions, surface.positions]), vertices[chosen], uv=layer[triangles[chosen]],
+            polygon=surface.triangle_face[chosen], locked=stays[chosen], margin=margin, pixels=pixels, cancel=cancel,
+        )  # fmt: skip
+    except koebe.InputError:  # there is no free room
+        right = max(1.0, float(np.ceil(layer[triangles[stays], 0].max())))
+        place = layer[corners]
+        return Beside(place - place.min(axis=0) + (right, 0.0), 1.0, has_room=False)
+    layer[triangles[chosen]] = made.uv
+    return Beside(layer[corners], made.scale)
+
+
+def _density(task: Task, layer: np.ndarray, chosen: np.ndarray) -> float:
+    """The mean density of some triangles (T,) bool."""
+    surface = task.surface
+    some = dataclasses.replace(
+        surface, selected=np.ones_like(surface.selected), triangle_corners=surface.triangle_corners[chosen],
+        triangle_face=surface.triangle_face[chosen],
+    )  # fmt: skip
+    return mean_density(some, layer)
+
+
+def in_place(task: Task, corners: np.ndarray, uv: np.ndarray) -> np.ndarray | None:
+    """Each new island where its faces lay in the layer: the same middle, size and turn, as well as a similarity can.
+
+    corners, uv  (m,), (m, 2) of the new islands
+
+    None if an island had no place.
+    """
+    if task.old_uv is None:
+        return None
+    layer = np.full(task.old_uv.shape, np.nan)
+    layer[corners] = uv
+    is_new = np.zeros(len(layer), dtype=bool)
+    is_new[corners] = True
+    surface = dataclasses.replace(task.surface, selected=is_new[task.surface.face_start])
+    for island in uv_islands(surface, layer):
+        at = island.corners
+        placement = fit_placement(layer[at], task.old_uv[at].astype(np.float64))
+        if placement is None:
+            return None
+        layer[at] = placement.apply(layer[at])
+    return layer[corners]
