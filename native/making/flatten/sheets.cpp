@@ -17,7 +17,8 @@ namespace {
 
 constexpr double gap = 3.0;               // mm between pieces with their allowances
 constexpr double least_gap_share = 0.02;  // of a sheet without page: small pieces have a smaller gap
-constexpr double larger_sheet = 1.05;     // where pieces have no room on one
+constexpr double larger_sheet = 1.05;     // where pieces have no room on one: at least,
+constexpr double largest_step = 1.5;      // and at most
 constexpr int most_pages = 1000;
 
 /// The side of a square in which the pieces have about room.
@@ -69,11 +70,11 @@ private:
         const std::vector<Outline> outlines = outlines_of(pieces_);
         double side = square_for(pieces_, 2.0 * allowance_);
         const double margin = 2.0 * allowance_ + std::min(gap, least_gap_share * side);
-        SheetPacking packing;
-        do {
+        SheetPacking packing = pack_on_sheets(outlines, margin, {side, side});
+        while (packing.sheets != 1 || std::ranges::count(packing.sheet, -1) > 0) {
+            side *= std::clamp(std::sqrt(1.0 / share_on_first(packing)), larger_sheet, largest_step);
             packing = pack_on_sheets(outlines, margin, {side, side});
-            side *= larger_sheet;
-        } while (packing.sheets != 1 || std::ranges::count(packing.sheet, -1) > 0);
+        }
         placed_.pattern.sheets.emplace_back();
         Eigen::RowVector2d low = Eigen::RowVector2d::Constant(INFINITY), high = -low;
         for (std::size_t k = 0; k < pieces_.size(); ++k) {
@@ -89,6 +90,18 @@ private:
             packing.places[k].offset += shift;
             put(k, packing.places[k], 0);
         }
+    }
+
+    /// Of the boxes of the pieces, by area.
+    double share_on_first(const SheetPacking& packing) const
+    {
+        double first = 0.0, all = 0.0;
+        for (std::size_t k = 0; k < pieces_.size(); ++k) {
+            const double box = box_size(pieces_[k].points).prod();
+            all += box;
+            if (packing.sheet[k] == 0) first += box;
+        }
+        return all > 0.0 ? first / all : 1.0;
     }
 
     /// Packs the pieces. One that fits the frame in few turns only is turned so first.
