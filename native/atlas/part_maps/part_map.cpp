@@ -6,6 +6,7 @@
 #include "core/connectivity.h"
 #include "core/enum_words.h"
 #include "core/errors.h"
+#include "cost/tuning.h"
 #include "part_maps/even_pole.h"
 #include "pipeline/uniformize.h"
 #include "surface/intrinsic_metric.h"
@@ -164,7 +165,7 @@ void finish(const PartMesh& part, PartMap& map)
             u[f] += std::log((1.0 - std::norm(centered.a)) /
                              std::max(std::abs(z - centered.a) * std::abs(1.0 - std::conj(centered.a) * z), 1e-300));
         }
-        map.tube_overflow = u.allFinite() ? evenness(u, part.areas, map.lost).overflow : lost_cost * part.area;
+        map.tube_overflow = u.allFinite() ? evenness(u, part.areas, map.lost).overflow : tuning::lost_cost * part.area;
     }
     if (!two || map.circles[1 - map.outer].radius > deep_hole) {
         move_to_even_pole(part.areas, map);

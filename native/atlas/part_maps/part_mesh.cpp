@@ -13,8 +13,6 @@
 namespace koebe {
 namespace {
 
-constexpr double price_if_shown = 8.0;  // a cut where `show` is 1 counts as this many times as long
-
 Index root_of(std::vector<Index>& parent, Index i)
 {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
@@ -52,19 +50,6 @@ CutSurface cut_surface(const Vertices& vertices, Surface surface, std::vector<In
                                      whole.vertices.row(target(whole.surface.triangles, h)));
     whole.polygon = std::move(polygon);
     return whole;
-}
-
-std::vector<double> cut_prices(const std::vector<double>& show, const std::vector<Index>& vertices)
-{
-    std::vector<double> prices;
-    if (!show.empty())
-        for (const Index v : vertices) prices.push_back(1.0 + (price_if_shown - 1.0) * show[v]);
-    return prices;
-}
-
-double price_of_edge(const std::vector<double>& shown, Index a, Index b)
-{
-    return shown.empty() ? 1.0 : 0.5 * (shown[a] + shown[b]);
 }
 
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)

@@ -22,13 +22,6 @@ struct CutSurface {
     bool exact = true;           ///< whether maps of its parts may be results; otherwise they only judge
 };
 
-/// The factors on the length of cuts at some vertices. @param show (V) from 0 to 1: how much cuts are to keep away;
-/// where it is 1, a cut counts as 8 times as long. Empty: 0 @return as `shown` in CutSurface
-std::vector<double> cut_prices(const std::vector<double>& show, const std::vector<Index>& vertices);
-
-/// The factor on the length of an edge in the cost of cuts. @param shown (V) as in CutSurface
-double price_of_edge(const std::vector<double>& shown, Index a, Index b);
-
 /// (F) areas of faces. @param vertices (V, 3), not so large that squares overflow
 VectorXd face_areas(const Vertices& vertices, const Triangles& triangles);
 

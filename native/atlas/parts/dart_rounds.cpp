@@ -1,6 +1,7 @@
 #include "parts/dart_rounds.h"
 
 #include "core/connectivity.h"
+#include "cost/tuning.h"
 #include "even/even_forces.h"
 #include "execution/side_by_side.h"
 #include "parts/darts.h"
@@ -18,9 +19,6 @@ namespace {
 constexpr int most_dart_rounds = 8;
 constexpr EvenEffort trial_effort{2, 1};
 constexpr EvenEffort warm_effort{1, 1};  // after some of the darts were closed again
-constexpr double least_surplus = 0.02;   // of a part's energy: the least promise of one round's darts
-constexpr double reach_of_darts = 0.25;  // radius of a dart's effect on the surface, in roots of its area
-constexpr double refused_around = 0.06;  // radius round the tip of a dart that did not pay: no new tips there
 
 constexpr int roundings = 16;            // with the grid in other places
 constexpr double coarse_grid = 1 << 21;  // steps along the unit square: an eighth of those of 32-bit floats
@@ -55,7 +53,7 @@ public:
             trials_[k].darts = promising_darts(parts_[k].flat, forces, even_, price_, refused_[k]);
             double surplus = 0.0;
             for (const Dart& dart : trials_[k].darts) surplus += dart.gain - dart.cost;
-            if (surplus < least_surplus * forces.energy.sum()) trials_[k].darts.clear();
+            if (surplus < tuning::noticeable * forces.energy.sum()) trials_[k].darts.clear();
             energy_[k] = std::move(forces.energy);
         });
         if (is_mirrored_) pair_images();
@@ -90,7 +88,7 @@ private:
         Trial& trial = trials_[k];
         if (trial.darts.empty()) return;
         HeldPart part = parts_[k];
-        const std::vector<int> nearest = nearest_dart(part.flat, trial.darts, reach_of_darts);
+        const std::vector<int> nearest = nearest_dart(part.flat, trial.darts, tuning::cut_reach);
         const auto source = open_darts(part.flat, trial.darts);
         if (!source) return;
         FlatPart& flat = part.flat;
@@ -190,7 +188,7 @@ private:
     {
         const Vertices& vertices = parts_[k].flat.vertices;
         for (std::size_t v = 0; v < refused_[k].size(); ++v)
-            if ((vertices.row(static_cast<Eigen::Index>(v)) - vertices.row(tip)).norm() < refused_around)
+            if ((vertices.row(static_cast<Eigen::Index>(v)) - vertices.row(tip)).norm() < tuning::refused_reach)
                 refused_[k][v] = 1;
     }
 

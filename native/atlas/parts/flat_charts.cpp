@@ -1,6 +1,7 @@
 #include "parts/flat_charts.h"
 
 #include "core/errors.h"
+#include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/regions.h"
@@ -24,8 +25,7 @@ namespace {
 constexpr double flat_angle = 1e-3;     // radians by which the angles round a flat vertex may miss a full turn
 constexpr double same_place = 1e-5;     // in roots of the surface's area
 constexpr double most_single = 0.75;    // of a chart's area, in faces that are alone in their planes
-constexpr double least_plate = 0.002;   // of the surface's area: a plate is no smaller,
-constexpr double plate_to_strip = 2.0;  // and so many times larger than its neighbours without a crease
+constexpr double plate_to_strip = 2.0;  // a plate is so many times larger than its neighbours
 constexpr double ruled = 0.3;           // of a planar face's outline: so much of it is one ruling of a rolled face
 constexpr double most_loose = 0.3;      // of a rolled face's outline: so much may be smooth towards other rest
 
@@ -262,7 +262,7 @@ private:
             largest[own] = std::max(largest[own], area[other]);
         }
         // A plate is much larger than the planar pieces round it. Long thin pieces side by side are rolled.
-        const double least = least_plate * surface_.areas.sum();
+        const double least = tuning::least_piece * surface_.areas.sum();
         std::vector<char> is_plate(count);
         for (std::size_t p = 0; p < count; ++p) is_plate[p] = area[p] >= std::max(least, plate_to_strip * largest[p]);
         DisjointSets rolled(count);

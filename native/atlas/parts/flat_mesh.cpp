@@ -3,6 +3,7 @@
 #include "core/all_elements.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cost/costs.h"
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
 #include "parts/hard_surface.h"

@@ -4,6 +4,7 @@
 #include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cost/tuning.h"
 #include "embedding/embedded_map.h"
 #include "foldover/untangle.h"
 #include "parts/free_rims.h"
@@ -63,7 +64,7 @@ void scale_evenly(const PartMesh& mesh, FlatPart& flat)
     double sum = 0.0, known = 0.0;
     for (Eigen::Index f = 0; f < count; ++f) {
         if (lost[f]) continue;
-        sum += mesh.areas[f] * std::clamp(u[f], even.from, even.from + even_range);
+        sum += mesh.areas[f] * std::clamp(u[f], even.from, even.from + tuning::even_range);
         known += mesh.areas[f];
     }
     if (known > 0.0) flat.points *= std::min(std::exp(-sum / known), std::sqrt(most_image * mesh.area / image));

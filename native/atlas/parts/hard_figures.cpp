@@ -1,5 +1,6 @@
 #include "parts/hard_figures.h"
 
+#include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "part_maps/part_mesh.h"
 
@@ -17,7 +18,6 @@ namespace koebe {
 namespace {
 
 constexpr double bent_in_a_plane = std::numbers::pi / 360.0;  // radians
-constexpr double counted_region = 0.01;                       // of the area: smaller regions do not count
 constexpr double flat = 1e-4;                                 // of the region's size: distance from its plane,
 constexpr double same_shape = 2e-3;                           // and of its image from a similar one
 constexpr double long_outer_edge = 0.05;    // in roots of the area: such an edge is straight by itself,
@@ -96,7 +96,7 @@ private:
             double area = 0.0;
             for (const Eigen::Index f : faces) area += areas_[f];
             bool is_whole = false;
-            if (!(area > counted_region * total) || !is_planar(faces, is_whole)) continue;
+            if (!(area > tuning::small_area * total) || !is_planar(faces, is_whole)) continue;
             ++figures.regions;
             all += area;
             if (is_whole) whole += area;

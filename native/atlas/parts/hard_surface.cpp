@@ -1,5 +1,7 @@
 #include "parts/hard_surface.h"
 
+#include "cost/costs.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,8 +12,6 @@
 namespace koebe {
 namespace {
 
-// Islands must get larger by their number to this power: twice as many have to cover 15 % more.
-constexpr double larger_by_count = 0.1;
 constexpr std::size_t fewest_parts = 4;  // fewer, such as the cross of a box, stay as they are
 
 template <typename Value>
@@ -28,7 +28,7 @@ bool are_worth_it(const std::vector<FlatPart>& roomier, const std::vector<FlatPa
 {
     if (roomier.size() == parts.size() || parts.size() < fewest_parts) return false;
     const double count = static_cast<double>(roomier.size()) / static_cast<double>(parts.size());
-    return quickly_packed_scale(roomier) > std::pow(count, larger_by_count) * quickly_packed_scale(parts);
+    return quickly_packed_scale(roomier) > std::pow(count, tuning::larger_by_count) * quickly_packed_scale(parts);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "parts/mesh_parts.h"
 
 #include "core/connectivity.h"
+#include "cost/costs.h"
 #include "execution/side_by_side.h"
 #include "mesh/connected_pieces.h"
 #include "parts/carried_parts.h"
@@ -31,11 +32,8 @@ constexpr Index proxy_faces = 5500;  // with about so many faces,
 constexpr Index least_proxy = 300;   // and each piece has at least so many
 constexpr Index least_mirrored =
     1500;  // faces of a mesh without a proxy that is its mirror image but for its faces: it
-constexpr double mirrored_share = 0.6;   // gets a mirrored proxy with this share of its faces
-constexpr double dearer_on_proxy = 2.0;  // cuts: coarse parts bend less, and so overrate them
-constexpr int rounds_on_proxy = 5;       // of relaxing with the void
-constexpr double seen_at_least = 0.05;   // added to the share that is seen of a vertex: what a hidden cut costs
-constexpr double few_cuts = 3.6;         // roots of a piece's area: a piece unfolded with fewer is not tried otherwise
+constexpr double mirrored_share = 0.6;  // gets a mirrored proxy with this share of its faces
+constexpr int rounds_on_proxy = 5;      // of relaxing with the void
 
 /// A piece and how far its parts are decided.
 struct MeshPiece : FlatPiece {
@@ -107,9 +105,9 @@ void price_by_visibility(PieceInput& input)
     VectorXd areas = VectorXd::Zero(seen.size());
     const VectorXd faces = face_areas(piece.vertices, piece.triangles);
     for (Eigen::Index c = 0; c < piece.triangles.size(); ++c) areas[piece.triangles.data()[c]] += faces[c / 3];
-    const double mean = seen_at_least + seen.dot(areas) / areas.sum();
     if (input.shown.empty()) input.shown.assign(static_cast<std::size_t>(seen.size()), 1.0);
-    for (Eigen::Index v = 0; v < seen.size(); ++v) input.shown[v] *= (seen_at_least + seen[v]) / mean;
+    const VectorXd factor = visibility_factors(seen, areas);
+    for (Eigen::Index v = 0; v < factor.size(); ++v) input.shown[v] *= factor[v];
 }
 
 /// Whether a piece is its own mirror image, but not its triangulation.
@@ -186,7 +184,7 @@ private:
         std::vector<std::vector<FlatPart>> before;
         for (const MeshPiece& own : pieces_) before.push_back(own.parts);
         EvenOptions on_proxy = evening;
-        on_proxy.dearer = dearer_on_proxy;
+        on_proxy.dearer = tuning::proxy_factor;
         on_proxy.rounds = rounds_on_proxy;
         double even = make_together_even(on_proxy);
 
@@ -224,7 +222,7 @@ private:
             own.parts = std::move(true_to_size->parts);
             note_shown(own.input.shown, own.parts);
         };
-        if (true_to_size && true_to_size->cut_length <= few_cuts * std::sqrt(surface.whole.areas.sum())) {
+        if (true_to_size && true_to_size->cut_length <= tuning::few_cuts * std::sqrt(surface.whole.areas.sum())) {
             take_unfolded();
             return;
         }
@@ -448,7 +446,7 @@ private:
         for (std::vector<Index>& of_part : faces_of)
             if (!of_part.empty())
                 parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(of_part)), {}, {}}));
-        const SplitOptions prices = prices_for(whole.areas.sum(), options_.price, options_.threads);
+        const CutPrices prices = prices_of_piece(whole.areas.sum(), options_.price);
         return flat_parts(whole, find_mirror(whole.vertices, whole.surface.triangles, whole.polygon), parts,
                           {prices.cut_price, prices.part_price, options_.round_cuts, measured}, options_.threads,
                           context_, effort)

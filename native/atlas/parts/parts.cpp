@@ -3,6 +3,7 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/vertex_weights.h"
+#include "cost/costs.h"
 #include "even/even_map.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"

@@ -1,6 +1,7 @@
 #include "parts/through_rounds.h"
 
 #include "core/connectivity.h"
+#include "cost/costs.h"
 #include "even/even_forces.h"
 #include "execution/side_by_side.h"
 #include "parts/roomy_cuts.h"

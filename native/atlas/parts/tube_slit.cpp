@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/length.h"
+#include "cost/costs.h"
 #include "mesh/nearest_first.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "parts/unfolding.h"
 
 #include "core/errors.h"
+#include "cost/costs.h"
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
@@ -30,35 +31,24 @@ constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
 constexpr double between_plates = 0.5;    // of a chart's outline, at planar regions
-constexpr double large_chart = 0.01;      // of the area: charts from there on
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
 
-constexpr double packed_well = 1.155;  // longest island, in roots of the area of all surfaces: the side of a square
-                                       // that is covered to 75 %,
-constexpr double side_of_nut = 1.80;   // or in roots of its own area: the six sides of a nut as high as its radius;
-constexpr double thin = 0.2;           // charts whose area over the square of the length is less are cut across;
-constexpr double middle = 1e-6;        // of a piece: a region so near to its end belongs to the next piece
+constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut;
+constexpr double thin = 0.2;          // charts whose area over the square of the length is less are cut across;
+constexpr double middle = 1e-6;       // of a piece: a region so near to its end belongs to the next piece
 
-constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
-constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
+constexpr double most_scaled = 4.0;  // factor by which the area of a face beside an island may change
 
-// Cuts between planar regions that make room, in energy (roomy_cuts.h): a cut as long as the root of the area has to
-// save 2 % of the area, and one more island 1 %. Along a rolled face a cut costs ten times as much: a cone stays one
-// sector, a thin ring does not stay one. On 24 models of over 10 islands: coverage 0.63 to 0.73, cuts 6 % longer.
 constexpr double cosine_of_plane = 0.99985;  // of 1 degree: noise parts regions of one plate, cuts do not
-constexpr ThroughPrice room_price{1e-4, 5e-5, 10.0};
 
-constexpr double packed_badly =
-    0.45;                             // share of the square that a single island covers: less is tried in more islands,
-constexpr double worth_apart = 1.18;  // which have to be so many times as large,
-constexpr double usual_margin = 0.004;  // with this margin;
+constexpr double usual_margin = 0.004;  // of the square, with which islands are compared
 constexpr double whole_mesh = 0.999;    // of the area of all surfaces: this one is alone
 
 /// The longest island, in roots of the area of all surfaces. @param area of this surface
 double longest_island(double area, const UnfoldOptions& options)
 {
     if (!options.roomy) return std::numeric_limits<double>::infinity();
-    return options.compact ? packed_well : std::max(packed_well, side_of_nut * std::sqrt(area));
+    return options.compact ? tuning::longest_hard : std::max(tuning::longest_hard, side_of_nut * std::sqrt(area));
 }
 
 class Unfolding {
@@ -107,8 +97,8 @@ public:
         for (std::size_t k = 0, count = islands_.size(); k < count; ++k) {
             Complex along;
             const double length = extent(islands_[k], along);
-            if (length > packed_well && surface_.areas(islands_[k]).sum() < thin * length * length)
-                cut_strip(k, along, static_cast<int>(std::ceil(length / packed_well)));
+            if (length > tuning::longest_hard && surface_.areas(islands_[k]).sum() < thin * length * length)
+                cut_strip(k, along, static_cast<int>(std::ceil(length / tuning::longest_hard)));
         }
     }
 
@@ -134,7 +124,7 @@ public:
         std::vector<SeamedMesh> pieces = connected_parts(rest);
         std::erase_if(pieces, [&](const SeamedMesh& piece) {
             return chart_[piece.face.front()] >= 0 ||
-                   surface_.areas(piece.face).sum() > small_rest * surface_.areas.sum();
+                   surface_.areas(piece.face).sum() > tuning::noticeable * surface_.areas.sum();
         });
         // A piece between two others waits until one of them is attached.
         for (std::size_t before = 0; before != pieces.size();) {
@@ -190,7 +180,7 @@ public:
             for (const Index f : part.faces) own.polygon.push_back(uncut.find(f));
         }
         std::vector<FlatPart> pieces;
-        if (!cut_parts_for_room(held, room_price, 1, context)) return pieces;
+        if (!cut_parts_for_room(held, hard_room_price, 1, context)) return pieces;
         for (HeldPart& part : held) {
             FlatPart& piece = pieces.emplace_back(std::move(part.flat));
             piece.polygon.clear();
@@ -277,7 +267,7 @@ private:
         for (const auto& [root, own] : pieces) {
             Complex unused;
             auto part = part_of(own);
-            if (!part || extent(own, unused) > packed_well) break;
+            if (!part || extent(own, unused) > tuning::longest_hard) break;
             parts.push_back(std::move(*part));
         }
         if (parts.size() != pieces.size()) {
@@ -501,10 +491,10 @@ std::optional<UnfoldedParts> larger_when_packed(const CutSurface& surface, Unfol
     const double area = surface.areas.sum();
     if (!whole || !options.roomy || whole->parts.size() != 1 || !whole->rest.empty() || area < whole_mesh) return whole;
     const double scale = quickly_packed_scale(whole->parts);
-    if (area * scale * scale >= packed_badly) return whole;
+    if (area * scale * scale >= tuning::packed_badly) return whole;
     options.compact = true;
     std::optional<UnfoldedParts> apart = unfold(options);
-    return apart && quickly_packed_scale(apart->parts) > worth_apart * scale ? apart : whole;
+    return apart && quickly_packed_scale(apart->parts) > tuning::worth_apart * scale ? apart : whole;
 }
 
 std::optional<UnfoldedParts> unfolded_once(const CutSurface& surface, ExecutionContext& context,
@@ -523,7 +513,7 @@ std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, Executio
 {
     const double area = surface.areas.sum();
     Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options);
-    if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
+    if (!(unfolding.hard_area(tuning::small_area * area) >= least_hard * area)) return {};
     if (options.roomy) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
     unfolding.attach_rest(context);

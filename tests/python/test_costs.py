@@ -1,0 +1,34 @@
+"""The numbers of native/atlas/cost/tuning.h are on docs/developers/costs.md, and the code uses each of them."""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+HEADER = (ROOT / "native/atlas/cost/tuning.h").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/developers/costs.md").read_text(encoding="utf-8")
+ROW = re.compile(r"^/// (.+?) \| (.+?) \| (.+)\ninline constexpr double (\w+) = (.+);$", re.MULTILINE)
+
+
+def numbers():
+    """name -> value, unit, meaning, source."""
+    return {name: (value.replace("1.0986122886681098", "log 3").replace(" * ", " "), *words)
+            for *words, name, value in ROW.findall(HEADER)}  # fmt: skip
+
+
+def test_the_page_prints_the_header():
+    assert len(numbers()) == HEADER.count("inline constexpr") > 50
+    rows = [tuple(row.split(" | ")) for row in re.findall(r"^\| `(.+) \|$", PAGE, re.MULTILINE)]
+    printed = {row[0].rstrip("`"): row[1:] for row in rows if len(row) == 5}
+    assert printed == numbers()
+
+
+def test_every_number_is_used():
+    code = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "native/atlas").rglob("*.[ch]*"))
+    assert [name for name in numbers() if not re.search(rf"tuning::{name}\b", code)] == []
+
+
+def test_the_page_names_functions_of_the_header():
+    header = (ROOT / "native/atlas/cost/costs.h").read_text(encoding="utf-8")
+    last_cells = re.findall(r"^\|.*\| (`[^|]+`) \|$", PAGE.partition("## The numbers")[0], re.MULTILINE)
+    functions = re.findall(r"`(?:CutPrices::)?(\w+)`", " ".join(last_cells))
+    assert len(functions) > 15 and [name for name in functions if not re.search(rf"\b{name}[({{]", header)] == []
