@@ -118,13 +118,13 @@ bool map_annulus(const PartMesh& part, PartMap& map)
     return map.positions.allFinite() && map.positions.cwiseAbs().maxCoeff() < 1.0 + 1e-3;
 }
 
-void map_disk(const PartMesh& part, bool exact, PartMap& map, ExecutionContext& context)
+void map_disk(const PartMesh& part, MapPurpose purpose, PartMap& map, ExecutionContext& context)
 {
     ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
     UniformizeOptions options;
     options.outer = OuterLoop::longest;
     options.repair = false;
-    if (!exact) options.tolerance = rough;
+    if (purpose == MapPurpose::judging) options.tolerance = rough;
     const UniformizeResult result = uniformize(part.vertices, part.surface.triangles, options, inner);
     map.positions = result.uv.col(0) + Complex(0.0, 1.0) * result.uv.col(1);
     map.outer = result.outer_loop;
@@ -185,7 +185,7 @@ void finish(const PartMesh& part, PartMap& map)
 
 const char* to_string(PartKind kind) noexcept { return word_of(kind, std::array{"disk", "tube", "cone"}); }
 
-PartMap map_part(const PartMesh& part, bool exact, ExecutionContext& context)
+PartMap map_part(const PartMesh& part, MapPurpose purpose, ExecutionContext& context)
 {
     PartMap map;
     bool done = false;
@@ -193,7 +193,7 @@ PartMap map_part(const PartMesh& part, bool exact, ExecutionContext& context)
             done = map_annulus(part, map);
         } catch (const SolverError&) {
         }
-    if (!done) map_disk(part, exact, map, context);
+    if (!done) map_disk(part, purpose, map, context);
     finish(part, map);
     return map;
 }

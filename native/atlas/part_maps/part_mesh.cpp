@@ -3,8 +3,7 @@
 #include "core/connectivity.h"
 #include "core/length.h"
 #include "mesh/connected_pieces.h"
-
-#include <Eigen/Geometry>
+#include "surface/face_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,11 +23,8 @@ Index root_of(std::vector<Index>& parent, Index i)
 VectorXd face_areas(const Vertices& vertices, const Triangles& triangles)
 {
     VectorXd areas(triangles.rows());
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Eigen::RowVector3d a = vertices.row(triangles(f, 1)) - vertices.row(triangles(f, 0));
-        const Eigen::RowVector3d b = vertices.row(triangles(f, 2)) - vertices.row(triangles(f, 0));
-        areas[f] = 0.5 * length_of(a.cross(b));
-    }
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        areas[f] = 0.5 * length_of(twice_area_vector(vertices, triangles, f));
     return areas;
 }
 

@@ -74,7 +74,7 @@ void map_by_itself(FlatPart& piece, ExecutionContext& context)
     mesh.areas = face_areas(piece.vertices, piece.surface.triangles);
     mesh.area = mesh.areas.sum();
     mesh.border.assign(piece.original.size(), 0);
-    const PartMap map = map_part(mesh, false, context);
+    const PartMap map = map_part(mesh, MapPurpose::judging, context);
     piece.points = flat_as_mapped(mesh, planar_points(map.positions)).points;
     make_storable(piece, context);
 }

@@ -196,6 +196,7 @@ private:
     /// each other's way the dart of the earlier part, or with more promise, stays.
     void pair_images()
     {
+        // The edges of all parts by their names in the whole.
         std::map<EdgeEnds, EdgePlace> places;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const FlatPart& flat = parts_[k].flat;
@@ -206,6 +207,7 @@ private:
                                                flat.original[target(flat.surface.triangles, h)]),
                                    EdgePlace{k, h});
         }
+        // Darts that are kept take their vertices.
         std::vector<Trial> paired(trials_.size());
         std::vector<std::vector<char>> taken, outside;
         for (const HeldPart& part : parts_) {
@@ -222,20 +224,24 @@ private:
         };
         for (std::size_t k = 0; k < trials_.size(); ++k)
             for (const Dart& dart : trials_[k].darts) {
+                // A part without a mirror keeps its darts.
                 if (parts_[k].flat.image.empty()) {
                     add(k, dart);
                     continue;
                 }
+                // Others need an image that runs from inside to a rim, too.
                 if (!is_free(k, dart)) continue;
                 const auto found = image_of(k, dart, places);
                 if (!found) continue;
                 const auto& [other, image] = *found;
                 if (!is_dart_of(outside[other], image)) continue;
+                // A dart in the plane is its own image.
                 if (other == k && image.vertices == dart.vertices) {
                     const std::size_t i = add(k, dart);
                     paired[k].image.emplace_back(k, i);
                     continue;
                 }
+                // Else both are kept, unless they touch, or the image is in the way of another dart.
                 const bool touch = other == k && std::ranges::any_of(image.vertices, [&](Index v) {
                                        return std::ranges::count(dart.vertices, v) > 0;
                                    });

@@ -93,6 +93,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
     const Tension tension(flat, forces);
     std::vector<std::pair<double, Dart>> found;
     VectorXd from_round = VectorXd::Constant(flat.surface.vertex_count, std::numeric_limits<double>::infinity());
+    // The dart from each vertex to the nearest rim that stays round, and to the nearest free one.
     for (const bool round : {true, false}) {
         std::vector<Index> sources;
         for (Index v = 0; v < flat.surface.vertex_count; ++v)
@@ -109,6 +110,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
                     return outside[w] != 0 || (!round && from_round[w] < tuning::rim_spacing);
                 }))
                 continue;
+            // It pays if a crack there would release more than it costs.
             const double pulled = pull_apart(tension, dart);
             if (!(pulled > 0.0)) continue;
             dart.gain = (round ? tuning::released_share : 1.0) * crack_energy(pulled, even);
@@ -121,6 +123,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
         }
     }
     std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
+    // The most promising ones, apart from each other.
     double part_area = 0.0;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) part_area += signed_area(flat.points, triangles, f);
     const double gap = std::min(tuning::dart_spacing, tuning::cut_reach * std::sqrt(std::max(part_area, 0.0)));

@@ -135,6 +135,7 @@ public:
     {
         const double conformal = angles();
         const std::vector<HeldPart> before = parts_;
+        // With darts, at falling E.
         if (options_.darts > 0.0) {
             const bool is_cut = relax_with_darts(tuning::dart_even, search());
             if (angles() <= conformal) return tuning::dart_even;
@@ -145,6 +146,7 @@ public:
                 }
             parts_ = before;
         }
+        // Without darts, at rising E.
         double even = 0.0;
         for (double next = first_even; next >= least_even && next <= 1.0;) {
             const std::vector<HeldPart> last = parts_;

@@ -202,6 +202,7 @@ private:
             tips = tips_of(chart);
             if (tips.size() > most_tips) return false;
         }
+        // Cut it there. Cuts that reach a tip are darts.
         DisjointSets cuts(static_cast<std::size_t>(chart.fan_count));
         for (const Index h : open) {
             cuts.join(origin(chart.fans, h), target(chart.fans, h));
@@ -212,6 +213,7 @@ private:
             with_tip.insert(cuts.find(origin(chart.fans, h)));
             charts_.tips.insert(origin(chart.corners, h));
         }
+        // Undo this if it overlaps itself.
         std::optional<FlatPart> part = laid_part(surface_, charts_, chart.face);
         if (!part) {
             for (const Index h : open) {

@@ -209,6 +209,7 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
     if (slit.lift.empty()) return flat;
     flat.slit = slit.length;
     const Triangles& triangles = part.mesh.surface.triangles;
+    // A vertex for each side of the slit: its number of turns round the tube tells them apart.
     std::map<std::pair<Index, int>, Index> number;
     std::vector<Index> own;
     Triangles opened(triangles.rows(), 3);
@@ -218,6 +219,7 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
         if (is_new) own.push_back(v);
         opened.data()[c] = at->second;
     }
+    // The strip log z, each turn higher by 2 pi.
     constexpr double two_pi = 2.0 * EIGEN_PI;
     flat.points.resize(static_cast<Eigen::Index>(own.size()), 2);
     for (const auto& [key, k] : number)

@@ -148,7 +148,7 @@ FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptio
 {
     FlatParts as_one;
     as_one.parts.push_back(flat_part(*part, options, context));
-    if (options.measured) return as_one;
+    if (options.purpose == MapPurpose::judging) return as_one;
     const std::size_t count = part->mesh.faces.size();
     const bool may_be_cut = halvings < most_halvings && count >= few_faces;
     FlatParts in_two;
@@ -221,7 +221,7 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
     const bool in_turn = !mirror.image.empty();
     side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
         Part& part = *parts[k];
-        if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k], !options.measured);
+        if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k], options.purpose);
         const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
         if (in_turn && part.map.kind == PartKind::tube && !chosen)
             prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));

@@ -104,6 +104,7 @@ private:
         const Triangles& triangles = surface.triangles;
         const std::size_t count = freedom.held.size();
         const bool all = triangles.rows() <= most_faces;
+        // Faces within some rings of the rims, or all.
         std::vector<char> near(count, all ? 1 : 0), chosen(static_cast<std::size_t>(triangles.rows()), all ? 1 : 0);
         if (!all)
             for (const VertexLoop& loop : surface.loops)
@@ -118,6 +119,7 @@ private:
             }
             if (ring + 1 < rings) near = std::move(wider);
         }
+        // Vertices inside these rings move, unless one in their place is held.
         std::vector<char> moves(count, 1);
         for (std::size_t v = 0; v < count; ++v)
             if (!near[v] || freedom.held[v]) moves[same_[v]] = 0;
@@ -203,6 +205,7 @@ void free_rims(const Vertices& vertices, const Surface& surface, const RimFreedo
         return crossing_boundary_edges(surface.loops, places, shortest_rim_edge * extent).size() +
                turned_loops(surface.loops, places, shortest_rim_edge * extent).size();
     };
+    // Newton steps, halved until angles fall, with no more faces turned over and no more crossings.
     const std::size_t crossing = crossings(points);
     Index turned = problem.turned_over(points);
     double error = problem.angle_error(points);

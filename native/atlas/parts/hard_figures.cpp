@@ -3,6 +3,7 @@
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "part_maps/part_mesh.h"
+#include "surface/face_vectors.h"
 
 #include <Eigen/Geometry>
 
@@ -61,8 +62,7 @@ private:
 
     Eigen::RowVector3d normal(Eigen::Index f) const
     {
-        const auto at = [&](int k) { return point(layout_.triangles(f, k)); };
-        return (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+        return twice_area_vector(layout_.vertices, layout_.triangles, f).normalized();
     }
 
     /// Calls visit(begin, end) for the sides of each edge.
@@ -107,6 +107,7 @@ private:
     /// Whether the faces lie in one plane. Sets whether their image is one similar to them.
     bool is_planar(const std::vector<Eigen::Index>& faces, bool& is_whole) const
     {
+        // The mean plane, the middle of the corners, and that of their images.
         Eigen::RowVector3d up = Eigen::RowVector3d::Zero(), centre = up;
         Complex middle = 0.0;
         for (const Eigen::Index f : faces) {
@@ -119,6 +120,8 @@ private:
         const double corners = 3.0 * static_cast<double>(faces.size());
         up.normalize();
         const Eigen::RowVector3d right = up.unitOrthogonal(), ahead = up.cross(right);
+        // Places x in the plane and their images z. The similar map z = s x of least squares has s = sum conj(x) z /
+        // sum |x|^2, and its mirror image s = sum x z / sum |x|^2.
         std::vector<Complex> place, image;
         double size = 0.0, off = 0.0, image_size = 0.0, square = 0.0;
         Complex factor[2] = {0.0, 0.0};  // of the region, and of its mirror image
@@ -136,6 +139,7 @@ private:
                 factor[0] += std::conj(x) * z;
                 factor[1] += x * z;
             }
+        // How far the images are from the better one.
         double miss[2] = {0.0, 0.0};
         for (std::size_t i = 0; i < place.size(); ++i)
             for (int k = 0; k < 2; ++k)

@@ -7,8 +7,7 @@
 #include "planar/boundary_crossings.h"
 #include "planar/convex_hull.h"
 #include "planar/planar_predicates.h"
-
-#include <Eigen/Geometry>
+#include "surface/face_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +47,7 @@ public:
         (at_.rowwise() - start).rowwise().squaredNorm().maxCoeff(&opposite);
         Corners corners{{0, static_cast<std::size_t>(opposite)}, {}};
         std::vector<Span> spans{span(0, corners.place[1]), span(corners.place[1], count())};
+        // The point farthest from the outline so far, again and again.
         while (corners.place.size() < most) {
             Span& widest = *std::ranges::max_element(spans, {}, &Span::distance);
             if (!(widest.distance > straight)) break;
@@ -56,6 +56,7 @@ public:
             widest = span(widest.from, widest.farthest);
             spans.push_back(second);
         }
+        // Then the middles of long sides.
         while (corners.place.size() < most) {
             Span& longest = *std::ranges::max_element(spans, {}, &Span::length);
             const std::size_t middle = middle_of(longest);
@@ -65,6 +66,7 @@ public:
             longest = span(longest.from, middle);
             spans.push_back(second);
         }
+        // Then the ends that were asked for.
         if (ends.size() <= most) corners.place.insert(corners.place.end(), ends.begin(), ends.end());
         std::ranges::sort(corners.place);
         corners.place.erase(std::unique(corners.place.begin(), corners.place.end()), corners.place.end());
@@ -214,10 +216,7 @@ private:
     {
         SeamedMesh mesh = seamed(flat, flat.shown);
         if (smooth == 1.0) return mesh;
-        const auto normal = [&](Index f) -> Eigen::RowVector3d {
-            const auto corner = [&](int k) { return flat.vertices.row(flat.surface.triangles(f, k)); };
-            return (corner(1) - corner(0)).cross(corner(2) - corner(0));
-        };
+        const auto normal = [&](Index f) { return twice_area_vector(flat.vertices, flat.surface.triangles, f); };
         for (Index h = 0; h < mesh.halfedge_count(); ++h) {
             if (mesh.whole[h]) continue;
             const Eigen::RowVector3d a = normal(face_of(h)), b = normal(face_of(mesh.twin[h]));

@@ -223,6 +223,7 @@ std::vector<std::vector<std::size_t>> mirror_groups(const std::vector<HeldPart>&
             groups.push_back({k});
             continue;
         }
+        // The part in which all images of its inner edges lie.
         std::optional<std::size_t> image;
         bool is_one = true;
         inner_edges(parts[k].flat, parts[k].flat.image, [&](EdgeEnds edge) {

@@ -1,17 +1,13 @@
 #include "parts/unfolding.h"
 
 #include "core/errors.h"
-#include "cost/costs.h"
+#include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
-#include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
-#include "parts/packing.h"
+#include "parts/hard_room.h"
 #include "parts/regions.h"
-#include "parts/through_rounds.h"
 #include "planar/planar_predicates.h"
 #include "surface/free_flattening.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -37,12 +33,8 @@ constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface
 constexpr double thin = 0.2;          // charts whose area over the square of the length is less are cut across;
 constexpr double middle = 1e-6;       // of a piece: a region so near to its end belongs to the next piece
 
-constexpr double most_scaled = 4.0;  // factor by which the area of a face beside an island may change
-
-constexpr double cosine_of_plane = 0.99985;  // of 1 degree: noise parts regions of one plate, cuts do not
-
-constexpr double usual_margin = 0.004;  // of the square, with which islands are compared
-constexpr double whole_mesh = 0.999;    // of the area of all surfaces: this one is alone
+constexpr double whole_mesh = 0.999;  // of the area of all surfaces: this one is alone
+constexpr double most_scaled = 4.0;   // factor by which the area of a face beside an island may change
 
 /// The longest island, in roots of the area of all surfaces. @param area of this surface
 double longest_island(double area, const UnfoldOptions& options)
@@ -165,41 +157,15 @@ public:
     }
 
     /// The parts, cut between planar regions where the pieces need less room in the square; empty: nowhere.
-    std::vector<FlatPart> cut_for_room(const std::vector<FlatPart>& parts, ExecutionContext& context) const
+    std::vector<FlatPart> roomier(const std::vector<FlatPart>& parts, ExecutionContext& context) const
     {
-        DisjointSets uncut(chart_.size());  // faces of a region, or of a polygon
-        for (Index h = 0; h < halfedges(); ++h)
-            if (const Index t = charts_.net.twin[h];
-                t != no_twin && (charts_.net.whole[h] || charts_.region[face_of(h)] == charts_.region[face_of(t)] ||
-                                 normal(face_of(h)).dot(normal(face_of(t))) > cosine_of_plane))
-                uncut.join(face_of(h), face_of(t));
-        std::vector<HeldPart> held;
-        for (const FlatPart& part : parts) {
-            FlatPart& own = held.emplace_back(HeldPart{part, {}}).flat;
-            own.polygon.clear();
-            for (const Index f : part.faces) own.polygon.push_back(uncut.find(f));
-        }
-        std::vector<FlatPart> pieces;
-        if (!cut_parts_for_room(held, hard_room_price, 1, context)) return pieces;
-        for (HeldPart& part : held) {
-            FlatPart& piece = pieces.emplace_back(std::move(part.flat));
-            piece.polygon.clear();
-            if (!surface_.polygon.empty())
-                for (const Index f : piece.faces) piece.polygon.push_back(surface_.polygon[f]);
-        }
-        return pieces;
+        return cut_between_planes(surface_, charts_, parts, context);
     }
 
 private:
     Index halfedges() const { return charts_.net.halfedge_count(); }
     Index twin(Index h) const { return surface_.surface.twin[h]; }
     Index island_of(Index h) const { return island_[chart_[face_of(h)]]; }
-
-    Eigen::RowVector3d normal(Index f) const
-    {
-        const auto corner = [&](int k) { return surface_.vertices.row(surface_.surface.triangles(f, k)); };
-        return (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
-    }
 
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
@@ -312,6 +278,7 @@ private:
     /// enough. Smooth borders first, then the longest.
     std::vector<Index> borders() const
     {
+        // Borders of each pair of charts, and the whole boundary of each chart.
         std::map<std::pair<Index, Index>, std::vector<Index>> common;
         std::vector<double> boundary(islands_.size(), 0.0);
         for (Index h = 0; h < halfedges(); ++h) {
@@ -322,6 +289,7 @@ private:
             if (twin(h) == no_twin) continue;
             if (const Index b = chart_[face_of(twin(h))]; a < b) common[{a, b}].push_back(h);
         }
+        // At the longest edge of a border the charts are joined: what then lies in one place counts as common.
         std::vector<std::tuple<char, double, Index>> found;
         for (const auto& [charts, halfedges] : common) {
             const Index longest =
@@ -349,6 +317,7 @@ private:
         const PlaneMotion motion = motion_to(crease);
         Complex unused;
         const double longest = std::max({longest_, extent(islands_[a], unused), extent(islands_[b], unused)});
+        // The second island moves to the first one. Edges that then lie in one place are joined.
         std::vector<Index> joined;
         std::vector<Complex> before;
         for (const Index f : islands_[b])
@@ -369,6 +338,7 @@ private:
         std::vector<Index> faces = islands_[a];
         faces.insert(faces.end(), islands_[b].begin(), islands_[b].end());
         std::ranges::sort(faces);
+        // Undo it if the joined island is too long, or overlaps itself.
         std::optional<FlatPart> part;
         if (!(extent(faces, unused) > longest)) part = part_of(faces);
         if (!part) {
@@ -420,6 +390,7 @@ private:
         std::vector<Index> border = longest_border(piece);
         if (border.empty()) return false;
         const Index island = island_of(twin(in_net(border.front())));
+        // Its border stays where the island has it. The rest follows, conformal in the sense of least squares.
         std::map<Index, Complex> places;
         for (Index& h : border) {
             const Index t = twin(in_net(h));
@@ -440,6 +411,7 @@ private:
         } catch (const SolverError&) {
             return false;
         }
+        // Draw it. It stays by itself if a face becomes much larger or smaller.
         for (Index h = 0; h < piece.halfedge_count(); ++h) {
             charts_.at[in_net(h)] = image[origin(piece.fans, h)];
             if (piece.twin[h] != no_twin) charts_.net.twin[in_net(h)] = in_net(piece.twin[h]);
@@ -450,6 +422,7 @@ private:
             const double scale = 0.5 * std::imag(std::conj(b) * c) / std::max(surface_.areas[piece.face[f]], 1e-300);
             if (!(scale > 1.0 / most_scaled && scale < most_scaled)) return false;
         }
+        // Join it to the island, unless they overlap.
         for (const Index t : border) {
             charts_.net.twin[t] = twin(t);
             charts_.net.twin[twin(t)] = t;
@@ -518,7 +491,7 @@ std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, Executio
     unfolding.join_charts(options.cut_hard, context);
     unfolding.attach_rest(context);
     UnfoldedParts found{unfolding.parts(), {}, unfolding.rest(), unfolding.cut_length()};
-    if (options.roomy && !options.cut_hard) found.roomier = unfolding.cut_for_room(found.parts, context);
+    if (options.roomy && !options.cut_hard) found.roomier = unfolding.roomier(found.parts, context);
     return found;
 }
 
@@ -536,13 +509,6 @@ std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionCont
 {
     return larger_when_packed(surface, options,
                               [&](const UnfoldOptions& own) { return hard_parts_once(surface, context, own); });
-}
-
-double quickly_packed_scale(const std::vector<FlatPart>& parts)
-{
-    std::vector<Outline> outlines;
-    for (const FlatPart& part : parts) outlines.push_back({part.points, part.surface.loops});
-    return pack_around(outlines, usual_margin, {}).scale;
 }
 
 }  // namespace koebe

@@ -130,6 +130,7 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
     std::vector<Index> faces = a.mesh.faces;
     faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
     const PartMesh both = some_or_all(whole, std::move(faces));
+    // The border may move in a band beside it.
     std::vector<int> label;
     for (const Index f : both.faces) label.push_back(std::ranges::binary_search(a.mesh.faces, f));
     const std::vector<double> distance = border_distance(both, label);
@@ -141,6 +142,7 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
             sides[f] = label[f] ? Side::inside : Side::outside;
             in_band[f] = 0;
         }
+    // It becomes the cut of least weighted length there, if that is worth it: not longer, no more pieces or loops.
     const VectorXd factor = visibility(both, curvature, in_band);
     const std::vector<int> cut = minimum_cut(both, sides, factor);
     if (cut.empty() || cut == label) return {};
@@ -158,6 +160,7 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
     if (first->mesh.surface.loops.size() != a.mesh.surface.loops.size() ||
         second->mesh.surface.loops.size() != b.mesh.surface.loops.size())
         return {};
+    // The parts may cost a little more.
     map_anew(whole, *first, context, effort);
     map_anew(whole, *second, context, effort);
     const double gain = a.map.overflow + b.map.overflow - first->map.overflow - second->map.overflow +

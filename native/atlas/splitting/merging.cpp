@@ -174,6 +174,7 @@ void merge_small_parts(const CutSurface& whole, const SplitOptions& options, std
         const auto found = std::ranges::find_if(
             parts, [&](const PartPointer& part) { return part->mesh.faces.size() < largest && !kept.contains(part); });
         if (found == parts.end()) return;
+        // The neighbour for which both as one cost least, if they lose no more area.
         const int own = static_cast<int>(found - parts.begin());
         PartPointer best;
         int neighbour = -1;
@@ -193,6 +194,7 @@ void merge_small_parts(const CutSurface& whole, const SplitOptions& options, std
             best = std::move(both);
             neighbour = other;
         }
+        // Merge them, or let the part be.
         if (neighbour < 0) {
             kept.insert(*found);
             continue;

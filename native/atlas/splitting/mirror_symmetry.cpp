@@ -98,10 +98,12 @@ bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const 
 {
     if (mirror.image.empty()) return false;
     if (parts.size() < 2) return true;
+    // Parts that stay need no new map.
     std::map<std::vector<Index>, PartPointer> known;
     for (const PartPointer& part : parts) known.emplace(part->mesh.faces, part);
     double best = most_cost_of_symmetric(cost_of(whole, options, parts));
     std::vector<PartPointer> chosen;
+    // The parts of one side and their images, for both sides: the cheaper ones, if they cost little enough.
     for (const double side : {1.0, -1.0}) {
         std::vector<PartPointer> mirrored;
         std::vector<std::vector<Index>> sets = mirrored_faces(whole, mirror, parts, side);

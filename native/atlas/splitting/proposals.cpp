@@ -51,6 +51,7 @@ std::vector<Window> best_windows(const PartMesh& part, const PartMap& map)
     for (std::size_t f = 0; f < map.lost.size(); ++f)
         if (!map.lost[f]) u.push_back(map.u[static_cast<Eigen::Index>(f)]);
     if (u.empty()) return {};
+    // Windows at equal steps over the values of u, without the outermost hundredths.
     const auto quantile = [&](std::size_t at) {
         std::nth_element(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(at), u.end());
         return u[at];
@@ -59,6 +60,7 @@ std::vector<Window> best_windows(const PartMesh& part, const PartMap& map)
     const double step = std::max(0.12, (high - low) / 60.0);
     std::vector<Window> open, best;
     for (double from = low - 0.5; from < high; from += step) open.push_back({from, 0.0, -1, {}});
+    // The area in each: faces enter the first window that reaches them and leave after the last.
     std::vector<double> change(open.size() + 1, 0.0);
     const auto first_at = [&](double from) {
         return static_cast<std::size_t>(
@@ -70,6 +72,7 @@ std::vector<Window> best_windows(const PartMesh& part, const PartMap& map)
     }
     double sum = 0.0;
     for (std::size_t i = 0; i < open.size(); ++i) open[i].area = (sum += change[i]) + 1e-9 * part.area;
+    // The best ones. A window is looked at closely when its area is the largest left.
     while (!open.empty() && best.size() < most_windows) {
         const auto largest =
             std::ranges::max_element(open, [](const Window& a, const Window& b) { return a.area < b.area; });

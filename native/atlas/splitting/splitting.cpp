@@ -83,6 +83,7 @@ std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions&
     std::vector<Proposal> all = proposals(part->mesh, part->map, threads, context);
     std::ranges::stable_sort(all, [](const Proposal& a, const Proposal& b) { return a.area > b.area; });
     if (all.size() > most_looked_at) all.resize(most_looked_at);
+    // A short border for each proposal, and each border once.
     std::vector<Split> splits;
     std::vector<std::vector<int>> labels(all.size());
     side_by_side(all.size(), threads, context, [&](std::size_t i, ExecutionContext& own) {
@@ -93,6 +94,7 @@ std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions&
     std::vector<std::vector<int>> different;
     for (std::vector<int>& label : labels)
         if (!label.empty() && std::ranges::count(different, label) == 0) different.push_back(std::move(label));
+    // What the pieces cost by the map of the part.
     splits.resize(different.size());
     side_by_side(different.size(), threads, context, [&](std::size_t i, ExecutionContext& own) {
         own.checkpoint();
@@ -133,10 +135,10 @@ Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOp
 
 }  // namespace
 
-void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort, bool exact)
+void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort, MapPurpose purpose)
 {
     context.checkpoint();
-    part.map = map_part(part.mesh, exact && whole.exact, context);
+    part.map = map_part(part.mesh, std::min(purpose, whole.purpose), context);
     effort.maps += static_cast<double>(part.mesh.faces.size()) / static_cast<double>(whole.areas.size());
 }
 

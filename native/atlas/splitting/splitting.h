@@ -30,8 +30,9 @@ struct SplitEffort {
     int cuts = 0;       ///< number of minimum cuts
 };
 
-/// Maps a part anew.
-void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort, bool exact = true);
+/// Maps a part anew. The map only judges if that is its purpose, or that of all maps of the whole.
+void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort,
+              MapPurpose purpose = MapPurpose::result);
 
 /// Maps parts anew, side by side.
 void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threads, ExecutionContext& context,
