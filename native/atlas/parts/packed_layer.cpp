@@ -3,9 +3,9 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "cut/disjoint_sets.h"
-#include "execution/detachable_run.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
+#include "execution/run_on_copies.h"
 #include "execution/stopwatch.h"
 #include "opened/disk_packing.h"
 #include "part_maps/part_mesh.h"
@@ -421,9 +421,7 @@ PackedLayer packed(const Vertices& given, const Triangles& triangles, const Pack
 PackedLayer pack_layer(const Vertices& vertices, const Triangles& triangles, const PackedLayerOptions& options,
                        ExecutionContext& context)
 {
-    return run_detachable<PackedLayer>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return packed(vertices, triangles, options, own);
-    });
+    return run_on_copies<PackedLayer>(context, packed, vertices, triangles, options);
 }
 
 }  // namespace koebe

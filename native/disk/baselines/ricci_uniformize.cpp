@@ -5,8 +5,8 @@
 #include "core/counted.h"
 #include "core/tolerances.h"
 #include "ears/ear_map.h"
-#include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
+#include "execution/run_on_copies.h"
 #include "execution/stopwatch.h"
 #include "linear/dense_spd.h"
 #include "pipeline/final_check.h"
@@ -139,9 +139,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 UniformizeResult ricci_uniformize(const Vertices& vertices, const Triangles& triangles, const RicciOptions& options,
                                   ExecutionContext& context)
 {
-    return run_detachable<UniformizeResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return run_pipeline(vertices, triangles, options, own);
-    });
+    return run_on_copies<UniformizeResult>(context, run_pipeline, vertices, triangles, options);
 }
 
 }  // namespace koebe
