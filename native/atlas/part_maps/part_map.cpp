@@ -6,6 +6,7 @@
 #include "core/connectivity.h"
 #include "core/enum_words.h"
 #include "core/errors.h"
+#include "cost/tolerances.h"
 #include "cost/tuning.h"
 #include "part_maps/even_pole.h"
 #include "pipeline/uniformize.h"
@@ -21,9 +22,8 @@
 namespace koebe {
 namespace {
 
-constexpr double least_edge = 1e-11;  // disk units: shorter ones are lost in the rounding of a map
-constexpr double rough = 1e-3;        // disk units: change of the circles in the last sweep of a map that judges
-constexpr double deep_hole = 1e-7;    // disk units: a map is precise round a smaller hole only if the hole is at 0
+constexpr double rough = 1e-3;      // disk units: change of the circles in the last sweep of a map that judges
+constexpr double deep_hole = 1e-7;  // disk units: a map is precise round a smaller hole only if the hole is at 0
 
 double area_in_plane(Complex a, Complex b, Complex c) { return 0.5 * std::imag(std::conj(b - a) * (c - a)); }
 
@@ -137,7 +137,7 @@ void map_disk(const PartMesh& part, MapPurpose purpose, PartMap& map, ExecutionC
             for (int k = 0; k < 3; ++k) z[k] = map.positions[part.surface.triangles(f, k)];
             return z;
         },
-        least_edge, map);
+        tolerance::rounded_edge, map);
 }
 
 void fit_each_circle(const PartMesh& part, PartMap& map)

@@ -1,6 +1,7 @@
 #include "parts/flat_charts.h"
 
 #include "core/errors.h"
+#include "cost/tolerances.h"
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
@@ -26,8 +27,6 @@ constexpr double flat_angle = 1e-3;     // radians by which the angles round a f
 constexpr double same_place = 1e-5;     // in roots of the surface's area
 constexpr double most_single = 0.75;    // of a chart's area, in faces that are alone in their planes
 constexpr double plate_to_strip = 2.0;  // a plate is so many times larger than its neighbours
-constexpr double ruled = 0.3;           // of a planar face's outline: so much of it is one ruling of a rolled face
-constexpr double most_loose = 0.3;      // of a rolled face's outline: so much may be smooth towards other rest
 
 class ChartLayer {
 public:
@@ -270,7 +269,7 @@ private:
         DisjointSets rolled(count);
         for (const auto& [pair, length] : borders)
             if (const auto [p, q] = pair;
-                !is_plate[p] && !is_plate[q] && length > ruled * std::max(outline[p], outline[q]))
+                !is_plate[p] && !is_plate[q] && length > tolerance::rolled_outline * std::max(outline[p], outline[q]))
                 rolled.join(p, q);
         for (const Index f : chart.face) group_[f] = is_plate[planar_[f]] ? planar_[f] : -1;
         // A polygon that leaves the plane of a plate is no part of the plate.
@@ -288,7 +287,7 @@ private:
             if (settle(piece, 0)) continue;
             for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
             for (const SeamedMesh& strip : cut_between_groups(piece))
-                if (looseness(strip, piece) > most_loose || !settle(strip, 0))
+                if (looseness(strip, piece) > tolerance::rolled_outline || !settle(strip, 0))
                     charts_.rest.insert(charts_.rest.end(), strip.face.begin(), strip.face.end());
         }
     }

@@ -4,6 +4,7 @@
 #include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cost/tolerances.h"
 #include "cost/tuning.h"
 #include "embedding/embedded_map.h"
 #include "foldover/untangle.h"
@@ -29,9 +30,7 @@ namespace koebe {
 namespace {
 
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
-constexpr double rounded_edge = 1e-11;   // of the image's extent: shorter edges are only rounding
-constexpr double most_image = 4.0;       // UV area of a part over its area: even texels never need more
-constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges say nothing about a loop's course
+constexpr double most_image = 4.0;  // UV area of a part over its area: even texels never need more
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)
 {
@@ -58,7 +57,7 @@ double longest_edge(const PlanarPoints& p, const Triangles& triangles, Eigen::In
 void scale_evenly(const PartMesh& mesh, FlatPart& flat)
 {
     const Eigen::Index count = flat.surface.triangles.rows();
-    const double floor = rounded_edge * box_size(flat.points).maxCoeff();
+    const double floor = tolerance::rounded_edge * box_size(flat.points).maxCoeff();
     const auto [u, lost, image] = flat_density(flat, mesh.areas, floor);
     const Evenness even = evenness(u, mesh.areas, lost);
     double sum = 0.0, known = 0.0;
@@ -357,8 +356,8 @@ std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
 {
     const PlanarPoints stored = uv.unaryExpr(&as_stored);
-    return crossing_boundary_edges(part.surface.loops, stored, shortest_drawn).empty() &&
-           turned_loops(part.surface.loops, stored, shortest_drawn).empty();
+    return crossing_boundary_edges(part.surface.loops, stored, tolerance::drawn_edge).empty() &&
+           turned_loops(part.surface.loops, stored, tolerance::drawn_edge).empty();
 }
 
 bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points)

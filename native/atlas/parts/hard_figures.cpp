@@ -1,5 +1,6 @@
 #include "parts/hard_figures.h"
 
+#include "cost/tolerances.h"
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "part_maps/part_mesh.h"
@@ -18,13 +19,11 @@
 namespace koebe {
 namespace {
 
-constexpr double bent_in_a_plane = std::numbers::pi / 360.0;  // radians
-constexpr double flat = 1e-4;                                 // of the region's size: distance from its plane,
-constexpr double same_shape = 2e-3;                           // and of its image from a similar one
+constexpr double flat = 1e-4;               // of the region's size: distance from its plane,
+constexpr double same_shape = 2e-3;         // and of its image from a similar one
 constexpr double long_outer_edge = 0.05;    // in roots of the area: such an edge is straight by itself,
 constexpr double goes_on_straight = 0.996;  // cosine of 5 degrees: others if the border goes on like that
-constexpr double off_an_axis = std::numbers::pi / 1800.0;  // radians
-constexpr double same_uv = 1e-6;                           // UV units: faces meet at an edge up to this
+constexpr double same_uv = 1e-6;            // UV units: faces meet at an edge up to this
 
 /// A side of a face, as an edge of the mesh.
 struct FaceSide {
@@ -82,7 +81,7 @@ private:
         DisjointSets sets(layout_.part.size());
         each_edge([&](auto begin, auto end) {
             for (auto side = begin + 1; side < end; ++side)
-                if (normal(begin->face).dot(normal(side->face)) > std::cos(bent_in_a_plane))
+                if (normal(begin->face).dot(normal(side->face)) > std::cos(tolerance::coplanar))
                     sets.join(static_cast<Index>(begin->face), static_cast<Index>(side->face));
         });
         std::map<Index, std::vector<Eigen::Index>> regions;
@@ -182,7 +181,7 @@ private:
                 continue;
             const Eigen::RowVector2d edge = uv_.row(side.second) - uv_.row(side.first);
             all += edge.norm();
-            if (edge.cwiseAbs().minCoeff() < std::sin(off_an_axis) * edge.norm()) along_axes += edge.norm();
+            if (edge.cwiseAbs().minCoeff() < std::sin(tolerance::off_axis) * edge.norm()) along_axes += edge.norm();
         }
         if (all > 0.0) figures.aligned = along_axes / all;
     }

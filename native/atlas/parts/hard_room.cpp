@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "cost/costs.h"
+#include "cost/tolerances.h"
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/packing.h"
@@ -15,9 +16,8 @@
 namespace koebe {
 namespace {
 
-constexpr double cosine_of_plane = 0.99985;  // of 1 degree: noise parts regions of one plate, cuts do not
-constexpr std::size_t fewest_parts = 4;      // fewer, such as the cross of a box, stay as they are
-constexpr double usual_margin = 0.004;       // of the square, with which islands are compared
+constexpr std::size_t fewest_parts = 4;  // fewer, such as the cross of a box, stay as they are
+constexpr double usual_margin = 0.004;   // of the square, with which islands are compared
 
 }  // namespace
 
@@ -32,7 +32,7 @@ std::vector<FlatPart> cut_between_planes(const CutSurface& surface, const FlatCh
     for (Index h = 0; h < charts.net.halfedge_count(); ++h)
         if (const Index t = charts.net.twin[h];
             t != no_twin && (charts.net.whole[h] || charts.region[face_of(h)] == charts.region[face_of(t)] ||
-                             normal(face_of(h)).dot(normal(face_of(t))) > cosine_of_plane))
+                             normal(face_of(h)).dot(normal(face_of(t))) > tolerance::straight))
             uncut.join(face_of(h), face_of(t));
     std::vector<HeldPart> held;
     for (const FlatPart& part : parts) {

@@ -1,5 +1,7 @@
 #include "parts/packing.h"
 
+#include "cost/tolerances.h"
+
 #include "core/errors.h"
 #include "parts/packed_island.h"
 #include "parts/separation.h"
@@ -40,7 +42,6 @@ constexpr double held = 0.8;             // or if one is that long, in sides of 
 constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that
 constexpr double worth_one_turn = 0.95;  // times the scale: less is given up so that equal islands lie alike
 constexpr double least_scale = 1e-4;     // of the first one that is tried, beside islands that keep their place
-constexpr double similar = 0.8;          // area over that of the island before which all places were looked at
 
 enum class Rule { lowest_top, lowest, smallest_square };
 constexpr std::array rules = {Rule::lowest_top, Rule::lowest, Rule::smallest_square};
@@ -164,7 +165,7 @@ private:
         double area = std::numeric_limits<double>::infinity();
         for (; failed_ < order.size(); ++failed_) {
             const std::size_t k = order[failed_];
-            if (islands_[k].area < similar * area) {
+            if (islands_[k].area < tolerance::similar_area * area) {
                 area = islands_[k].area;
                 from = 0;
             }

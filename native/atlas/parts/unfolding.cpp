@@ -1,6 +1,7 @@
 #include "parts/unfolding.h"
 
 #include "core/errors.h"
+#include "cost/tolerances.h"
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "parts/flat_charts.h"
@@ -26,7 +27,6 @@ constexpr double least_border = 0.12;     // of a chart's boundary: a shorter co
 constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
-constexpr double between_plates = 0.5;    // of a chart's outline, at planar regions
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
 
 constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut;
@@ -78,7 +78,7 @@ public:
                     if (is_planar(face_of(twin(h)))) at_planar += surface_.lengths[h];
                 }
             }
-            sum += at_planar > between_plates * outline ? area : planar;
+            sum += at_planar > tolerance::majority * outline ? area : planar;
         }
         return sum;
     }

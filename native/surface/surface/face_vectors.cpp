@@ -1,5 +1,7 @@
 #include "surface/face_vectors.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 
 namespace koebe {
