@@ -34,5 +34,5 @@ def test_every_number_is_used():
 def test_the_page_names_functions_of_the_header():
     header = (ROOT / "native/atlas/cost/costs.h").read_text(encoding="utf-8")
     last_cells = re.findall(r"^\|.*\| (`[^|]+`) \|$", PAGE.partition("## The numbers")[0], re.MULTILINE)
-    functions = re.findall(r"`(?:CutPrices::)?(\w+)`", " ".join(last_cells))
+    functions = re.findall(r"`(?:CutPrices::|ThroughPrice::)?(\w+)`", " ".join(last_cells))
     assert len(functions) > 15 and [name for name in functions if not re.search(rf"\b{name}[({{]", header)] == []

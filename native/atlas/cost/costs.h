@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -100,6 +101,20 @@ inline double hollow_factor(double deviations)
 /// The price of a cut as long as the root of the area: dart_unit / D. @param darts D, over 0 to 1
 inline double dart_price(double darts) { return tuning::dart_unit / darts; }
 
+/// A dart of a length, in energy. @param price of a dart as long as the root of the area @param is_new it lengthens no
+/// other dart @param exposure factor on the length where it begins
+inline double dart_cost(double price, double length, bool is_new, double exposure)
+{
+    return price * (length + (is_new ? tuning::new_dart * exposure : 0.0));
+}
+
+/// All cuts and parts of a layout, in energy: dart_price (length + piece parts). @param piece of one more part, as a
+/// length
+inline double layout_cost(double darts, double length, double piece, double parts)
+{
+    return dart_price(darts) * (length + piece * parts);
+}
+
 /// The price of one more part, as the length of a cut: the user's price over the one at which both are the same.
 inline double part_as_length(double price) { return price / tuning::price_like_cut; }
 
@@ -117,8 +132,11 @@ struct ThroughPrice {
     std::optional<double> piece;  ///< of one more piece, in addition to its cut; without a value no part is split
     double smooth = 1.0;  ///< factor on `length` of cuts for room, where the surface is bent by under 50 degrees
 
-    /// Of a cut that makes one more piece. `piece` must have a value.
-    double of_split(double of_length) const { return length * of_length + *piece; }
+    /// Of a cut; infinite if it splits a part that must not be split.
+    double of(double cut_length, bool splits) const
+    {
+        return length * cut_length + (splits ? piece.value_or(std::numeric_limits<double>::infinity()) : 0.0);
+    }
 };
 
 /// Of cuts that make room in parts that are relaxed. @param piece price of one more part, as a length

@@ -1,7 +1,7 @@
 // The numbers that were chosen, not derived: by them a cut pays or does not. Each row has the unit, the meaning, and
 // where the value comes from; "chosen" means that no measurement is kept. costs.h has the formulas, and
-// docs/developers/costs.md prints both. Tolerances of rounding, limits of the effort, and what counts as flat, straight
-// or equal stand where they are used.
+// docs/developers/costs.md prints both. tolerances.h says what counts as flat, straight and similar. Limits of the
+// effort stand where they are used.
 #pragma once
 
 namespace koebe::tuning {

@@ -116,8 +116,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
             dart.gain = (round ? tuning::released_share : 1.0) * crack_energy(pulled, even);
             const Index start = dart.vertices.back();
             const bool is_longer = std::ranges::count(flat.tips, start) > 0;
-            dart.cost =
-                price * (dart.cost + (is_longer ? 0.0 : tuning::new_dart * price_of_edge(flat.shown, start, start)));
+            dart.cost = dart_cost(price, dart.cost, !is_longer, price_of_edge(flat.shown, start, start));
             const double surplus = dart.gain - dart.cost;
             if (surplus > 0.0) found.emplace_back(surplus, std::move(dart));
         }

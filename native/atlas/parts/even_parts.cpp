@@ -297,7 +297,7 @@ double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, E
                                                      : std::numeric_limits<double>::infinity();
         for (const VertexLoop& loop : part.surface.loops) boundary += loop_edges(part.vertices, loop).sum();
     }
-    return energy + dart_price(options.darts) * (0.5 * boundary + options.piece * static_cast<double>(parts.size()));
+    return energy + layout_cost(options.darts, 0.5 * boundary, options.piece, static_cast<double>(parts.size()));
 }
 
 }  // namespace koebe

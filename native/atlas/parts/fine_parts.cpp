@@ -178,8 +178,7 @@ std::vector<FlatPart> FineParts::laid(const MeshPiece& own, const std::vector<st
             parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(of_part)), {}, {}}));
     const CutPrices prices = prices_of_piece(whole.areas.sum(), options_.price);
     return flat_parts(whole, find_mirror(whole.vertices, whole.surface.triangles, whole.polygon), parts,
-                      {prices.cut_price, prices.part_price, options_.round_cuts, purpose}, options_.threads, context_,
-                      effort)
+                      {prices, options_.round_cuts, purpose}, options_.threads, context_, effort)
         .parts;
 }
 

@@ -311,7 +311,7 @@ FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContex
 {
     FlatPart flat;
     if (part.map.kind == PartKind::tube && part.map.strip.size() > 0) flat = as_tube(part, options, context);
-    const bool pays = part.map.tube_overflow + options.slit_price * flat.slit <= part.map.disk_overflow;
+    const bool pays = part.map.tube_overflow + options.prices.of(0.0, flat.slit) <= part.map.disk_overflow;
     if (flat.points.rows() == 0 || !pays) {
         flat = as_disk(part, options, context);
     } else if (const Index flips = flaws(flat.surface, flat.points); flips > 0) {

@@ -36,8 +36,7 @@ struct FlatPart {
 };
 
 struct FlatOptions {
-    double slit_price = 0.0;                  ///< price, in overflow, of a slit as long as the root of the area
-    double part_price = 0.0;                  ///< price of a part, in overflow
+    CutPrices prices = {};                    ///< of parts and of slits
     bool round_cuts = false;                  ///< rims at cuts stay on circles and lines
     MapPurpose purpose = MapPurpose::result;  ///< judging: parts are only measured, and flaws stay
 };

@@ -152,12 +152,12 @@ FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptio
     const std::size_t count = part->mesh.faces.size();
     const bool may_be_cut = halvings < most_halvings && count >= few_faces;
     FlatParts in_two;
-    if (may_be_cut && count > many_faces && part->map.overflow > options.part_price &&
+    if (may_be_cut && count > many_faces && part->map.overflow > options.prices.part_price &&
         turned_share(as_one.parts.front()) > most_turned) {
         in_two = laid_in_two(whole, part, options, halvings, context, effort);
         if (in_two.parts.size() > 1 && !in_two.flaws.any()) return in_two;
     }
-    repair_and_judge(*part, options.part_price, as_one, context);
+    repair_and_judge(*part, options.prices.part_price, as_one, context);
     if (!as_one.flaws.any() || !may_be_cut) return as_one;
     if (in_two.parts.empty()) in_two = laid_in_two(whole, part, options, halvings, context, effort);
     return in_two.parts.size() > 1 && fewer(in_two.flaws, as_one.flaws) ? std::move(in_two) : std::move(as_one);
@@ -226,7 +226,7 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
         if (in_turn && part.map.kind == PartKind::tube && !chosen)
             prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
         FlatOptions own_options = options;
-        if (chosen) own_options.slit_price = 0.0;
+        if (chosen) own_options.prices.cut_price = 0.0;
         flats[k] = laid(whole, parts[k], own_options, 0, own, efforts[k]);
         if (in_turn && flats[k].parts.size() == 1) note_slit(part.mesh, flats[k].parts.front(), opened);
         parts[k].reset();

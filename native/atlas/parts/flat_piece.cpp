@@ -110,8 +110,7 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
     // Lay the parts flat. A part that was cut for its flaws has been tried as one part.
     const std::shared_ptr<const Part> root = root_of(parts, whole);
     const bool is_cut = parts.size() > 1;
-    FlatParts flats = flat_parts(whole, mirror, parts, {prices.cut_price, prices.part_price, options.round_cuts},
-                                 threads, context, effort);
+    FlatParts flats = flat_parts(whole, mirror, parts, {prices, options.round_cuts}, threads, context, effort);
     if (is_cut || flats.parts.size() == 1)
         if (auto one =
                 better_as_one(is_closed ? opened(input) : whole, root.get(), flats, prices.part_price, context)) {

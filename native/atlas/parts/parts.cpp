@@ -195,13 +195,11 @@ PackedParts packed_parts(FlatMesh& mesh, const PartsOptions& options, double uni
     const bool is_free = !options.even && options.loops != LoopForm::round && !options.round_cuts;
     if ((is_free && options.importance.empty()) || options.rectify) rectify_grids(mesh.parts, options.rectify);
     stand_upright(mesh.parts, up);
-    // Copies first: a part that has a copy and a mirror image is the copy's twin.
     PackOptions packing{
         .tiles = options.tiles, .margin = margin_in_square(options.margin, options.pixels), .threads = options.threads};
-    std::vector<std::optional<Twin>> copies = find_twins(mesh.parts, false);
-    if (options.stack) packing.twins = std::move(copies);
-    std::vector<std::optional<Twin>> all = find_twins(mesh.parts, true);
-    if (options.stack_mirrored) packing.twins = std::move(all);
+    Twins twins = find_twins(mesh.parts);
+    if (options.stack) packing.twins = std::move(twins.copies);
+    if (options.stack_mirrored) packing.twins = std::move(twins.all);
     packing.wanted = wanted_scale(mesh, options, unit);
     return pack_parts(mesh.parts, packing, context);
 }

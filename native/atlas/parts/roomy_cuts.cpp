@@ -251,12 +251,12 @@ private:
         std::vector<Chord> found;
         const Eigen::Index count = outer_.points.rows();
         const double least = area_inside(outer_.points) - 2.0 * tuning::small_area;
-        if (count < 4 || least < 0.0 || room_gain(saved_at_most_) < price_.of_split(0.0)) return found;
+        if (count < 4 || least < 0.0 || room_gain(saved_at_most_) < price_.of(0.0, true)) return found;
         const bool is_long = room_ > area_inside(outer_.points(convex_hull(outer_.points), Eigen::all));
         for (Eigen::Index i = 0; i < count; ++i)
             for (Eigen::Index j = i + 2; j < count; ++j) {
                 if (!is_long && !is_hollow(i) && !is_hollow(j)) continue;
-                const double cost = price_.of_split(distance(corner(i), corner(j)));
+                const double cost = price_.of(distance(corner(i), corner(j)), true);
                 if (room_gain(saved_at_most_) < cost || !is_inside(i, j)) continue;
                 const double gain = room_gain(saved(between(outer_.points, i, j), between(outer_.points, j, i)));
                 if (gain > cost) found.push_back({i, j, gain / cost});
@@ -319,7 +319,7 @@ private:
         one.insert(one.end(), cut.vertices.begin(), cut.vertices.end() - 1);
         other.insert(other.end(), cut.vertices.rbegin(), cut.vertices.rend() - 1);
         cut.forecast = room_gain(saved(flat_.points(one, Eigen::all), flat_.points(other, Eigen::all)));
-        cut.cost = price_.of_split(cut.length);
+        cut.cost = price_.of(cut.length, true);
         if (cut.forecast > cut.cost) return cut;
         return {};
     }

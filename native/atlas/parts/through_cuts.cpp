@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -123,14 +122,11 @@ private:
         const double moment = from.moment + tree_.distance[a] * at_a.imag() + length * (to.force + at_b).imag() -
                               to.moment - tree_.distance[b] * at_b.imag() - 0.5 * length * force.imag();
         const double released = tuning::released_share * beam_energy(force, moment, length, even_);
-        return std::min(released, forces_.energy.sum()) - price_.length * length - piece_price(from.end, to.end);
+        return std::min(released, forces_.energy.sum()) - price_.of(length, splits(from.end, to.end));
     }
 
-    /// Of a cut between two vertices of the boundary, beside its length: between two loops it makes no piece.
-    double piece_price(Index from, Index to) const
-    {
-        return loop_of_[from] == loop_of_[to] ? price_.piece.value_or(std::numeric_limits<double>::infinity()) : 0.0;
-    }
+    /// Whether a cut between two vertices of the boundary makes one more piece: between two loops it does not.
+    bool splits(Index from, Index to) const { return loop_of_[from] == loop_of_[to]; }
 
     /// Whether a cut between two places of one loop would leave too small a piece.
     bool is_too_small(Index a, Index b) const
@@ -157,7 +153,7 @@ private:
         cut.halfedges.push_back(h);
         walk(target(flat_.surface.triangles, h));
         for (const Index e : cut.halfedges) cut.length += mesh_.length[e];
-        cut.cost = price_.length * cut.length + piece_price(cut.vertices.front(), cut.vertices.back());
+        cut.cost = price_.of(cut.length, splits(cut.vertices.front(), cut.vertices.back()));
         return cut;
     }
 
