@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -132,10 +133,12 @@ void PolygonOutlines::add_outline(std::span<const Index> faces)
     const std::size_t begin = outlines_.size();
     Index at = outer_.front().from;
     do {
-        const auto next = std::ranges::equal_range(outer_, at, {}, &Edge::from);
-        if (next.size() != 1 || outlines_.size() - begin == outer_.size()) return outlines_.resize(begin);
-        outlines_.push_back(next.front().corner);
-        at = next.front().to;
+        const auto next = std::ranges::lower_bound(outer_, at, {}, &Edge::from);
+        const bool is_only = next != outer_.end() && next->from == at &&
+                             (std::next(next) == outer_.end() || std::next(next)->from != at);
+        if (!is_only || outlines_.size() - begin == outer_.size()) return outlines_.resize(begin);
+        outlines_.push_back(next->corner);
+        at = next->to;
     } while (at != outer_.front().from);
     if (outlines_.size() - begin != outer_.size()) outlines_.resize(begin);
 }

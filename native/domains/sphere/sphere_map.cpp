@@ -9,6 +9,7 @@
 #include "execution/each_in_pieces.h"
 #include "execution/execution.h"
 #include "foldover/convex_polygons.h"
+#include "linear/dense_spd.h"
 #include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
 #include "quality/take_verdict.h"
