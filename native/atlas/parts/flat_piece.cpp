@@ -89,10 +89,10 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
                      ExecutionContext& context, SplitEffort& effort)
 {
     // Cut it where that pays, alike on both sides of a mirror, and hide the cuts.
-    auto& [whole, first] = surface;
+    CutSurface& whole = surface.whole;
     const bool is_closed = whole.surface.loops.empty();
     const SplitOptions prices{prices_of_piece(whole.areas.sum(), options.price), threads};
-    std::vector<PartPointer> parts = even_parts(whole, std::move(first), prices, context, effort);
+    std::vector<PartPointer> parts = even_parts(whole, std::move(surface.first), prices, context, effort);
     const Mirror mirror = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon);
     bool is_symmetric = make_symmetric(whole, prices, mirror, parts, context, effort);
     if (!is_symmetric && !mirror.image.empty()) {  // begin with the sides of the plane
