@@ -62,7 +62,7 @@ MUTANTS = [
     ("native/making/lift/sphere_sheets.cpp", "sizes[part[f]] > sizes[largest]", "sizes[part[f]] < sizes[largest]"),
     ("native/atlas/parts/twins.cpp", "(is > 0.0) == mirrored ? -1.0 : 1.0", "1.0"),
     ("native/atlas/parts/tile_packing.cpp", "tiles_[fullest()].packing.scale", "tiles_[0].packing.scale"),
-    ("native/atlas/parts/through_cuts.cpp", "length - piece_price(from.end, to.end)", "length"),
+    ("native/atlas/parts/through_cuts.cpp", "price_.of(length, splits(from.end, to.end))", "price_.of(length, false)"),
     ("native/labs/certified/capacity_bounds.cpp", "shared = loop >= 0 && !fixed_[i]", "shared = false"),
     ("native/labs/bending/circle_path.cpp", "least = std::min(least, std::abs(centers[k] - centers[j]) / wanted);", ""),
     ("native/labs/bending/bent_domain.cpp", "k == 0 ? here : next, k == 0 ? next : here", "here, next"),

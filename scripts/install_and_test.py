@@ -17,15 +17,13 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def install(package: str) -> str:
-    """Install and enable the zip; return the add-on's module name."""
+    """Check, install and enable the zip; return the add-on's module name."""
+    sys.path.insert(0, str(ROOT / "tests/blender"))
+    import installing
+
     if bpy.app.version >= (4, 2, 0):
         validate(package)
-        bpy.ops.extensions.package_install_files(filepath=package, repo="user_default", enable_on_install=True)
-        module = "bl_ext.user_default.koebe_uv"
-    else:
-        bpy.ops.preferences.addon_install(filepath=package)
-        bpy.ops.preferences.addon_enable(module="koebe_uv")
-        module = "koebe_uv"
+    module = installing.install(package)
     if not all(addon_utils.check(module)):
         sys.exit(f"{package} was not installed and enabled as {module}")
     bpy.ops.wm.save_userpref()  # so that a Blender which a test starts finds it enabled

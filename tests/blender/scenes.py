@@ -95,9 +95,11 @@ def read(collection, name, dtype, width=1):
     return values.reshape(-1, width) if width > 1 else values
 
 
-def with_polygons(obj):
+def with_polygons(obj, wanted=True):
     """The same object with some of its quadrilaterals joined to larger polygons, and some cut in two, inside: a face
-    with all its vertices on a slit has no place."""
+    with all its vertices on a slit has no place. As it was if that is not wanted."""
+    if not wanted:
+        return obj
     edited = bmesh.new()
     edited.from_mesh(obj.data)
     edited.edges.ensure_lookup_table()
@@ -129,6 +131,13 @@ def pin(mesh, layer, corners):
         return
     mesh.uv_layers[layer].pin_ensure()
     mesh.uv_layers[layer].pin.foreach_set("value", corners)
+
+
+def corner_uv_in_square(obj):
+    """UVs (C, 2) of the layer Koebe, which lie in the unit square."""
+    uv = corner_uv(obj.data, "Koebe")
+    assert np.isfinite(uv).all() and uv.min() >= 0.0 and uv.max() <= 1.0
+    return uv
 
 
 def triangles(mesh):

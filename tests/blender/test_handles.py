@@ -41,8 +41,7 @@ CASES = {
 def test_it_is_what_the_package_makes_of_it(koebe, case, polygons):
     make, normalization = CASES[case]
     obj = make()
-    if polygons:
-        scenes.with_polygons(obj)
+    scenes.with_polygons(obj, polygons)
     before = scenes.mesh_state(obj.data)
     assert unwrap(normalization=normalization, checker=False) == {"FINISHED"}
     expected, result, _ = scenes.of_the_package(obj, koebe.schottky_map, normalization=normalization)

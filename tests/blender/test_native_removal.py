@@ -16,14 +16,9 @@ import bpy, addon_utils
 home = Path(os.environ["HOME_UNDER_TEST"])
 def megabytes():
     return sum(f.stat().st_size for f in home.rglob("*") if f.is_file() and not f.is_symlink()) / 1e6
-package = str(home.parent / "koebe_uv.zip")
-if bpy.app.version >= (4, 2, 0):
-    bpy.ops.extensions.package_install_files(filepath=package, repo="user_default", enable_on_install=True)
-    module = "bl_ext.user_default.koebe_uv"
-else:
-    bpy.ops.preferences.addon_install(filepath=package)
-    bpy.ops.preferences.addon_enable(module="koebe_uv")
-    module = "koebe_uv"
+sys.path.insert(0, os.environ["TESTS"])
+import installing
+module = installing.install(str(home.parent / "koebe_uv.zip"))
 native = importlib.import_module(module + ".jobs.native_package")
 assert native.load().__file__.startswith(str(home))
 print("BEFORE", megabytes(), flush=True)
@@ -55,6 +50,7 @@ def test_removal_leaves_no_library(addon_name, tmp_path):
     script = tmp_path / "script.py"
     script.write_text(SCRIPT)
     process = processes.start(script, tmp_path, HOME_UNDER_TEST=home, BLENDER_USER_RESOURCES=home,
+                              TESTS=Path(__file__).parent,
                               **{f"BLENDER_USER_{name}": folder for name, folder in folders.items()})
     code, out, err = processes.finish(process)
     sizes = {line.split()[0]: float(line.split()[1]) for line in out.splitlines() if line[:6] in ("BEFORE", "AFTER ")}

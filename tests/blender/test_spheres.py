@@ -27,8 +27,7 @@ def sphere(**options):
 @pytest.mark.parametrize("polygons", [False, True], ids=["quads", "polygons"])
 def test_a_ball_is_what_the_package_makes_of_it(koebe, holes, polygons, layout):
     obj = add_ball(holes=holes)
-    if polygons:
-        scenes.with_polygons(obj)
+    scenes.with_polygons(obj, polygons)
     before = scenes.mesh_state(obj.data)
     assert sphere(layout=layout, checker=False) == {"FINISHED"}
     expected, ball, polygon = scenes.of_the_package(obj, koebe.sphere_map, layout=layout)

@@ -47,9 +47,7 @@ HOLES = (*block(2, 3), *block(9, 7, 3))
 @pytest.mark.parametrize("holes", [(), HOLES], ids=["closed", "holes"])
 @pytest.mark.parametrize("polygons", [False, True], ids=["quads", "polygons"])
 def test_a_torus_is_what_the_package_makes_of_it(koebe, holes, polygons):
-    obj = add_torus(holes=holes)
-    if polygons:
-        scenes.with_polygons(obj)
+    obj = scenes.with_polygons(add_torus(holes=holes), polygons)
     before = scenes.mesh_state(obj.data)
     assert torus(checker=False) == {"FINISHED"}
     expected, tile, _ = scenes.of_the_package(obj, koebe.torus_map)
@@ -71,9 +69,7 @@ def test_a_torus_is_what_the_package_makes_of_it(koebe, holes, polygons):
 @pytest.mark.parametrize("how", ["circles", "concentric", "radial"])
 @pytest.mark.parametrize("polygons", [False, True], ids=["quads", "polygons"])
 def test_a_cylinder_is_what_the_package_makes_of_it(koebe, how, polygons):
-    obj = add_tube(holes=HOLES)
-    if polygons:
-        scenes.with_polygons(obj)
+    obj = scenes.with_polygons(add_tube(holes=HOLES), polygons)
     before = scenes.mesh_state(obj.data)
     assert ring(holes=how, checker=False) == {"FINISHED"}
     loops = sorted(scenes.boundary_loops(obj.data), key=len)[-2:]

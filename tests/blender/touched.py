@@ -1,6 +1,9 @@
 """What an operator may change, as the table in docs/guide.md says, told by the names of a fingerprint."""
 
+import contextlib
+
 import bpy
+import fingerprint
 
 SELECTION = ("verts flags", "edges flags", "faces flags", "history", "active face")
 SEAMS = ("seam", "edges", "attribute .uv_seam EDGE BOOLEAN", "attribute uv_seam EDGE BOOLEAN")
@@ -18,6 +21,14 @@ def beside_uvs(changed):
     return [name for name in changed
             if not ("uv" in name or "attribute Koebe" in name or name == "file: report"
                     or is_uv_selection(name.partition(": ")[2], "Koebe"))]
+
+
+@contextlib.contextmanager
+def only_uvs_change():
+    """Within it the file changes only in the UV layer Koebe and the report."""
+    before = fingerprint.fingerprint()
+    yield
+    assert beside_uvs(fingerprint.differences(before, fingerprint.fingerprint())) == []
 
 
 class Touched:

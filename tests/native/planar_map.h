@@ -4,6 +4,8 @@
 #include "circle_domain.h"
 #include "mesh/topology.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace koebe::test {
@@ -15,6 +17,18 @@ inline PlanarPoints planar(const VectorXcd& points)
     result << points.real(), points.imag();
     return result;
 }
+
+/// Two faces in the plane z = 0. @param corners x and y of four vertices
+struct TwoFaces {
+    TwoFaces(std::array<double, 8> corners, std::array<Index, 6> faces)
+    {
+        for (Index v = 0; v < 4; ++v) vertices.row(v) << corners[2 * v], corners[2 * v + 1], 0.0;
+        std::ranges::copy(faces, triangles.reshaped<Eigen::RowMajor>().begin());
+    }
+
+    Vertices vertices{4, 3};
+    Triangles triangles{2, 3};
+};
 
 /// A circle domain mapped to itself.
 struct PlanarMap {

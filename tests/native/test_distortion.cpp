@@ -41,10 +41,7 @@ TEST(Distortion, of_a_stretch_is_known)
 
 TEST(Distortion, counts_flips_in_32_bits)
 {
-    Vertices vertices(4, 3);
-    vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0;
-    Triangles triangles(2, 3);
-    triangles << 0, 1, 2, 1, 3, 2;
+    const auto [vertices, triangles] = TwoFaces({0, 0, 1, 0, 0, 1, 1, 1}, {0, 1, 2, 1, 3, 2});
     PlanarPoints uv(4, 2);
     uv << 0, 0, 0.5, 0, 0, 0.5, 0.1, 0.1;  // the second face folded over
     EXPECT_EQ(judge_disk(vertices, triangles, uv).flipped, (std::vector<Index>{1}));
@@ -83,10 +80,7 @@ TEST(Verdict, of_lost_and_turned_faces_is_known_in_any_unit)
 
 TEST(Distortion, leaves_out_faces_without_area_on_the_surface)
 {
-    Vertices vertices(4, 3);
-    vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0;
-    Triangles triangles(2, 3);
-    triangles << 0, 1, 2, 0, 3, 1;
+    const auto [vertices, triangles] = TwoFaces({0, 0, 1, 0, 0, 1, 2, 0}, {0, 1, 2, 0, 3, 1});
     PlanarPoints uv(4, 2);
     uv << 0, 0, 0.5, 0, 0, 0.5, 0.3, -0.3;
     const ComputedDistortion d = measure_distortion(vertices, triangles, uv);

@@ -69,7 +69,7 @@ TEST(HiddenCuts, go_into_a_groove_nearby_and_nowhere_without_one)
         ExecutionContext context;
         SplitEffort effort;
         std::vector<PartPointer> parts = first_parts(whole, faces, context, effort);
-        hide_cuts(whole, {.part_price = 0.0037, .cut_price = 0.0037}, parts, context, effort);
+        hide_cuts(whole, {{.part_price = 0.0037, .cut_price = 0.0037}}, parts, context, effort);
         ASSERT_EQ(parts.size(), 2U);
         double low = 10.0, high = -10.0;
         std::size_t count = 0;

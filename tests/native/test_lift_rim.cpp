@@ -8,6 +8,7 @@
 #include "mesh/topology.h"
 
 #include "circle_domain.h"
+#include "planar_map.h"
 
 #include <gtest/gtest.h>
 
@@ -207,10 +208,7 @@ TEST(Clip, ReliefsAndSolidsAreClosedAtTheRims)
 
 TEST(BorderRoom, MakesAPolygonFit)
 {
-    Vertices square(4, 3);
-    square << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
-    Triangles faces(2, 3);
-    faces << 0, 1, 2, 0, 2, 3;
+    const auto [square, faces] = test::TwoFaces({0, 0, 1, 0, 1, 1, 0, 1}, {0, 1, 2, 0, 2, 3});
     PlanarPoints uv(6, 2);
     for (int c = 0; c < 6; ++c) uv.row(c) = square.row(faces.data()[c]).leftCols<2>();
     const BorderRoom room(flat_sheet(square, faces, uv), 0.2);

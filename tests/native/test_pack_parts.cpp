@@ -60,7 +60,7 @@ TEST(FlatPart, a_part_whose_map_is_not_finite_is_drawn_anew_and_is_one_to_one)
     const CutSurface whole = cut_surface(flat.vertices, flat.surface.triangles, {});
     ExecutionContext context;
     Part part{part_mesh(whole, flat.faces), {}};
-    part.map = map_part(part.mesh, true, context);
+    part.map = map_part(part.mesh, MapPurpose::result, context);
     part.map.positions[7] = std::numeric_limits<double>::quiet_NaN();
     for (const VertexLoop& loop : part.mesh.surface.loops)
         for (const Index v : loop) part.map.positions[v] = part.map.positions[7];

@@ -1,4 +1,5 @@
 #include "core/errors.h"
+#include "cost/tuning.h"
 #include "cut_samples.h"
 #include "part_maps/texel_evenness.h"
 #include "parts/flat_part.h"
@@ -494,7 +495,7 @@ TEST(Evenness, finds_the_best_window)
     for (double from = -4.0; from < 4.0; from += 1e-3) {
         double overflow = 0.0;
         for (Eigen::Index f = 0; f < u.size(); ++f)
-            overflow += areas[f] * std::max({from - u[f], u[f] - from - even_range, 0.0});
+            overflow += areas[f] * std::max({from - u[f], u[f] - from - tuning::even_range, 0.0});
         least = std::min(least, overflow);
     }
     const Evenness even = evenness(u, areas);

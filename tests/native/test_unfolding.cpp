@@ -272,25 +272,26 @@ TEST(Unfolding, ARoundSideIsSlitAndItsEndsComeOff)
     EXPECT_NEAR(slit, 3.0 / std::sqrt(3.0 * rim + 2.0 * end), 1e-12);
 }
 
-TEST(Unfolding, APrismOfFewSidesKeepsItsEnds)
+/// The parts of a solid, after their lengths and cuts have been checked.
+std::vector<FlatPart> expect_parts(const Solid& solid, std::size_t count)
 {
-    const CutSurface nut = surface_of(prism(6, 1.0, 2, 0.0));
-    const auto parts = unfold(nut);
-    ASSERT_TRUE(parts);
-    EXPECT_EQ(parts->parts.size(), 1u);
-    cuts_of(nut, *parts);
+    const CutSurface surface = surface_of(solid);
+    const auto parts = unfold(surface);
+    EXPECT_TRUE(parts);
+    if (!parts) return {};
+    EXPECT_EQ(parts->parts.size(), count);
+    cuts_of(surface, *parts);
+    return parts->parts;
 }
+
+TEST(Unfolding, APrismOfFewSidesKeepsItsEnds) { expect_parts(prism(6, 1.0, 2, 0.0), 1); }
 
 TEST(Unfolding, AConeIsSlitToItsTip)
 {
-    const CutSurface pencil = surface_of(prism(48, 2.0, 1, 1.0));
-    const auto parts = unfold(pencil);
-    ASSERT_TRUE(parts);
-    EXPECT_EQ(parts->parts.size(), 3u);
-    cuts_of(pencil, *parts);
+    const std::vector<FlatPart> parts = expect_parts(prism(48, 2.0, 1, 1.0), 3);
     std::size_t tips = 0;
     double darts = 0.0;
-    for (const FlatPart& part : parts->parts) {
+    for (const FlatPart& part : parts) {
         tips += part.tips.size();
         darts += part.dart_length;
     }

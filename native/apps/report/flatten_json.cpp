@@ -39,7 +39,7 @@ nlohmann::ordered_json to_json(const FlattenResult& result)
                           {"rows", sheet.rows},
                           {"labels", std::move(labels)}});
     }
-    Json report = report_json(result, {{"pieces", std::move(pieces)},
+    return report_json_of_run(result, {{"pieces", std::move(pieces)},
                                        {"seams", std::move(seams)},
                                        {"stretch_percent", stretch_json(result.stretch)},
                                        {"cut_length_mm", result.cut_length},
@@ -47,8 +47,6 @@ nlohmann::ordered_json to_json(const FlattenResult& result)
                                        {"pages", result.pattern.pages()},
                                        {"page_mm", {result.pattern.page.width, result.pattern.page.height}},
                                        {"sheets", std::move(sheets)}});
-    report["seconds"] = result.seconds.total;
-    return report;
 }
 
 }  // namespace koebe

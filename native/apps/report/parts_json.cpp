@@ -17,7 +17,7 @@ nlohmann::ordered_json to_json(const PartsResult& result)
     Json stacked = Json::array();
     for (const StackedPart& one : result.stacked)
         stacked.push_back({{"part", one.part}, {"onto", one.onto}, {"mirrored", one.mirrored}});
-    Json report = report_json(result, {{"parts", std::move(parts)},
+    return report_json_of_run(result, {{"parts", std::move(parts)},
                                        {"stacked", std::move(stacked)},
                                        {"tiles", result.tiles},
                                        {"converged", result.converged},
@@ -35,8 +35,6 @@ nlohmann::ordered_json to_json(const PartsResult& result)
                                        {"whole", result.whole},
                                        {"aligned", result.aligned},
                                        {"maps", result.maps}});
-    report["seconds"] = result.seconds.total;
-    return report;
 }
 
 }  // namespace koebe

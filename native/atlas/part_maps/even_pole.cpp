@@ -1,6 +1,7 @@
 #include "part_maps/even_pole.h"
 
 #include "circles/moebius.h"
+#include "cost/tuning.h"
 #include "part_maps/part_map.h"
 #include "part_maps/texel_evenness.h"
 
@@ -53,7 +54,8 @@ private:
     {
         if (std::abs(a) > most_radius) return;
         const VectorXd u = sample_.u.array() - pole_distance(sample_.centers, a).array().log();
-        const double overflow = u.allFinite() ? rough_overflow(u, sample_.areas) : lost_cost * sample_.areas.sum();
+        const double overflow =
+            u.allFinite() ? rough_overflow(u, sample_.areas) : tuning::lost_cost * sample_.areas.sum();
         if (overflow >= least_) return;
         least_ = overflow;
         best_ = a;

@@ -1,5 +1,7 @@
 #include "part_maps/log_polar.h"
 
+#include "cost/tuning.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +38,7 @@ Histogram histogram(const PartMesh& part, const VectorXd& t, const VectorXd& v)
     result.t_low = t_low;
     result.t_step = std::max(-t_low, 1e-9) / t_bins;
     result.v_low = v_low;
-    result.v_step = std::max((v_high - v_low) / v_bins, even_range / 40.0);
+    result.v_step = std::max((v_high - v_low) / v_bins, tuning::even_range / 40.0);
     for (Eigen::Index f = 0; f < t.size(); ++f) {
         if (!counts(f)) continue;
         const int i = std::clamp(static_cast<int>((t[f] - t_low) / result.t_step), 0, t_bins - 1);
@@ -52,7 +54,7 @@ Histogram histogram(const PartMesh& part, const VectorXd& t, const VectorXd& v)
 /// The most area of a range of t within even_range of the other coordinate.
 double even_area(const Histogram& bins, int i, int j)
 {
-    const int width = std::max(1, static_cast<int>(even_range / bins.v_step));
+    const int width = std::max(1, static_cast<int>(tuning::even_range / bins.v_step));
     double most = 0.0;
     for (int a = 0; a < v_bins; ++a) most = std::max(most, bins.area(i, j, a, std::min(a + width, v_bins)));
     return most;

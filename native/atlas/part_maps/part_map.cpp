@@ -6,6 +6,8 @@
 #include "core/connectivity.h"
 #include "core/enum_words.h"
 #include "core/errors.h"
+#include "cost/tolerances.h"
+#include "cost/tuning.h"
 #include "part_maps/even_pole.h"
 #include "pipeline/uniformize.h"
 #include "surface/intrinsic_metric.h"
@@ -20,9 +22,8 @@
 namespace koebe {
 namespace {
 
-constexpr double least_edge = 1e-11;  // disk units: shorter ones are lost in the rounding of a map
-constexpr double rough = 1e-3;        // disk units: change of the circles in the last sweep of a map that judges
-constexpr double deep_hole = 1e-7;    // disk units: a map is precise round a smaller hole only if the hole is at 0
+constexpr double rough = 1e-3;      // disk units: change of the circles in the last sweep of a map that judges
+constexpr double deep_hole = 1e-7;  // disk units: a map is precise round a smaller hole only if the hole is at 0
 
 double area_in_plane(Complex a, Complex b, Complex c) { return 0.5 * std::imag(std::conj(b - a) * (c - a)); }
 
@@ -117,13 +118,13 @@ bool map_annulus(const PartMesh& part, PartMap& map)
     return map.positions.allFinite() && map.positions.cwiseAbs().maxCoeff() < 1.0 + 1e-3;
 }
 
-void map_disk(const PartMesh& part, bool exact, PartMap& map, ExecutionContext& context)
+void map_disk(const PartMesh& part, MapPurpose purpose, PartMap& map, ExecutionContext& context)
 {
     ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
     UniformizeOptions options;
     options.outer = OuterLoop::longest;
     options.repair = false;
-    if (!exact) options.tolerance = rough;
+    if (purpose == MapPurpose::judging) options.tolerance = rough;
     const UniformizeResult result = uniformize(part.vertices, part.surface.triangles, options, inner);
     map.positions = result.uv.col(0) + Complex(0.0, 1.0) * result.uv.col(1);
     map.outer = result.outer_loop;
@@ -136,7 +137,7 @@ void map_disk(const PartMesh& part, bool exact, PartMap& map, ExecutionContext& 
             for (int k = 0; k < 3; ++k) z[k] = map.positions[part.surface.triangles(f, k)];
             return z;
         },
-        least_edge, map);
+        tolerance::rounded_edge, map);
 }
 
 void fit_each_circle(const PartMesh& part, PartMap& map)
@@ -164,7 +165,7 @@ void finish(const PartMesh& part, PartMap& map)
             u[f] += std::log((1.0 - std::norm(centered.a)) /
                              std::max(std::abs(z - centered.a) * std::abs(1.0 - std::conj(centered.a) * z), 1e-300));
         }
-        map.tube_overflow = u.allFinite() ? evenness(u, part.areas, map.lost).overflow : lost_cost * part.area;
+        map.tube_overflow = u.allFinite() ? evenness(u, part.areas, map.lost).overflow : tuning::lost_cost * part.area;
     }
     if (!two || map.circles[1 - map.outer].radius > deep_hole) {
         move_to_even_pole(part.areas, map);
@@ -184,7 +185,7 @@ void finish(const PartMesh& part, PartMap& map)
 
 const char* to_string(PartKind kind) noexcept { return word_of(kind, std::array{"disk", "tube", "cone"}); }
 
-PartMap map_part(const PartMesh& part, bool exact, ExecutionContext& context)
+PartMap map_part(const PartMesh& part, MapPurpose purpose, ExecutionContext& context)
 {
     PartMap map;
     bool done = false;
@@ -192,7 +193,7 @@ PartMap map_part(const PartMesh& part, bool exact, ExecutionContext& context)
             done = map_annulus(part, map);
         } catch (const SolverError&) {
         }
-    if (!done) map_disk(part, exact, map, context);
+    if (!done) map_disk(part, purpose, map, context);
     finish(part, map);
     return map;
 }

@@ -37,9 +37,9 @@ struct PartMap {
 
 /// Maps a part: with two loops by the annulus map, otherwise by uniformize. Then moves it to its best pole
 /// (even_pole.h). Faces of a disk may be turned over, because this map only judges the part.
-/// @param exact false: the circles of three loops and more may be off by a thousandth of the disk
+/// @param purpose judging: the circles of three loops and more may be off by a thousandth of the disk
 /// @throws SolverError, Cancelled
-PartMap map_part(const PartMesh& part, bool exact, ExecutionContext& context);
+PartMap map_part(const PartMesh& part, MapPurpose purpose, ExecutionContext& context);
 
 /// Makes the map of a smaller part from the map of a larger part. Circles stay circles, so both maps are the same up to
 /// a Moebius map. @param whole, map the larger part and its map @param part some of its faces

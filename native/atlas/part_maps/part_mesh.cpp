@@ -3,8 +3,7 @@
 #include "core/connectivity.h"
 #include "core/length.h"
 #include "mesh/connected_pieces.h"
-
-#include <Eigen/Geometry>
+#include "surface/face_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +11,6 @@
 
 namespace koebe {
 namespace {
-
-constexpr double price_if_shown = 8.0;  // a cut where `show` is 1 counts as this many times as long
 
 Index root_of(std::vector<Index>& parent, Index i)
 {
@@ -26,11 +23,8 @@ Index root_of(std::vector<Index>& parent, Index i)
 VectorXd face_areas(const Vertices& vertices, const Triangles& triangles)
 {
     VectorXd areas(triangles.rows());
-    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-        const Eigen::RowVector3d a = vertices.row(triangles(f, 1)) - vertices.row(triangles(f, 0));
-        const Eigen::RowVector3d b = vertices.row(triangles(f, 2)) - vertices.row(triangles(f, 0));
-        areas[f] = 0.5 * length_of(a.cross(b));
-    }
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        areas[f] = 0.5 * length_of(twice_area_vector(vertices, triangles, f));
     return areas;
 }
 
@@ -52,19 +46,6 @@ CutSurface cut_surface(const Vertices& vertices, Surface surface, std::vector<In
                                      whole.vertices.row(target(whole.surface.triangles, h)));
     whole.polygon = std::move(polygon);
     return whole;
-}
-
-std::vector<double> cut_prices(const std::vector<double>& show, const std::vector<Index>& vertices)
-{
-    std::vector<double> prices;
-    if (!show.empty())
-        for (const Index v : vertices) prices.push_back(1.0 + (price_if_shown - 1.0) * show[v]);
-    return prices;
-}
-
-double price_of_edge(const std::vector<double>& shown, Index a, Index b)
-{
-    return shown.empty() ? 1.0 : 0.5 * (shown[a] + shown[b]);
 }
 
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)

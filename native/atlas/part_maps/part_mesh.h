@@ -8,26 +8,23 @@
 
 namespace koebe {
 
+/// What the maps of parts are for: only to judge where to cut, or to be stored. Judging maps are rougher, and keep
+/// their flaws.
+enum class MapPurpose { judging, result };
+
 /// The surface to cut: connected, oriented, manifold, of genus 0. Scaled so that all surfaces that are cut together
 /// have area 1. It has a boundary, unless it is first cut in two (closed_surface.h).
 struct CutSurface {
     Vertices vertices;
     Surface surface;
-    VectorXd areas;              ///< (F)
-    VectorXd lengths;            ///< (3F) lengths of half-edges
-    std::vector<Index> polygon;  ///< (F) faces with the same number are not cut apart; empty: all may be
-    std::vector<char> slit;      ///< (3F) 1 where tubes should be opened; empty: no wish
-    std::vector<char> seam;      ///< (3F) 1 on a boundary that is a cut; empty: no boundary is
-    std::vector<double> shown;   ///< (V) factor on the length of cuts, as they are seen there; empty: 1
-    bool exact = true;           ///< whether maps of its parts may be results; otherwise they only judge
+    VectorXd areas;                           ///< (F)
+    VectorXd lengths;                         ///< (3F) lengths of half-edges
+    std::vector<Index> polygon;               ///< (F) faces with the same number are not cut apart; empty: all may be
+    std::vector<char> slit;                   ///< (3F) 1 where tubes should be opened; empty: no wish
+    std::vector<char> seam;                   ///< (3F) 1 on a boundary that is a cut; empty: no boundary is
+    std::vector<double> shown;                ///< (V) factor on the length of cuts, as they are seen there; empty: 1
+    MapPurpose purpose = MapPurpose::result;  ///< of maps of its parts
 };
-
-/// The factors on the length of cuts at some vertices. @param show (V) from 0 to 1: how much cuts are to keep away;
-/// where it is 1, a cut counts as 8 times as long. Empty: 0 @return as `shown` in CutSurface
-std::vector<double> cut_prices(const std::vector<double>& show, const std::vector<Index>& vertices);
-
-/// The factor on the length of an edge in the cost of cuts. @param shown (V) as in CutSurface
-double price_of_edge(const std::vector<double>& shown, Index a, Index b);
 
 /// (F) areas of faces. @param vertices (V, 3), not so large that squares overflow
 VectorXd face_areas(const Vertices& vertices, const Triangles& triangles);

@@ -1,5 +1,7 @@
 #include "part_maps/texel_evenness.h"
 
+#include "cost/costs.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +34,7 @@ Evenness evenness(const VectorXd& u, const VectorXd& areas, const std::vector<ch
     const auto count = static_cast<Eigen::Index>(order.size());
     double known = 0.0;
     for (const Density& face : order) known += face.second;
-    result.overflow = lost.empty() ? 0.0 : lost_cost * std::max(areas.sum() - known, 0.0);
+    result.overflow = lost.empty() ? 0.0 : tuning::lost_cost * std::max(areas.sum() - known, 0.0);
     if (count == 0) return result;
 
     // The overflow's slope in `from` is area below less area above: walk through the places where it changes.
@@ -43,7 +45,7 @@ Evenness evenness(const VectorXd& u, const VectorXd& areas, const std::vector<ch
     while (low < count) {
         const double next_low = order[low].first;
         const double next_high =
-            high < count ? order[high].first - even_range : std::numeric_limits<double>::infinity();
+            high < count ? order[high].first - tuning::even_range : std::numeric_limits<double>::infinity();
         double at;
         if (next_high <= next_low) {
             at = next_high;
@@ -63,9 +65,9 @@ Evenness evenness(const VectorXd& u, const VectorXd& areas, const std::vector<ch
     }
     result.from = 0.5 * (least + most);
     for (const auto& [at, area] : order) {
-        const double distance = std::max({result.from - at, at - result.from - even_range, 0.0});
-        result.overflow += area * std::min(distance, lost_cost);
-        if (distance == 0.0) result.inside += area;
+        const double off = off_window(at, result.from);
+        result.overflow += area * uneven_cost(off);
+        if (off == 0.0) result.inside += area;
     }
     return result;
 }
@@ -74,7 +76,7 @@ double rough_overflow(const VectorXd& u, const VectorXd& areas)
 {
     constexpr int bins = 128;
     constexpr int width = 24;  // bins of even_range
-    constexpr double step = even_range / width;
+    constexpr double step = tuning::even_range / width;
     const double middle = u.dot(areas) / areas.sum(), low = middle - 0.5 * bins * step;
     std::array<double, bins + 1> area{}, moment{};  // of all bins below; moment in steps from low
     constexpr double per_step = 1.0 / step;
@@ -82,7 +84,7 @@ double rough_overflow(const VectorXd& u, const VectorXd& areas)
     for (Eigen::Index f = 0; f < u.size(); ++f) {
         const double at = (u[f] - low) * per_step;
         const double held = std::clamp(at, 0.0, bins - 1e-9);
-        beyond += areas[f] * std::min(std::abs(at - held) * step, lost_cost);
+        beyond += areas[f] * uneven_cost(std::abs(at - held) * step);
         const auto bin = static_cast<std::size_t>(held);
         area[bin + 1] += areas[f];
         moment[bin + 1] += areas[f] * held;

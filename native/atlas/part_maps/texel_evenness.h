@@ -2,20 +2,11 @@
 #pragma once
 
 #include "core/types.h"
+#include "cost/costs.h"
 
 #include <vector>
 
 namespace koebe {
-
-/// Texel densities within this factor count as even: log 3, in u = 1/2 log(UV area / area).
-inline constexpr double factor_three = 1.0986122886681098;
-
-/// Most that a face can cost, in u. A lost face costs as much: the artist cannot paint on it.
-inline constexpr double lost_cost = 6.0;
-
-/// Width of the even window, by which parts are judged. Less than a factor 3, so that rounding and differences between
-/// neighbours stay within it.
-inline constexpr double even_range = 0.8 * factor_three;
 
 struct Evenness {
     double overflow = 0.0;  ///< sum of area times the distance of u from [from, from + even_range]; the distance counts

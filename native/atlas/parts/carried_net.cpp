@@ -80,11 +80,15 @@ public:
 
     std::optional<CarriedPath> carried(const Path& chain)
     {
-        auto path = path_along(chain, false);
-        if (!path && !is_dart(chain)) path = path_along(chain, true);
-        if (!path && !is_dart(chain)) path = path_onto_neighbour(chain);
-        if (!path && !is_dart(chain))
-            if (auto back = path_onto_neighbour(reversed(chain, coarse_))) path = reversed(*back, fine_.surface);
+        // A dart may be left out. Other chains get a path that leaves some of their vertices out, or ends on the path
+        // beside it, at its last vertex or its first one.
+        std::optional<Path> path;
+        for (int way = 0; !path && way < (is_dart(chain) ? 1 : 4); ++way) {
+            if (way < 2) path = path_along(chain, way == 1);
+            if (way == 2) path = path_onto_neighbour(chain);
+            if (way == 3) path = path_onto_neighbour(reversed(chain, coarse_));
+            if (way == 3 && path) path = reversed(*path, fine_.surface);
+        }
         if (!path || (is_dart(chain) && is_detour(*path, chain))) return {};
         for (const Index h : *path)
             for (const Index v : {origin(fine_.surface.triangles, h), target(fine_.surface.triangles, h)})
@@ -238,6 +242,7 @@ private:
     {
         const Triangles& triangles = fine_.surface.triangles;
         const Eigen::RowVector3d start = fine_.vertices.row(from), along = fine_.vertices.row(to) - start;
+        // From the first vertex, or anywhere on its loop.
         NearestFirst nearest(fine_.surface.vertex_count);
         std::unordered_map<Index, Index> last;
         nearest.reach(from, 0.0);
@@ -249,6 +254,7 @@ private:
                    (anywhere && loop_of_[to] >= 0 && loop_of_[v] == loop_of_[to] && loop_of_[to] != loop_of_[from] &&
                     !on_path_[v]);
         };
+        // To the first end. An edge counts as longer by the square of its distance from the line.
         Index end = nearest.take();
         for (Index v = end; v >= 0 && !is_end(v); v = end = nearest.take())
             for (std::size_t i = begin_[v]; i < begin_[v + 1]; ++i) {

@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/connectivity.h"
+#include "cost/tuning.h"
 #include "execution/side_by_side.h"
 #include "mesh/connected_pieces.h"
 #include "parts/carried_places.h"
@@ -17,8 +18,6 @@
 
 namespace koebe {
 namespace {
-
-constexpr double usual_even = 0.1;  // E at which maps are compared
 
 /// For each piece of the fine surface the part to which it corresponds; empty if that is not one piece for each part.
 /// @param piece (F) of the fine surface, from 0
@@ -75,7 +74,7 @@ void map_by_itself(FlatPart& piece, ExecutionContext& context)
     mesh.areas = face_areas(piece.vertices, piece.surface.triangles);
     mesh.area = mesh.areas.sum();
     mesh.border.assign(piece.original.size(), 0);
-    const PartMap map = map_part(mesh, false, context);
+    const PartMap map = map_part(mesh, MapPurpose::judging, context);
     piece.points = flat_as_mapped(mesh, planar_points(map.positions)).points;
     make_storable(piece, context);
 }
@@ -199,8 +198,9 @@ std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPa
 void start_by_itself(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context)
 {
     const auto energy = [](const FlatPart& part) {
-        return lies_one_to_one(part, part.points) && survives_storing(part) ? forces_in(part, usual_even).energy.sum()
-                                                                            : std::numeric_limits<double>::infinity();
+        return lies_one_to_one(part, part.points) && survives_storing(part)
+                   ? forces_in(part, tuning::dart_even).energy.sum()
+                   : std::numeric_limits<double>::infinity();
     };
     FlatPart by_itself = piece;
     map_by_itself(by_itself, context);

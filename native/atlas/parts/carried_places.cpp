@@ -69,6 +69,7 @@ PlanarPoints places_of(const FlatPart& piece, const FlatPart& part, const Proxy&
         const CornersInSpace at = corners_of(piece.vertices, piece.surface.triangles, f);
         const CornersInSpace there = corners_of(proxy.coarse.vertices, proxy.surface.triangles, face_near[f]);
         const auto row = part.surface.triangles.row(net.place[face_near[f]].face);
+        // J = images (edges^T edges)^-1 edges^T, after the turn from the fine face into the plane of the coarse one.
         Eigen::Matrix<double, 3, 2> edges;
         edges << (there[1] - there[0]).transpose(), (there[2] - there[0]).transpose();
         Eigen::Matrix2d images;
@@ -78,6 +79,7 @@ PlanarPoints places_of(const FlatPart& piece, const FlatPart& part, const Proxy&
         Eigen::Matrix<double, 2, 3> map = images * gram.inverse() * edges.transpose();
         map = smaller * map * turn_between(normal_of(at), normal_of(there));
         if (!map.allFinite()) map.setZero();
+        // Each edge: its course and its row of the Laplacian.
         for (int k = 0; k < 3; ++k) {
             const Index i = piece.surface.triangles(f, (k + 1) % 3), j = piece.surface.triangles(f, (k + 2) % 3);
             const double weight = half_cotangent(at, k);
@@ -88,6 +90,7 @@ PlanarPoints places_of(const FlatPart& piece, const FlatPart& part, const Proxy&
             entries.insert(entries.end(), {{i, i, weight}, {j, j, weight}, {i, j, -weight}, {j, i, -weight}});
         }
     }
+    // Held vertices stay by a large weight.
     if (held.empty()) entries.emplace_back(0, 0, 1.0);  // the first vertex stays at the origin
     for (const auto& [v, at] : held) {
         entries.emplace_back(v, v, hold);
@@ -215,12 +218,14 @@ private:
     /// vertex to the next. Empty if the loops do not correspond.
     std::vector<HeldVertex> rims_of(const FlatPart& piece, double bulge) const
     {
+        // The coarse vertex at each fine one on the boundary.
         std::vector<Index> coarse_of(static_cast<std::size_t>(proxy_.fine.whole.vertices.rows()), -1);
         for (const VertexLoop& rim : part_.surface.loops)
             for (const Index v : rim) coarse_of[proxy_.coarse.vertex[part_.original[v]]] = part_.original[v];
         std::vector<HeldVertex> held;
         std::vector<char> taken(part_.surface.loops.size(), 0);
         for (const VertexLoop& loop : piece.surface.loops) {
+            // Vertices that both boundaries have, in the same order round both.
             std::vector<std::size_t> anchors;  // places in the loop of vertices that the part's boundary has
             std::vector<Index> names;
             for (std::size_t i = 0; i < loop.size(); ++i)
@@ -230,6 +235,7 @@ private:
                 }
             const RimMatch match = match_of(names, taken);
             if (match.pairs.empty()) return {};
+            // Between two of them the loop runs along the course of the part's boundary.
             const VertexLoop& rim = part_.surface.loops[match.loop];
             for (std::size_t k = 0; k < match.pairs.size(); ++k) {
                 const auto [from, start] = match.pairs[k];

@@ -171,6 +171,7 @@ congruent_parts(const std::vector<const FlatPart*>& parts, bool may_mirror,
                 const std::function<bool(std::size_t, std::size_t, const Twin&)>& accepts)
 {
     std::vector<std::optional<Twin>> twins(parts.size());
+    // Equal parts have equal signs: numbers of elements, and nearly the same area. In this order only few are compared.
     std::vector<PolygonEdges> edges;
     std::vector<PartSigns> signs;
     edges.reserve(parts.size());
@@ -185,6 +186,7 @@ congruent_parts(const std::vector<const FlatPart*>& parts, bool may_mirror,
     for (const std::size_t k : order) {
         if (!is_usable(k)) continue;
         std::size_t tried = 0;
+        // The first of each kind that fits.
         for (auto other = firsts.rbegin(); other != firsts.rend() && tried < most_others && !twins[k];
              ++other, ++tried) {
             if (signs[*other].counts != signs[k].counts) break;

@@ -1,6 +1,7 @@
 #include "parts/dart_rounds.h"
 
 #include "core/connectivity.h"
+#include "cost/tuning.h"
 #include "even/even_forces.h"
 #include "execution/side_by_side.h"
 #include "parts/darts.h"
@@ -18,9 +19,6 @@ namespace {
 constexpr int most_dart_rounds = 8;
 constexpr EvenEffort trial_effort{2, 1};
 constexpr EvenEffort warm_effort{1, 1};  // after some of the darts were closed again
-constexpr double least_surplus = 0.02;   // of a part's energy: the least promise of one round's darts
-constexpr double reach_of_darts = 0.25;  // radius of a dart's effect on the surface, in roots of its area
-constexpr double refused_around = 0.06;  // radius round the tip of a dart that did not pay: no new tips there
 
 constexpr int roundings = 16;            // with the grid in other places
 constexpr double coarse_grid = 1 << 21;  // steps along the unit square: an eighth of those of 32-bit floats
@@ -55,7 +53,7 @@ public:
             trials_[k].darts = promising_darts(parts_[k].flat, forces, even_, price_, refused_[k]);
             double surplus = 0.0;
             for (const Dart& dart : trials_[k].darts) surplus += dart.gain - dart.cost;
-            if (surplus < least_surplus * forces.energy.sum()) trials_[k].darts.clear();
+            if (surplus < tuning::noticeable * forces.energy.sum()) trials_[k].darts.clear();
             energy_[k] = std::move(forces.energy);
         });
         if (is_mirrored_) pair_images();
@@ -90,7 +88,7 @@ private:
         Trial& trial = trials_[k];
         if (trial.darts.empty()) return;
         HeldPart part = parts_[k];
-        const std::vector<int> nearest = nearest_dart(part.flat, trial.darts, reach_of_darts);
+        const std::vector<int> nearest = nearest_dart(part.flat, trial.darts, tuning::cut_reach);
         const auto source = open_darts(part.flat, trial.darts);
         if (!source) return;
         FlatPart& flat = part.flat;
@@ -190,7 +188,7 @@ private:
     {
         const Vertices& vertices = parts_[k].flat.vertices;
         for (std::size_t v = 0; v < refused_[k].size(); ++v)
-            if ((vertices.row(static_cast<Eigen::Index>(v)) - vertices.row(tip)).norm() < refused_around)
+            if ((vertices.row(static_cast<Eigen::Index>(v)) - vertices.row(tip)).norm() < tuning::refused_reach)
                 refused_[k][v] = 1;
     }
 
@@ -198,6 +196,7 @@ private:
     /// each other's way the dart of the earlier part, or with more promise, stays.
     void pair_images()
     {
+        // The edges of all parts by their names in the whole.
         std::map<EdgeEnds, EdgePlace> places;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const FlatPart& flat = parts_[k].flat;
@@ -208,6 +207,7 @@ private:
                                                flat.original[target(flat.surface.triangles, h)]),
                                    EdgePlace{k, h});
         }
+        // Darts that are kept take their vertices.
         std::vector<Trial> paired(trials_.size());
         std::vector<std::vector<char>> taken, outside;
         for (const HeldPart& part : parts_) {
@@ -224,20 +224,24 @@ private:
         };
         for (std::size_t k = 0; k < trials_.size(); ++k)
             for (const Dart& dart : trials_[k].darts) {
+                // A part without a mirror keeps its darts.
                 if (parts_[k].flat.image.empty()) {
                     add(k, dart);
                     continue;
                 }
+                // Others need an image that runs from inside to a rim, too.
                 if (!is_free(k, dart)) continue;
                 const auto found = image_of(k, dart, places);
                 if (!found) continue;
                 const auto& [other, image] = *found;
                 if (!is_dart_of(outside[other], image)) continue;
+                // A dart in the plane is its own image.
                 if (other == k && image.vertices == dart.vertices) {
                     const std::size_t i = add(k, dart);
                     paired[k].image.emplace_back(k, i);
                     continue;
                 }
+                // Else both are kept, unless they touch, or the image is in the way of another dart.
                 const bool touch = other == k && std::ranges::any_of(image.vertices, [&](Index v) {
                                        return std::ranges::count(dart.vertices, v) > 0;
                                    });

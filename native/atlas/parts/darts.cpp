@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/errors.h"
+#include "cost/costs.h"
 #include "cut/edge_graph.h"
 #include "even/even_map.h"
 #include "parts/tension.h"
@@ -19,15 +20,8 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_darts = 16;   // opened together
-constexpr double apart_by = 0.12;        // distance of tips, in roots of the surface's area,
-constexpr double apart_in_part = 0.25;   // or in roots of the part's area; the smaller counts
-constexpr double longest_dart = 0.5;     // length of a dart, in roots of the surface's area
-constexpr double price_of_one = 0.03;    // of a new dart, as a length
-constexpr double share_if_round = 0.25;  // of the foretold gain, if the dart begins at a loop that stays round
-constexpr double clear_of_round =
-    0.04;                           // least distance of other darts from round loops, in roots of the surface's area
-constexpr double first_gap = 0.05;  // between the sides of a dart, over the least height of a face beside it
+constexpr std::size_t most_darts = 16;  // opened together
+constexpr double first_gap = 0.05;      // between the sides of a dart, over the least height of a face beside it
 
 /// The path from a vertex to the boundary. Its cost is a length, longer where the surface is shown. @return nothing if
 /// the vertex is on it, or if there is no path
@@ -97,9 +91,9 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
     const std::vector<char> outside = boundary_mask(flat.surface);
     const EdgeGraph graph(seamed(flat, flat.shown), 1.0);
     const Tension tension(flat, forces);
-    const double t = area_weight(even), compliance = 2.0 * (1.0 + t) / (8.0 * t);
     std::vector<std::pair<double, Dart>> found;
     VectorXd from_round = VectorXd::Constant(flat.surface.vertex_count, std::numeric_limits<double>::infinity());
+    // The dart from each vertex to the nearest rim that stays round, and to the nearest free one.
     for (const bool round : {true, false}) {
         std::vector<Index> sources;
         for (Index v = 0; v < flat.surface.vertex_count; ++v)
@@ -108,29 +102,30 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
         const PathTree tree = shortest_paths(graph, sources);
         if (round) from_round = distances(flat, sources);
         for (Index v = 0; v < flat.surface.vertex_count; ++v) {
-            if (outside[v] || tree.parent[v] == v || tree.distance[v] > longest_dart ||
+            if (outside[v] || tree.parent[v] == v || tree.distance[v] > tuning::longest_dart ||
                 (!refused.empty() && refused[v]))
                 continue;
             Dart dart = shortest_dart(flat, tree, v);
             if (std::ranges::any_of(dart.vertices.begin(), std::prev(dart.vertices.end()), [&](Index w) {
-                    return outside[w] != 0 || (!round && from_round[w] < clear_of_round);
+                    return outside[w] != 0 || (!round && from_round[w] < tuning::rim_spacing);
                 }))
                 continue;
+            // It pays if a crack there would release more than it costs.
             const double pulled = pull_apart(tension, dart);
             if (!(pulled > 0.0)) continue;
-            dart.gain = (round ? share_if_round : 1.0) * compliance * pulled * pulled;
+            dart.gain = (round ? tuning::released_share : 1.0) * crack_energy(pulled, even);
             const Index start = dart.vertices.back();
             const bool is_longer = std::ranges::count(flat.tips, start) > 0;
-            dart.cost =
-                price * (dart.cost + (is_longer ? 0.0 : price_of_one * price_of_edge(flat.shown, start, start)));
+            dart.cost = dart_cost(price, dart.cost, !is_longer, price_of_edge(flat.shown, start, start));
             const double surplus = dart.gain - dart.cost;
             if (surplus > 0.0) found.emplace_back(surplus, std::move(dart));
         }
     }
     std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
+    // The most promising ones, apart from each other.
     double part_area = 0.0;
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) part_area += signed_area(flat.points, triangles, f);
-    const double gap = std::min(apart_by, apart_in_part * std::sqrt(std::max(part_area, 0.0)));
+    const double gap = std::min(tuning::dart_spacing, tuning::cut_reach * std::sqrt(std::max(part_area, 0.0)));
     std::vector<char> taken(static_cast<std::size_t>(flat.surface.vertex_count), 0);
     std::vector<Dart> darts;
     for (auto& promising : found) {

@@ -1,6 +1,7 @@
 #include "parts/even_parts.h"
 
 #include "circles/circle_fit.h"
+#include "cost/costs.h"
 #include "even/even_map.h"
 #include "execution/side_by_side.h"
 #include "parts/dart_rounds.h"
@@ -23,14 +24,9 @@ namespace {
 constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: vertices farther off are free
 constexpr double first_even = 0.02, least_even = 0.005;       // start and end of the search for E
 constexpr int search_steps = 12;                              // for an E of the search, and before it for
-constexpr EvenEffort look{4, 1, 8};                           // a first look, which ends the trial if
-constexpr double clearly_worse = 1.02;                        // angles are worse by this factor
-constexpr double most_worse = 1.1;                            // the same, of parts that start from coarse ones
-constexpr double roomy_piece = 0.1;                           // price of one more part, if that saves room
+constexpr EvenEffort look{4, 1, 8};                           // a first look, which ends the trial if angles are worse
 constexpr double step = 1.5;                                  // factor from one E to the next
-constexpr double even_with_darts = 0.1;                       // E with darts, if no E is given,
-constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // and if angles are then worse
-constexpr double few_worse = 0.1;                             // share of the faces that may go back to E = 0
+constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // E with darts if angles are worse at dart_even
 constexpr double tolerant = 1.2;                              // of an E at which angles may be no worse
 constexpr EvenEffort carried_effort{12, 3, 24};               // for parts that were relaxed on a coarse surface, or
 constexpr EvenEffort own_effort{12, 6, 60};                   // for those of them that start from their own map
@@ -76,9 +72,6 @@ std::vector<RoundLoop> round_loops(const FlatPart& flat)
 }
 
 bool has_darts(const HeldPart& part) { return !part.flat.tips.empty(); }
-
-/// What a dart as long as the root of the surface's area costs, in energy.
-double dart_price(double darts) { return 1e-4 / darts; }
 
 class PartRelaxation {
 public:
@@ -142,9 +135,10 @@ public:
     {
         const double conformal = angles();
         const std::vector<HeldPart> before = parts_;
+        // With darts, at falling E.
         if (options_.darts > 0.0) {
-            const bool is_cut = relax_with_darts(even_with_darts, search());
-            if (angles() <= conformal) return even_with_darts;
+            const bool is_cut = relax_with_darts(tuning::dart_even, search());
+            if (angles() <= conformal) return tuning::dart_even;
             if (is_cut)
                 for (const double less : less_even_with_darts) {
                     relax_cut(less, search());
@@ -152,11 +146,12 @@ public:
                 }
             parts_ = before;
         }
+        // Without darts, at rising E.
         double even = 0.0;
         for (double next = first_even; next >= least_even && next <= 1.0;) {
             const std::vector<HeldPart> last = parts_;
             relax(next, look);
-            if (angles() <= clearly_worse * conformal) relax(next, search());
+            if (angles() <= (1.0 + tuning::noticeable) * conformal) relax(next, search());
             if (angles() <= conformal) {
                 even = next;
                 next *= step;
@@ -178,12 +173,12 @@ public:
         };
         for (auto next = less_even_with_darts.begin();;) {
             relax_cut(even, look);
-            if (bounds.exact && angles() > most_worse * bounds.sum()) bounds = bounds.exact();
-            if (bounds.most.empty() || angles() <= most_worse * bounds.sum())
+            if (bounds.exact && angles() > tuning::carried_error * bounds.sum()) bounds = bounds.exact();
+            if (bounds.most.empty() || angles() <= tuning::carried_error * bounds.sum())
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
             if (bounds.most.empty()) return {even, left_};
             std::vector<std::size_t> worse = worst_groups(bounds);
-            if (share_of(worse, bounds) <= few_worse) return done(std::move(worse));
+            if (share_of(worse, bounds) <= tuning::few_worse) return done(std::move(worse));
             const double times = angles() / bounds.sum();
             next = std::find_if(next, less_even_with_darts.end(), [&](double less) {
                 return less < even && less * std::pow(times, 3) < tolerant * even;
@@ -213,8 +208,7 @@ private:
     bool cut_for_room()
     {
         if (options_.loops != LoopForm::free || !options_.roomy) return false;
-        const double price = dart_price(options_.darts);
-        return cut_parts_for_room(parts_, {price, roomy_piece * options_.piece * price}, options_.threads, context_);
+        return cut_parts_for_room(parts_, room_price(options_.darts, options_.piece), options_.threads, context_);
     }
 
     /// Relaxes parts that are one to one as stored, and keeps them so.
@@ -296,14 +290,14 @@ EvenParts relax_carried(std::vector<FlatPart>& flats, double even, AngleBounds b
 double cost_when_even(std::vector<FlatPart> parts, const EvenOptions& options, ExecutionContext& context)
 {
     make_parts_even(parts, options, context);
-    const double even = options.even.value_or(even_with_darts);
+    const double even = options.even.value_or(tuning::dart_even);
     double energy = 0.0, boundary = 0.0;
     for (const FlatPart& part : parts) {
         energy += lies_one_to_one(part, part.points) ? forces_in(part, even).energy.sum()
                                                      : std::numeric_limits<double>::infinity();
         for (const VertexLoop& loop : part.surface.loops) boundary += loop_edges(part.vertices, loop).sum();
     }
-    return energy + dart_price(options.darts) * (0.5 * boundary + options.piece * static_cast<double>(parts.size()));
+    return energy + layout_cost(options.darts, 0.5 * boundary, options.piece, static_cast<double>(parts.size()));
 }
 
 }  // namespace koebe

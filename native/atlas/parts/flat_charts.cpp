@@ -1,6 +1,8 @@
 #include "parts/flat_charts.h"
 
 #include "core/errors.h"
+#include "cost/tolerances.h"
+#include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/regions.h"
@@ -24,10 +26,7 @@ namespace {
 constexpr double flat_angle = 1e-3;     // radians by which the angles round a flat vertex may miss a full turn
 constexpr double same_place = 1e-5;     // in roots of the surface's area
 constexpr double most_single = 0.75;    // of a chart's area, in faces that are alone in their planes
-constexpr double least_plate = 0.002;   // of the surface's area: a plate is no smaller,
-constexpr double plate_to_strip = 2.0;  // and so many times larger than its neighbours without a crease
-constexpr double ruled = 0.3;           // of a planar face's outline: so much of it is one ruling of a rolled face
-constexpr double most_loose = 0.3;      // of a rolled face's outline: so much may be smooth towards other rest
+constexpr double plate_to_strip = 2.0;  // a plate is so many times larger than its neighbours
 
 class ChartLayer {
 public:
@@ -202,6 +201,7 @@ private:
             tips = tips_of(chart);
             if (tips.size() > most_tips) return false;
         }
+        // Cut it there. Cuts that reach a tip are darts.
         DisjointSets cuts(static_cast<std::size_t>(chart.fan_count));
         for (const Index h : open) {
             cuts.join(origin(chart.fans, h), target(chart.fans, h));
@@ -212,6 +212,7 @@ private:
             with_tip.insert(cuts.find(origin(chart.fans, h)));
             charts_.tips.insert(origin(chart.corners, h));
         }
+        // Undo this if it overlaps itself.
         std::optional<FlatPart> part = laid_part(surface_, charts_, chart.face);
         if (!part) {
             for (const Index h : open) {
@@ -262,13 +263,13 @@ private:
             largest[own] = std::max(largest[own], area[other]);
         }
         // A plate is much larger than the planar pieces round it. Long thin pieces side by side are rolled.
-        const double least = least_plate * surface_.areas.sum();
+        const double least = tuning::least_piece * surface_.areas.sum();
         std::vector<char> is_plate(count);
         for (std::size_t p = 0; p < count; ++p) is_plate[p] = area[p] >= std::max(least, plate_to_strip * largest[p]);
         DisjointSets rolled(count);
         for (const auto& [pair, length] : borders)
             if (const auto [p, q] = pair;
-                !is_plate[p] && !is_plate[q] && length > ruled * std::max(outline[p], outline[q]))
+                !is_plate[p] && !is_plate[q] && length > tolerance::rolled_outline * std::max(outline[p], outline[q]))
                 rolled.join(p, q);
         for (const Index f : chart.face) group_[f] = is_plate[planar_[f]] ? planar_[f] : -1;
         // A polygon that leaves the plane of a plate is no part of the plate.
@@ -286,7 +287,7 @@ private:
             if (settle(piece, 0)) continue;
             for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
             for (const SeamedMesh& strip : cut_between_groups(piece))
-                if (looseness(strip, piece) > most_loose || !settle(strip, 0))
+                if (looseness(strip, piece) > tolerance::rolled_outline || !settle(strip, 0))
                     charts_.rest.insert(charts_.rest.end(), strip.face.begin(), strip.face.end());
         }
     }

@@ -3,6 +3,7 @@
 #include "core/all_elements.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cost/costs.h"
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
 #include "parts/hard_surface.h"
@@ -147,6 +148,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
         .polygon = options.polygon, .seams = options.cuts, .slit_beside_handles = false, .open = !hard_first};
     OpenedSurface opened =
         options.cut ? open_surface(vertices, triangles, opening, context) : strict_surface(vertices, triangles);
+    // Flat and rolled regions of hard surfaces first.
     FlatMesh mesh;
     PartsLayout& layout = mesh.layout;
     layout.vertices = of_area_one(vertices, triangles).vertices;
@@ -156,6 +158,7 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
         opened =
             opened_without_hard_parts(vertices, triangles, layout.vertices, std::move(opened), options, hard, context);
     layout.handles_cut = opened.handles;
+    // Then the parts of the other pieces. With importance hard parts are stretched, too.
     std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, options);
     if (!hard.empty() && !options.importance.empty())
         pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});

@@ -4,6 +4,8 @@
 #include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cost/tolerances.h"
+#include "cost/tuning.h"
 #include "embedding/embedded_map.h"
 #include "foldover/untangle.h"
 #include "parts/free_rims.h"
@@ -28,9 +30,7 @@ namespace koebe {
 namespace {
 
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
-constexpr double rounded_edge = 1e-11;   // of the image's extent: shorter edges are only rounding
-constexpr double most_image = 4.0;       // UV area of a part over its area: even texels never need more
-constexpr double shortest_drawn = 1e-7;  // UV units: shorter edges say nothing about a loop's course
+constexpr double most_image = 4.0;  // UV area of a part over its area: even texels never need more
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)
 {
@@ -57,13 +57,13 @@ double longest_edge(const PlanarPoints& p, const Triangles& triangles, Eigen::In
 void scale_evenly(const PartMesh& mesh, FlatPart& flat)
 {
     const Eigen::Index count = flat.surface.triangles.rows();
-    const double floor = rounded_edge * box_size(flat.points).maxCoeff();
+    const double floor = tolerance::rounded_edge * box_size(flat.points).maxCoeff();
     const auto [u, lost, image] = flat_density(flat, mesh.areas, floor);
     const Evenness even = evenness(u, mesh.areas, lost);
     double sum = 0.0, known = 0.0;
     for (Eigen::Index f = 0; f < count; ++f) {
         if (lost[f]) continue;
-        sum += mesh.areas[f] * std::clamp(u[f], even.from, even.from + even_range);
+        sum += mesh.areas[f] * std::clamp(u[f], even.from, even.from + tuning::even_range);
         known += mesh.areas[f];
     }
     if (known > 0.0) flat.points *= std::min(std::exp(-sum / known), std::sqrt(most_image * mesh.area / image));
@@ -208,6 +208,7 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
     if (slit.lift.empty()) return flat;
     flat.slit = slit.length;
     const Triangles& triangles = part.mesh.surface.triangles;
+    // A vertex for each side of the slit: its number of turns round the tube tells them apart.
     std::map<std::pair<Index, int>, Index> number;
     std::vector<Index> own;
     Triangles opened(triangles.rows(), 3);
@@ -217,6 +218,7 @@ FlatPart as_tube(const Part& part, const FlatOptions& options, ExecutionContext&
         if (is_new) own.push_back(v);
         opened.data()[c] = at->second;
     }
+    // The strip log z, each turn higher by 2 pi.
     constexpr double two_pi = 2.0 * EIGEN_PI;
     flat.points.resize(static_cast<Eigen::Index>(own.size()), 2);
     for (const auto& [key, k] : number)
@@ -309,7 +311,7 @@ FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContex
 {
     FlatPart flat;
     if (part.map.kind == PartKind::tube && part.map.strip.size() > 0) flat = as_tube(part, options, context);
-    const bool pays = part.map.tube_overflow + options.slit_price * flat.slit <= part.map.disk_overflow;
+    const bool pays = part.map.tube_overflow + options.prices.of(0.0, flat.slit) <= part.map.disk_overflow;
     if (flat.points.rows() == 0 || !pays) {
         flat = as_disk(part, options, context);
     } else if (const Index flips = flaws(flat.surface, flat.points); flips > 0) {
@@ -354,8 +356,8 @@ std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
 {
     const PlanarPoints stored = uv.unaryExpr(&as_stored);
-    return crossing_boundary_edges(part.surface.loops, stored, shortest_drawn).empty() &&
-           turned_loops(part.surface.loops, stored, shortest_drawn).empty();
+    return crossing_boundary_edges(part.surface.loops, stored, tolerance::drawn_edge).empty() &&
+           turned_loops(part.surface.loops, stored, tolerance::drawn_edge).empty();
 }
 
 bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points)

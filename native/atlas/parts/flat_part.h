@@ -36,10 +36,9 @@ struct FlatPart {
 };
 
 struct FlatOptions {
-    double slit_price = 0.0;  ///< price, in overflow, of a slit as long as the root of the area
-    double part_price = 0.0;  ///< price of a part, in overflow
-    bool round_cuts = false;  ///< rims at cuts stay on circles and lines
-    bool measured = false;    ///< parts are only measured: flaws stay
+    CutPrices prices = {};                    ///< of parts and of slits
+    bool round_cuts = false;                  ///< rims at cuts stay on circles and lines
+    MapPurpose purpose = MapPurpose::result;  ///< judging: parts are only measured, and flaws stay
 };
 
 /// Lays a part flat as a disk or a tube, then frees its rims (free_rims.h). A tube becomes a disk if it cannot be

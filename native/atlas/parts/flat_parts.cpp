@@ -3,6 +3,7 @@
 #include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cost/costs.h"
 #include "execution/side_by_side.h"
 #include "foldover/angle_polish.h"
 #include "pipeline/uniformize.h"
@@ -16,19 +17,12 @@
 namespace koebe {
 namespace {
 
-constexpr double most_lost = 0.005;      // of a part's area, in faces without area as stored
-constexpr double lost_anyway = 1e-5;     // of the surface's area: not worth a cut
-constexpr int most_halvings = 6;         // of one part
-constexpr double most_uneven = 2.0;      // overflow over area: most for one map that can be painted on
-constexpr double worth_repairing = 1.2;  // one map's angle error over the parts': repairs do not remove more
-constexpr double small_error = 1.0;      // degrees: a smaller error is not seen
-constexpr double large_error = 10.0;     // degrees: the surface is crumpled, and a map without repairs says little
-constexpr double most_worse = 0.5;       // overflow over area that repairs may add
-constexpr double most_bend = 5.0, right_angle = 90.0;  // degrees of angle error that repairs may add
-constexpr double clearly = 0.9;                        // of the parts' angle error: one map with less is better
-constexpr std::size_t few_faces = 24;                  // a part with fewer faces is not cut
-constexpr std::size_t many_faces = 4000;               // a part with more faces is cut first if
-constexpr double most_turned = 0.01;                   // more of its faces are turned over
+constexpr double most_lost = 0.005;       // of a part's area, in faces without area as stored
+constexpr double lost_anyway = 1e-5;      // of the surface's area: not worth a cut
+constexpr int most_halvings = 6;          // of one part
+constexpr std::size_t few_faces = 24;     // a part with fewer faces is not cut
+constexpr std::size_t many_faces = 4000;  // a part with more faces is cut first if
+constexpr double most_turned = 0.01;      // more of its faces are turned over
 
 /// @param slit (3F) half-edges of the whole
 void prefer_slits(PartMesh& part, const std::vector<char>& slit)
@@ -139,9 +133,9 @@ void repair_and_judge(const Part& part, double part_price, FlatParts& as_one, Ex
     as_one.flaws = repair(flat, part.mesh.areas, context);
     const double worse = overflow_of(flat, part.mesh.areas) - part.map.overflow;
     const double bent = angle_error(as_one.parts) - error;
-    double cost = worse > most_worse * part.mesh.area ? worse : 0.0;
-    if (bent > most_bend) cost += lost_cost * bent / right_angle * part.mesh.area;
-    if (cost > part_price) as_one.flaws.spoilt = cost / lost_cost;
+    double cost = worse > tuning::free_unevenness * part.mesh.area ? worse : 0.0;
+    if (bent > tuning::free_bend) cost += angle_cost(bent, part.mesh.area);
+    if (cost > part_price) as_one.flaws.spoilt = cost / tuning::lost_cost;
 }
 
 FlatParts laid_in_two(const CutSurface& whole, const PartPointer& part, const FlatOptions& options, int halvings,
@@ -154,16 +148,16 @@ FlatParts laid(const CutSurface& whole, const PartPointer& part, const FlatOptio
 {
     FlatParts as_one;
     as_one.parts.push_back(flat_part(*part, options, context));
-    if (options.measured) return as_one;
+    if (options.purpose == MapPurpose::judging) return as_one;
     const std::size_t count = part->mesh.faces.size();
     const bool may_be_cut = halvings < most_halvings && count >= few_faces;
     FlatParts in_two;
-    if (may_be_cut && count > many_faces && part->map.overflow > options.part_price &&
+    if (may_be_cut && count > many_faces && part->map.overflow > options.prices.part_price &&
         turned_share(as_one.parts.front()) > most_turned) {
         in_two = laid_in_two(whole, part, options, halvings, context, effort);
         if (in_two.parts.size() > 1 && !in_two.flaws.any()) return in_two;
     }
-    repair_and_judge(*part, options.part_price, as_one, context);
+    repair_and_judge(*part, options.prices.part_price, as_one, context);
     if (!as_one.flaws.any() || !may_be_cut) return as_one;
     if (in_two.parts.empty()) in_two = laid_in_two(whole, part, options, halvings, context, effort);
     return in_two.parts.size() > 1 && fewer(in_two.flaws, as_one.flaws) ? std::move(in_two) : std::move(as_one);
@@ -186,17 +180,18 @@ double cost_of(const FlatPart& part, double part_price)
 {
     const VectorXd areas = face_areas(part.vertices, part.surface.triangles);
     const double error = sum_of_angle_errors(part) / static_cast<double>(part.faces.size());
-    return overflow_of(part, areas) + lost_cost * error / right_angle * areas.sum() + part_price;
+    return overflow_of(part, areas) + angle_cost(error, areas.sum()) + part_price;
 }
 
 /// Whether the map by which a piece was split shows that as one map it loses much, is very uneven, or bends more.
 bool hopeless_as_one(const Part& root, double error)
 {
     const PartMap& map = root.map;
-    if (map.lost_area > most_lost * root.mesh.area || map.disk_overflow > most_uneven * root.mesh.area) return true;
+    if (map.lost_area > most_lost * root.mesh.area || map.disk_overflow > tuning::most_uneven * root.mesh.area)
+        return true;
     const double own =
         summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, planar_points(map.positions));
-    return own > worth_repairing * error * static_cast<double>(root.mesh.faces.size());
+    return own > tuning::repairable * error * static_cast<double>(root.mesh.faces.size());
 }
 
 /// A whole piece in the map by which it was split, if that has no flaws as stored; else as uniformize repairs it, if
@@ -226,12 +221,12 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
     const bool in_turn = !mirror.image.empty();
     side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
         Part& part = *parts[k];
-        if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k], !options.measured);
+        if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k], options.purpose);
         const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
         if (in_turn && part.map.kind == PartKind::tube && !chosen)
             prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
         FlatOptions own_options = options;
-        if (chosen) own_options.slit_price = 0.0;
+        if (chosen) own_options.prices.cut_price = 0.0;
         flats[k] = laid(whole, parts[k], own_options, 0, own, efforts[k]);
         if (in_turn && flats[k].parts.size() == 1) note_slit(part.mesh, flats[k].parts.front(), opened);
         parts[k].reset();
@@ -249,8 +244,8 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
                                       ExecutionContext& context)
 {
     const double error = angle_error(parts.parts);
-    const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < large_error;
-    if (!parts.flaws.broken() && (error < small_error || (is_cut && hopeless_as_one(*root, error)))) return {};
+    const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < tuning::crumpled_error;
+    if (!parts.flaws.broken() && (error < tuning::unseen_error || (is_cut && hopeless_as_one(*root, error)))) return {};
     std::optional<FlatPart> found;
     try {
         found = as_one_map(whole, root, parts.flaws.broken(), context);
@@ -259,8 +254,8 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     if (!found) return {};
     FlatPart& one = *found;
     const auto error_of_one = [&] { return summed_angle_error(one.vertices, one.surface.triangles, one.points); };
-    const double most = worth_repairing * error * static_cast<double>(one.faces.size());
-    if (!parts.flaws.broken() && error < large_error && error_of_one() > most) return {};
+    const double most = tuning::repairable * error * static_cast<double>(one.faces.size());
+    if (!parts.flaws.broken() && error < tuning::crumpled_error && error_of_one() > most) return {};
     const Flaws flaws = repair(one, whole.areas, context);
     parts.flaws.spoilt = 0.0;
     if (flaws.broken() && !fewer(flaws, parts.flaws)) return {};
@@ -271,7 +266,7 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     for (const FlatPart& part : parts.parts) cost += cost_of(part, part_price);
     if (cost_of(one, part_price) >= cost) return {};
     for (FlatPart& part : parts.parts) polish(part, context);
-    if (own >= clearly * angle_error(parts.parts) * static_cast<double>(one.faces.size())) return {};
+    if (own >= tuning::clearly_less * angle_error(parts.parts) * static_cast<double>(one.faces.size())) return {};
     return found;
 }
 

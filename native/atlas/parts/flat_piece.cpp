@@ -1,5 +1,6 @@
 #include "parts/flat_piece.h"
 
+#include "cost/costs.h"
 #include "splitting/closed_surface.h"
 #include "splitting/hidden_cuts.h"
 #include "splitting/mirror_symmetry.h"
@@ -12,12 +13,7 @@
 namespace koebe {
 namespace {
 
-constexpr double own_piece = 0.25;         // of the area: in a smaller piece parts cost less,
-constexpr double small_piece = 0.01;       // and below this in proportion to the piece's area
-constexpr int rounds = 2;                  // of splitting and merging
-constexpr double eager = 0.37;             // of the prices: parts are split at these, and merged at the whole prices
-constexpr double price_like_cut = 0.0037;  // at which a split of a flat part costs as a cut as long as the root
-constexpr double vain = 0.9;               // of the overflow: cuts that leave more are in vain
+constexpr int rounds = 2;  // of splitting and merging
 
 double overflow_of(const std::vector<PartPointer>& parts)
 {
@@ -34,11 +30,11 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
 {
     std::vector<PartPointer> uncut = first_parts(whole, std::move(first), context, effort);
     std::vector<PartPointer> parts = uncut;
-    const SplitOptions eagerly{eager * options.part_price, eager * options.cut_price, options.threads};
+    const SplitOptions eagerly{options.eager(), options.threads};
     RefusedMerges refused;
     for (int round = 0; round < rounds; ++round) {
         parts = split_parts(whole, eagerly, std::move(parts), context, effort);
-        if (parts.size() > uncut.size() && overflow_of(parts) > vain * overflow_of(uncut)) return uncut;
+        if (parts.size() > uncut.size() && overflow_of(parts) > tuning::clearly_less * overflow_of(uncut)) return uncut;
         if (parts.size() == 1 || !merge_parts(whole, options, parts, refused, context, effort)) break;
     }
     merge_small_parts(whole, options, parts, context, effort);
@@ -82,29 +78,21 @@ PieceSurface surface_of(const PieceInput& input)
     return surface;
 }
 
-SplitOptions prices_for(double area, double price, int threads)
-{
-    const double share = area < small_piece ? std::sqrt(small_piece / own_piece) * area / small_piece
-                                            : std::min(1.0, std::sqrt(area / own_piece));
-    return {share * price, std::min(1.0, share / std::sqrt(area)) * price, threads};
-}
-
 EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads)
 {
     const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
-    return {options.even,  round ? LoopForm::round : LoopForm::free,
-            options.darts, options.price / price_like_cut,
-            roomy,         threads};
+    return {options.even, round ? LoopForm::round : LoopForm::free, options.darts, part_as_length(options.price), roomy,
+            threads};
 }
 
 FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsOptions& options, int threads,
                      ExecutionContext& context, SplitEffort& effort)
 {
     // Cut it where that pays, alike on both sides of a mirror, and hide the cuts.
-    auto& [whole, first] = surface;
+    CutSurface& whole = surface.whole;
     const bool is_closed = whole.surface.loops.empty();
-    const SplitOptions prices = prices_for(whole.areas.sum(), options.price, threads);
-    std::vector<PartPointer> parts = even_parts(whole, std::move(first), prices, context, effort);
+    const SplitOptions prices{prices_of_piece(whole.areas.sum(), options.price), threads};
+    std::vector<PartPointer> parts = even_parts(whole, std::move(surface.first), prices, context, effort);
     const Mirror mirror = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon);
     bool is_symmetric = make_symmetric(whole, prices, mirror, parts, context, effort);
     if (!is_symmetric && !mirror.image.empty()) {  // begin with the sides of the plane
@@ -122,8 +110,7 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
     // Lay the parts flat. A part that was cut for its flaws has been tried as one part.
     const std::shared_ptr<const Part> root = root_of(parts, whole);
     const bool is_cut = parts.size() > 1;
-    FlatParts flats = flat_parts(whole, mirror, parts, {prices.cut_price, prices.part_price, options.round_cuts},
-                                 threads, context, effort);
+    FlatParts flats = flat_parts(whole, mirror, parts, {prices, options.round_cuts}, threads, context, effort);
     if (is_cut || flats.parts.size() == 1)
         if (auto one =
                 better_as_one(is_closed ? opened(input) : whole, root.get(), flats, prices.part_price, context)) {

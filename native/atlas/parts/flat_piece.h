@@ -28,11 +28,6 @@ struct PieceSurface {
 };
 PieceSurface surface_of(const PieceInput& input);
 
-/// The prices in a piece. The price is for the whole surface: with it a small piece would never be split, even if it
-/// lost all its faces. Lengths of cuts are in roots of the whole's area, so cuts of a small piece are short.
-/// @param area of the piece; that of the whole is 1
-SplitOptions prices_for(double area, double price, int threads);
-
 EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads);
 
 /// The parts of a piece, flat. They name faces and vertices by the numbers of the piece.

@@ -1,6 +1,7 @@
 #include "parts/free_rims.h"
 
 #include "core/complex_places.h"
+#include "cost/tolerances.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/distortion.h"
@@ -23,7 +24,6 @@ constexpr int halvings = 4;                 // of a step
 constexpr double tether = 0.2;              // eps
 constexpr double least_distortion = 0.3;    // |mu| at which a weight is taken, over the mean
 constexpr double least_face_height = 1e-2;  // of a face, over its longest edge
-constexpr double shortest_rim_edge = 1e-7;  // over the part's extent: shorter edges say nothing about a loop's course
 
 /// f_zbar = sum zbar_k f_k and f_z = sum z_k f_k of a face's linear map.
 struct FaceWeights {
@@ -104,6 +104,7 @@ private:
         const Triangles& triangles = surface.triangles;
         const std::size_t count = freedom.held.size();
         const bool all = triangles.rows() <= most_faces;
+        // Faces within some rings of the rims, or all.
         std::vector<char> near(count, all ? 1 : 0), chosen(static_cast<std::size_t>(triangles.rows()), all ? 1 : 0);
         if (!all)
             for (const VertexLoop& loop : surface.loops)
@@ -118,6 +119,7 @@ private:
             }
             if (ring + 1 < rings) near = std::move(wider);
         }
+        // Vertices inside these rings move, unless one in their place is held.
         std::vector<char> moves(count, 1);
         for (std::size_t v = 0; v < count; ++v)
             if (!near[v] || freedom.held[v]) moves[same_[v]] = 0;
@@ -200,9 +202,10 @@ void free_rims(const Vertices& vertices, const Surface& surface, const RimFreedo
     if (problem.empty()) return;
     const double extent = box_size(points).maxCoeff();
     const auto crossings = [&](const PlanarPoints& places) {
-        return crossing_boundary_edges(surface.loops, places, shortest_rim_edge * extent).size() +
-               turned_loops(surface.loops, places, shortest_rim_edge * extent).size();
+        return crossing_boundary_edges(surface.loops, places, tolerance::drawn_edge * extent).size() +
+               turned_loops(surface.loops, places, tolerance::drawn_edge * extent).size();
     };
+    // Newton steps, halved until angles fall, with no more faces turned over and no more crossings.
     const std::size_t crossing = crossings(points);
     Index turned = problem.turned_over(points);
     double error = problem.angle_error(points);

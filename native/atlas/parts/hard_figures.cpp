@@ -1,7 +1,10 @@
 #include "parts/hard_figures.h"
 
+#include "cost/tolerances.h"
+#include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "part_maps/part_mesh.h"
+#include "surface/face_vectors.h"
 
 #include <Eigen/Geometry>
 
@@ -16,14 +19,11 @@
 namespace koebe {
 namespace {
 
-constexpr double bent_in_a_plane = std::numbers::pi / 360.0;  // radians
-constexpr double counted_region = 0.01;                       // of the area: smaller regions do not count
-constexpr double flat = 1e-4;                                 // of the region's size: distance from its plane,
-constexpr double same_shape = 2e-3;                           // and of its image from a similar one
+constexpr double flat = 1e-4;               // of the region's size: distance from its plane,
+constexpr double same_shape = 2e-3;         // and of its image from a similar one
 constexpr double long_outer_edge = 0.05;    // in roots of the area: such an edge is straight by itself,
 constexpr double goes_on_straight = 0.996;  // cosine of 5 degrees: others if the border goes on like that
-constexpr double off_an_axis = std::numbers::pi / 1800.0;  // radians
-constexpr double same_uv = 1e-6;                           // UV units: faces meet at an edge up to this
+constexpr double same_uv = 1e-6;            // UV units: faces meet at an edge up to this
 
 /// A side of a face, as an edge of the mesh.
 struct FaceSide {
@@ -61,8 +61,7 @@ private:
 
     Eigen::RowVector3d normal(Eigen::Index f) const
     {
-        const auto at = [&](int k) { return point(layout_.triangles(f, k)); };
-        return (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+        return twice_area_vector(layout_.vertices, layout_.triangles, f).normalized();
     }
 
     /// Calls visit(begin, end) for the sides of each edge.
@@ -82,7 +81,7 @@ private:
         DisjointSets sets(layout_.part.size());
         each_edge([&](auto begin, auto end) {
             for (auto side = begin + 1; side < end; ++side)
-                if (normal(begin->face).dot(normal(side->face)) > std::cos(bent_in_a_plane))
+                if (normal(begin->face).dot(normal(side->face)) > std::cos(tolerance::coplanar))
                     sets.join(static_cast<Index>(begin->face), static_cast<Index>(side->face));
         });
         std::map<Index, std::vector<Eigen::Index>> regions;
@@ -96,7 +95,7 @@ private:
             double area = 0.0;
             for (const Eigen::Index f : faces) area += areas_[f];
             bool is_whole = false;
-            if (!(area > counted_region * total) || !is_planar(faces, is_whole)) continue;
+            if (!(area > tuning::small_area * total) || !is_planar(faces, is_whole)) continue;
             ++figures.regions;
             all += area;
             if (is_whole) whole += area;
@@ -107,6 +106,7 @@ private:
     /// Whether the faces lie in one plane. Sets whether their image is one similar to them.
     bool is_planar(const std::vector<Eigen::Index>& faces, bool& is_whole) const
     {
+        // The mean plane, the middle of the corners, and that of their images.
         Eigen::RowVector3d up = Eigen::RowVector3d::Zero(), centre = up;
         Complex middle = 0.0;
         for (const Eigen::Index f : faces) {
@@ -119,6 +119,8 @@ private:
         const double corners = 3.0 * static_cast<double>(faces.size());
         up.normalize();
         const Eigen::RowVector3d right = up.unitOrthogonal(), ahead = up.cross(right);
+        // Places x in the plane and their images z. The similar map z = s x of least squares has s = sum conj(x) z /
+        // sum |x|^2, and its mirror image s = sum x z / sum |x|^2.
         std::vector<Complex> place, image;
         double size = 0.0, off = 0.0, image_size = 0.0, square = 0.0;
         Complex factor[2] = {0.0, 0.0};  // of the region, and of its mirror image
@@ -136,6 +138,7 @@ private:
                 factor[0] += std::conj(x) * z;
                 factor[1] += x * z;
             }
+        // How far the images are from the better one.
         double miss[2] = {0.0, 0.0};
         for (std::size_t i = 0; i < place.size(); ++i)
             for (int k = 0; k < 2; ++k)
@@ -178,7 +181,7 @@ private:
                 continue;
             const Eigen::RowVector2d edge = uv_.row(side.second) - uv_.row(side.first);
             all += edge.norm();
-            if (edge.cwiseAbs().minCoeff() < std::sin(off_an_axis) * edge.norm()) along_axes += edge.norm();
+            if (edge.cwiseAbs().minCoeff() < std::sin(tolerance::off_axis) * edge.norm()) along_axes += edge.norm();
         }
         if (all > 0.0) figures.aligned = along_axes / all;
     }

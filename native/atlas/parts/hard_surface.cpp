@@ -1,5 +1,8 @@
 #include "parts/hard_surface.h"
 
+#include "cost/costs.h"
+#include "parts/hard_room.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,10 +13,6 @@
 namespace koebe {
 namespace {
 
-// Islands must get larger by their number to this power: twice as many have to cover 15 % more.
-constexpr double larger_by_count = 0.1;
-constexpr std::size_t fewest_parts = 4;  // fewer, such as the cross of a box, stay as they are
-
 template <typename Value>
 std::vector<Value> values_at(const std::vector<Value>& values, const std::vector<Index>& places)
 {
@@ -21,14 +20,6 @@ std::vector<Value> values_at(const std::vector<Value>& values, const std::vector
     if (!values.empty())
         for (const Index i : places) found.push_back(values[i]);
     return found;
-}
-
-/// Whether parts cut for room are worth it: they get larger when packed, by more than their number tells.
-bool are_worth_it(const std::vector<FlatPart>& roomier, const std::vector<FlatPart>& parts)
-{
-    if (roomier.size() == parts.size() || parts.size() < fewest_parts) return false;
-    const double count = static_cast<double>(roomier.size()) / static_cast<double>(parts.size());
-    return quickly_packed_scale(roomier) > std::pow(count, larger_by_count) * quickly_packed_scale(parts);
 }
 
 }  // namespace
@@ -58,6 +49,7 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
         CutSurface whole = cut_surface(scaled(piece.source_vertex, Eigen::all), std::move(surface),
                                        values_at(options.polygon, piece.source_face));
         whole.shown = cut_prices(options.show, piece.source_vertex);
+        // Its flat and rolled regions are parts, with cuts for room and without; the rest is opened below.
         if (std::optional<UnfoldedParts> hard = hard_parts(whole, context, unfolding_of(options))) {
             for (const Index f : hard->rest) rest.push_back(piece.source_face[f]);
             if (hard->roomier.empty()) hard->roomier = hard->parts;
@@ -70,7 +62,8 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
             rest.insert(rest.end(), piece.source_face.begin(), piece.source_face.end());
         }
     }
-    if (are_worth_it(roomier, parts)) parts = std::move(roomier);
+    if (are_worth_their_number(roomier, parts)) parts = std::move(roomier);
+    // All other faces, opened as if they were the input.
     if (!rest.empty()) {
         std::ranges::sort(rest);
         opened = open_surface(

@@ -52,6 +52,7 @@ PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places, co
     for (std::size_t k = 0; k < mesh.parts.size(); ++k) {
         FlatPart& flat = mesh.parts[k];
         layout.overlaps += !flat.one_to_one;
+        // Corners in the order in which the part was mapped; backwards in a mirrored part.
         const bool is_mirrored = !mirrored.empty() && mirrored[k];
         for (std::size_t i = 0; i < flat.faces.size(); ++i) {
             const Index f = flat.faces[i];

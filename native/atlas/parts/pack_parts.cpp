@@ -97,6 +97,8 @@ void pack_apart(std::vector<FlatPart>& flats, const PackOptions& options, Packed
         tile = packing.tile;
         margin = packing.margin;
         std::vector<char> outgrown(flats.size(), 0);
+        // Repair each part where it lies. If its rim moves, all are packed again with the new outline; in the last
+        // round it stays as it was.
         side_by_side(alone.size(), options.threads, context, [&](std::size_t i, ExecutionContext& own) {
             const std::size_t k = alone[i];
             const PlanarPoints before =
@@ -121,6 +123,7 @@ void pack_apart(std::vector<FlatPart>& flats, const PackOptions& options, Packed
         });
         again = std::ranges::count(outgrown, 1) > 0;
     }
+    // Rounding must not lead out of the tile.
     side_by_side(alone.size(), options.threads, context, [&](std::size_t i, ExecutionContext&) {
         const std::size_t k = alone[i];
         const Eigen::RowVector2d corner = tile_corner(tile[i]);

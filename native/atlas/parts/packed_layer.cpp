@@ -2,10 +2,11 @@
 
 #include "core/counted.h"
 #include "core/errors.h"
+#include "cost/tolerances.h"
 #include "cut/disjoint_sets.h"
-#include "execution/detachable_run.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
+#include "execution/run_on_copies.h"
 #include "execution/stopwatch.h"
 #include "opened/disk_packing.h"
 #include "part_maps/part_mesh.h"
@@ -26,8 +27,6 @@
 namespace koebe {
 namespace {
 
-constexpr double along_an_axis = 1e-3;   // slope of an edge that lies along an axis
-constexpr double worth_quarters = 0.3;   // of the outline's length, along the axes: the island is turned by quarters
 constexpr double least_fullness = 1e-6;  // area over the square of the extent: a thinner island has no area
 
 /// The vertices of the UV layer: corners of one vertex of the mesh at one place, as stored.
@@ -162,9 +161,9 @@ bool lies_straight(const Outline& outline)
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const auto edge = outline.points.row(loop[(i + 1) % loop.size()]) - outline.points.row(loop[i]);
             all += edge.norm();
-            if (edge.cwiseAbs().minCoeff() <= along_an_axis * edge.cwiseAbs().maxCoeff()) along += edge.norm();
+            if (edge.cwiseAbs().minCoeff() <= tolerance::off_axis * edge.cwiseAbs().maxCoeff()) along += edge.norm();
         }
-    return along > worth_quarters * all;
+    return along > tolerance::along_axes * all;
 }
 
 /// @param faces of the island
@@ -421,9 +420,7 @@ PackedLayer packed(const Vertices& given, const Triangles& triangles, const Pack
 PackedLayer pack_layer(const Vertices& vertices, const Triangles& triangles, const PackedLayerOptions& options,
                        ExecutionContext& context)
 {
-    return run_detachable<PackedLayer>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return packed(vertices, triangles, options, own);
-    });
+    return run_on_copies<PackedLayer>(context, packed, vertices, triangles, options);
 }
 
 }  // namespace koebe

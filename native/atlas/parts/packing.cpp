@@ -1,5 +1,7 @@
 #include "parts/packing.h"
 
+#include "cost/tolerances.h"
+
 #include "core/errors.h"
 #include "parts/packed_island.h"
 #include "parts/separation.h"
@@ -162,7 +164,7 @@ private:
         double area = std::numeric_limits<double>::infinity();
         for (; failed_ < order.size(); ++failed_) {
             const std::size_t k = order[failed_];
-            if (islands_[k].area < similar * area) {
+            if (islands_[k].area < tolerance::similar_area * area) {
                 area = islands_[k].area;
                 from = 0;
             }

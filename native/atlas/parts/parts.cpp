@@ -3,6 +3,7 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/vertex_weights.h"
+#include "cost/costs.h"
 #include "even/even_map.h"
 #include "execution/memory_limit.h"
 #include "execution/peak_memory.h"
@@ -150,7 +151,6 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
     return warnings;
 }
 
-/// @param length_of_unit of a unit of the layout, in the mesh's unit
 /// Makes polygons convex with free rims, as long as the part stays one to one. Packing keeps the parts apart
 /// afterwards.
 void mend_rims(const std::vector<Index>& polygon, std::vector<FlatPart>& parts, int threads, ExecutionContext& context)
@@ -171,11 +171,9 @@ void mend_rims(const std::vector<Index>& polygon, std::vector<FlatPart>& parts, 
     });
 }
 
-PartsResult compute(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
-                    const std::function<double()>& length_of_unit, const Eigen::RowVector3d& up,
-                    ExecutionContext& context)
+/// @throws InputError
+void require_options(const PartsOptions& options)
 {
-    const Stopwatch run;
     if (!(options.price > 0.0) || !std::isfinite(options.price)) throw InputError("the price must be positive");
     if (!options.cuts.empty() && !options.cut) throw InputError("cuts need cut = true");
     if (options.even) require_even(*options.even);
@@ -184,43 +182,44 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
         throw InputError("the density must be positive");
     if (!(options.hard_angle >= 1.0 && options.hard_angle <= 179.0))
         throw InputError("the hard angle must be from 1 to 179 degrees");
-    const double margin = margin_in_square(options.margin, options.pixels);
+    margin_in_square(options.margin, options.pixels);  // refuses a negative one
     if (options.tiles < 0 || options.tiles > most_tiles) throw InputError("tiles must be from 0 to 100");
     if (options.tiles == 0 && !options.density) throw InputError("as many tiles as needed (0) needs a density");
-    require_memory_for_faces(triangles.rows());
-    fix_product_blocks();
-    FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
-    if (options.show.empty() && options.importance.empty() && options.slits.empty()) cut_alike(mesh);
-    mend_rims(options.polygon, mesh.parts, options.threads, context);
-    const double unit = length_of_unit();
+}
+
+/// The parts with room for each polygon, upright, their twins found, and packed.
+PackedParts packed_parts(FlatMesh& mesh, const PartsOptions& options, double unit, const Eigen::RowVector3d& up,
+                         ExecutionContext& context)
+{
     context.begin_stage("pack", 0.9, 1.0);
     const bool is_free = !options.even && options.loops != LoopForm::round && !options.round_cuts;
     if ((is_free && options.importance.empty()) || options.rectify) rectify_grids(mesh.parts, options.rectify);
     stand_upright(mesh.parts, up);
-    PackOptions packing{.tiles = options.tiles, .margin = margin, .threads = options.threads};
-    std::vector<std::optional<Twin>> copies = find_twins(mesh.parts, false);
-    if (options.stack) packing.twins = std::move(copies);
-    std::vector<std::optional<Twin>> all = find_twins(mesh.parts, true);
-    if (options.stack_mirrored) packing.twins = std::move(all);
+    PackOptions packing{
+        .tiles = options.tiles, .margin = margin_in_square(options.margin, options.pixels), .threads = options.threads};
+    Twins twins = find_twins(mesh.parts);
+    if (options.stack) packing.twins = std::move(twins.copies);
+    if (options.stack_mirrored) packing.twins = std::move(twins.all);
     packing.wanted = wanted_scale(mesh, options, unit);
-    const PackedParts packed = pack_parts(mesh.parts, packing, context);
-    std::vector<Index> anew;  // faces
+    return pack_parts(mesh.parts, packing, context);
+}
+
+/// The faces of parts that were drawn anew, ascending.
+std::vector<Index> faces_anew(const FlatMesh& mesh, const PackedParts& packed)
+{
+    std::vector<Index> anew;
     for (std::size_t k = 0; k < mesh.parts.size(); ++k)
         if (packed.anew[k]) anew.insert(anew.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());
     std::ranges::sort(anew);
-    PartsResult result;
-    std::vector<char> mirrored(mesh.parts.size(), 0);
-    for (std::size_t k = 0; k < packed.twins.size(); ++k) {
-        if (!packed.twins[k]) continue;
-        mirrored[k] = packed.twins[k]->mirrored;
-        result.stacked.push_back(
-            {static_cast<Index>(k), static_cast<Index>(packed.twins[k]->of), packed.twins[k]->mirrored});
-    }
-    PartsLayout layout = layout_at(std::move(mesh), packed.places, mirrored);
-    const std::vector<Index> none;
-    const SurfacePolygons polygons{layout.vertices, layout.triangles, options.polygon, none};
-    mend_polygons(polygons, layout.uv, context);
-    const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);  // as stored: the report describes it
+    return anew;
+}
+
+/// What the layout says, as the UVs are stored. @param pixels_per_unit as in report_density
+void describe(PartsLayout& layout, const Vertices& vertices, const Triangles& triangles, const PackedParts& packed,
+              const PartsOptions& options, double pixels_per_unit, PartsResult& result)
+{
+    // Distortion, and the density of the faces that have a part.
+    const PlanarPoints uv = layout.uv.unaryExpr(&as_stored);
     result.vertex_count = static_cast<Index>(vertices.rows());
     result.face_count = static_cast<Index>(triangles.rows());
     std::vector<Index> mapped, left_out;
@@ -233,7 +232,9 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.parts = std::move(layout.parts);
     for (PartReport& part : result.parts)
         part.angle_error_deg = distortion_of_parts(layout, uv, part.faces).angle_error_deg.mean;
-    report_density(layout, uv, mapped, options.pixels / unit, result);
+    report_density(layout, uv, mapped, pixels_per_unit, result);
+
+    // The square: twins cover no further area.
     for (const Index f : mapped)
         if (!packed.twins[static_cast<std::size_t>(layout.part[f])]) result.coverage += signed_corner_area(uv, f);
     result.tiles = packed.tiles;
@@ -243,6 +244,8 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.regions = hard.regions;
     result.whole = hard.whole;
     result.aligned = hard.aligned;
+
+    // Cuts and effort.
     result.cut_length = seam_length(layout, mapped);
     result.slit_length = layout.slit_length;
     result.dart_length = layout.dart_length;
@@ -254,13 +257,49 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     result.converged =
         layout.crossing.empty() && result.distortion.flipped.size() == result.distortion.below_resolution.size();
     result.warnings = warnings_of(layout, left_out, result.distortion);
+}
+
+/// @param length_of_unit of a unit of the layout, in the mesh's unit
+PartsResult compute(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
+                    const std::function<double()>& length_of_unit, const Eigen::RowVector3d& up,
+                    ExecutionContext& context)
+{
+    const Stopwatch run;
+    require_options(options);
+    require_memory_for_faces(triangles.rows());
+    fix_product_blocks();
+
+    // Cut the mesh into flat parts, alike where pieces are alike.
+    FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
+    if (options.show.empty() && options.importance.empty() && options.slits.empty()) cut_alike(mesh);
+    mend_rims(options.polygon, mesh.parts, options.threads, context);
+
+    // Pack them.
+    const double unit = length_of_unit();
+    const PackedParts packed = packed_parts(mesh, options, unit, up, context);
+    std::vector<Index> anew = faces_anew(mesh, packed);
+    PartsResult result;
+    std::vector<char> mirrored(mesh.parts.size(), 0);
+    for (std::size_t k = 0; k < packed.twins.size(); ++k) {
+        if (!packed.twins[k]) continue;
+        mirrored[k] = packed.twins[k]->mirrored;
+        result.stacked.push_back(
+            {static_cast<Index>(k), static_cast<Index>(packed.twins[k]->of), packed.twins[k]->mirrored});
+    }
+    PartsLayout layout = layout_at(std::move(mesh), packed.places, mirrored);
+    const std::vector<Index> none;
+    const SurfacePolygons polygons{layout.vertices, layout.triangles, options.polygon, none};
+    mend_polygons(polygons, layout.uv, context);
+
+    // Report what is stored.
+    describe(layout, vertices, triangles, packed, options, options.pixels / unit, result);
     if (!anew.empty())
         result.warnings.push_back(
             {WarningKind::not_even,
              counted(anew.size(), "face") +
                  " in parts that were drawn anew, less even: they overlapped themselves as stored",
-             anew});
-    warn_concave_polygons(polygons, uv, result.warnings);
+             std::move(anew)});
+    warn_concave_polygons(polygons, layout.uv.unaryExpr(&as_stored), result.warnings);
     take_verdict({.most_lost = options.most_lost, .advice = lower_price}, result);
     result.part = std::move(layout.part);
     result.peak_memory_mb = peak_memory_mb();

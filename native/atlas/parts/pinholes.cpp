@@ -94,11 +94,13 @@ std::vector<FlatPart> with_pinholes(FlatPart part, Index faces)
         pieces.push_back(std::move(part));
         return pieces;
     }
+    // Cut the fans out.
     SeamedMesh mesh = seamed(part);
     for (Index h = 0; h < mesh.halfedge_count(); ++h)
         if (mesh.twin[h] != no_twin && fills(h) != fills(mesh.twin[h])) mesh.cut(h);
     for (const SeamedMesh& own : connected_parts(mesh)) {
         if (part.faces[own.face.front()] >= faces) continue;
+        // Each piece keeps what the part is. Corners that met only across a fan are drawn apart.
         const std::vector<Index> source = vertices_of_fans(own);
         std::optional<FlatPart> piece = opened_piece(part, own.face, own.fans, source);
         if (!piece) throw SolverError("a part is no surface any more with its pinholes");

@@ -1,6 +1,7 @@
 #include "parts/regions.h"
 
 #include "core/connectivity.h"
+#include "cost/tolerances.h"
 
 #include <Eigen/Geometry>
 
@@ -20,10 +21,8 @@ struct NoiseLevel {
 };
 constexpr NoiseLevel noise_levels[] = {{3e-4, 0.25}, {4e-3, 0.6}};  // a coarse scan, noise of 0.1 %
 constexpr double large_region = 0.03;                               // of the area: noise hides no smaller region
-constexpr double most_area = 0.6;       // of the area, in regions of several faces: then there is no noise
-constexpr double most_one_sided = 0.5;  // of all bends in a region that is flat up to noise
-constexpr double coplanar = std::numbers::pi / 360.0;  // radians between normals in one plane
-constexpr double upright = 0.1;                        // least cosine between a face's normal and its plane's
+constexpr double most_area = 0.6;  // of the area, in regions of several faces: then there is no noise
+constexpr double upright = 0.1;    // least cosine between a face's normal and its plane's
 constexpr int most_fits = 8;
 
 class RegionGrowth {
@@ -36,7 +35,8 @@ public:
             vector_area_.row(f) = 0.5 * (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0));
             // A vertex off by the tolerance turns the normal by the tolerance over the height.
             const double longest = surface.lengths.segment<3>(3 * static_cast<Eigen::Index>(f)).maxCoeff();
-            const double angle = coplanar + 2.0 * tolerance * longest / std::max(2.0 * surface.areas[f], 1e-300);
+            const double angle =
+                tolerance::coplanar + 2.0 * tolerance * longest / std::max(2.0 * surface.areas[f], 1e-300);
             least_cosine_[f] = angle < 0.5 * std::numbers::pi ? std::max(std::cos(angle), upright) : upright;
         }
     }
@@ -140,7 +140,7 @@ double noisy_share(const CutSurface& surface, const PlanarRegions& regions)
     const double whole = surface.areas.sum();
     double share = 0.0;
     for (std::size_t r = 0; r < sum.size(); ++r)
-        if (regions.planes[r].area >= large_region * whole && std::abs(sum[r]) < most_one_sided * all[r])
+        if (regions.planes[r].area >= large_region * whole && std::abs(sum[r]) < tolerance::majority * all[r])
             share += regions.planes[r].area;
     return share / whole;
 }

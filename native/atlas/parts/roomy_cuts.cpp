@@ -1,13 +1,13 @@
 #include "parts/roomy_cuts.h"
 
 #include "core/connectivity.h"
+#include "cost/costs.h"
 #include "cut/edge_graph.h"
 #include "parts/tension.h"
 #include "planar/boundary_crossings.h"
 #include "planar/convex_hull.h"
 #include "planar/planar_predicates.h"
-
-#include <Eigen/Geometry>
+#include "surface/face_vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,17 +21,12 @@
 namespace koebe {
 namespace {
 
-constexpr double worth_of_room = 0.005;  // energy of the surface's area
-constexpr double dense = 0.85;           // share of a square that convex parts cover when packed
-constexpr double least_square = 1.45;    // no part that fits into this square is shortened, in areas of the surface
-constexpr double least_room_piece = 0.01;
 constexpr std::size_t most_corners = 64, most_hole_corners = 12;  // of an outline where ends of cuts are looked for
 constexpr double straight = 0.004;    // no corner is nearer to the line between its neighbours, in roots of the area
 constexpr double long_side = 0.15;    // longer sides get a corner in their middle
 constexpr int square_angles = 32;     // turns in which the smallest square is looked for
 constexpr std::size_t most_ways = 3;  // cuts of a part that are tried
 constexpr double cosine_of_crease = 0.643;  // of 50 degrees
-constexpr double price_at_rim = 8.0;        // of an edge that touches the boundary: the path stays inside
 
 /// A loop with its most important corners only.
 struct Corners {
@@ -52,6 +47,7 @@ public:
         (at_.rowwise() - start).rowwise().squaredNorm().maxCoeff(&opposite);
         Corners corners{{0, static_cast<std::size_t>(opposite)}, {}};
         std::vector<Span> spans{span(0, corners.place[1]), span(corners.place[1], count())};
+        // The point farthest from the outline so far, again and again.
         while (corners.place.size() < most) {
             Span& widest = *std::ranges::max_element(spans, {}, &Span::distance);
             if (!(widest.distance > straight)) break;
@@ -60,6 +56,7 @@ public:
             widest = span(widest.from, widest.farthest);
             spans.push_back(second);
         }
+        // Then the middles of long sides.
         while (corners.place.size() < most) {
             Span& longest = *std::ranges::max_element(spans, {}, &Span::length);
             const std::size_t middle = middle_of(longest);
@@ -69,6 +66,7 @@ public:
             longest = span(longest.from, middle);
             spans.push_back(second);
         }
+        // Then the ends that were asked for.
         if (ends.size() <= most) corners.place.insert(corners.place.end(), ends.begin(), ends.end());
         std::ranges::sort(corners.place);
         corners.place.erase(std::unique(corners.place.begin(), corners.place.end()), corners.place.end());
@@ -188,7 +186,7 @@ public:
         std::vector<ThroughCut> cuts;
         const std::vector<Chord> chords = paying_chords();
         if (chords.empty()) return cuts;
-        const EdgeGraph graph(mesh_, price_at_rim);
+        const EdgeGraph graph(mesh_, tuning::avoided_factor);
         const std::vector<char> outside = boundary_mask(flat_.surface);
         std::map<Eigen::Index, PathTree> trees;
         std::vector<Chord> made;
@@ -218,10 +216,7 @@ private:
     {
         SeamedMesh mesh = seamed(flat, flat.shown);
         if (smooth == 1.0) return mesh;
-        const auto normal = [&](Index f) -> Eigen::RowVector3d {
-            const auto corner = [&](int k) { return flat.vertices.row(flat.surface.triangles(f, k)); };
-            return (corner(1) - corner(0)).cross(corner(2) - corner(0));
-        };
+        const auto normal = [&](Index f) { return twice_area_vector(flat.vertices, flat.surface.triangles, f); };
         for (Index h = 0; h < mesh.halfedge_count(); ++h) {
             if (mesh.whole[h]) continue;
             const Eigen::RowVector3d a = normal(face_of(h)), b = normal(face_of(mesh.twin[h]));
@@ -247,7 +242,6 @@ private:
         return {outer_.points(row, 0), outer_.points(row, 1)};
     }
     bool is_hollow(Eigen::Index i) const { return cross(corner(i) - corner(i - 1), corner(i + 1) - corner(i)) < 0.0; }
-    double cost_of(double length) const { return price_.length * length + *price_.piece; }
 
     Index vertex_at(Eigen::Index corner) const { return loop_[outer_.place[static_cast<std::size_t>(corner)]]; }
 
@@ -256,15 +250,15 @@ private:
     {
         std::vector<Chord> found;
         const Eigen::Index count = outer_.points.rows();
-        const double least = area_inside(outer_.points) - 2.0 * least_room_piece;
-        if (count < 4 || least < 0.0 || worth_of_room * saved_at_most_ < cost_of(0.0)) return found;
+        const double least = area_inside(outer_.points) - 2.0 * tuning::small_area;
+        if (count < 4 || least < 0.0 || room_gain(saved_at_most_) < price_.of(0.0, true)) return found;
         const bool is_long = room_ > area_inside(outer_.points(convex_hull(outer_.points), Eigen::all));
         for (Eigen::Index i = 0; i < count; ++i)
             for (Eigen::Index j = i + 2; j < count; ++j) {
                 if (!is_long && !is_hollow(i) && !is_hollow(j)) continue;
-                const double cost = cost_of(distance(corner(i), corner(j)));
-                if (worth_of_room * saved_at_most_ < cost || !is_inside(i, j)) continue;
-                const double gain = worth_of_room * saved(between(outer_.points, i, j), between(outer_.points, j, i));
+                const double cost = price_.of(distance(corner(i), corner(j)), true);
+                if (room_gain(saved_at_most_) < cost || !is_inside(i, j)) continue;
+                const double gain = room_gain(saved(between(outer_.points, i, j), between(outer_.points, j, i)));
                 if (gain > cost) found.push_back({i, j, gain / cost});
             }
         std::ranges::stable_sort(found, std::ranges::greater(), &Chord::worth);
@@ -279,7 +273,7 @@ private:
     /// The room that two pieces save; less than 0 if a piece is too small.
     double saved(const PlanarPoints& one, const PlanarPoints& other) const
     {
-        if (std::min(area_inside(one), area_inside(other)) < least_room_piece) return -1.0;
+        if (std::min(area_inside(one), area_inside(other)) < tuning::small_area) return -1.0;
         return room_ - room_of(one, square_, square_angles) - room_of(other, square_, square_angles);
     }
 
@@ -324,8 +318,8 @@ private:
         other.insert(other.end(), loop_.begin(), loop_.begin() + static_cast<std::ptrdiff_t>(i));
         one.insert(one.end(), cut.vertices.begin(), cut.vertices.end() - 1);
         other.insert(other.end(), cut.vertices.rbegin(), cut.vertices.rend() - 1);
-        cut.forecast = worth_of_room * saved(flat_.points(one, Eigen::all), flat_.points(other, Eigen::all));
-        cut.cost = cost_of(cut.length);
+        cut.forecast = room_gain(saved(flat_.points(one, Eigen::all), flat_.points(other, Eigen::all)));
+        cut.cost = price_.of(cut.length, true);
         if (cut.forecast > cut.cost) return cut;
         return {};
     }
@@ -350,12 +344,13 @@ double square_for_all(const std::vector<const FlatPart*>& parts)
         const PlanarPoints outline = flat->points(loop, Eigen::all);
         sum += area_inside(outline(convex_hull(outline), Eigen::all));
     }
-    return std::max(sum / dense, least_square);
+    return std::max(sum / tuning::packed_share, tuning::least_square);
 }
 
 std::vector<ThroughCut> roomy_cuts(const FlatPart& flat, double square, const ThroughPrice& price)
 {
-    if (!flat.one_to_one || face_areas(flat.vertices, flat.surface.triangles).sum() < 2.0 * least_room_piece) return {};
+    if (!flat.one_to_one || face_areas(flat.vertices, flat.surface.triangles).sum() < 2.0 * tuning::small_area)
+        return {};
     return RoomSearch(flat, square, price).best();
 }
 

@@ -1,6 +1,7 @@
 // Cuts that let parts be packed more densely: they take branches off, and shorten long strips.
 #pragma once
 
+#include "cost/costs.h"
 #include "parts/through_cuts.h"
 
 #include <vector>

@@ -137,6 +137,7 @@ bool Separation::separate(int side, std::vector<IslandSpot>& spots, bool is_loca
 {
     side_ = side;
     spots_ = spots;
+    // Each island in a pose that fits into the square.
     for (std::size_t i = 0; i < poses_.size(); ++i) {
         for (std::size_t k = 0; !clamp(i, spots_[i]); ++k) {
             if (is_local || k == poses_[i].size()) return false;
@@ -145,6 +146,8 @@ bool Separation::separate(int side, std::vector<IslandSpot>& spots, bool is_loca
     }
     std::ranges::fill(weights_, unit_weight);
     for (std::size_t i = 0; i < poses_.size(); ++i) move(i, spots_[i]);
+    // Islands that overlap move to where they overlap least, one after the other, by chance. Pairs that still
+    // overlap get larger weights.
     std::vector<std::size_t> order(poses_.size());
     std::iota(order.begin(), order.end(), 0);
     std::int64_t least = total();

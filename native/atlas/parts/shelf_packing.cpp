@@ -1,6 +1,7 @@
 #include "parts/shelf_packing.h"
 
 #include "core/errors.h"
+#include "cost/tolerances.h"
 #include "parts/packed_island.h"
 
 #include <algorithm>
@@ -22,7 +23,6 @@ constexpr int halvings_of_shelves = 40;                         // of the scales
 constexpr double least_shrinking = 0.4, most_shrinking = 0.95;  // of the scale, by the share that finds room
 constexpr int most_shrinkings = 600;
 constexpr double first_growth = 0.02, last_growth = 0.008;  // share of the scale, halved where that has no room
-constexpr double alike = 0.8;                               // area over that of the largest similar island
 
 class ShelfPacker {
 public:
@@ -124,7 +124,7 @@ private:
         std::array<CellSpot, 4> reached{};  // by turns, up to where similar islands found no room
         double area = std::numeric_limits<double>::infinity();
         for (const std::size_t k : order) {
-            if (islands_[k].area < alike * area) {
+            if (islands_[k].area < tolerance::similar_area * area) {
                 area = islands_[k].area;
                 reached = {};
             }

@@ -1,6 +1,7 @@
 #include "parts/tension.h"
 
 #include "core/complex_places.h"
+#include "cost/costs.h"
 #include "even/even_map.h"
 #include "planar/planar_predicates.h"
 

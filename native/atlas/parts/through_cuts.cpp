@@ -1,6 +1,7 @@
 #include "parts/through_cuts.h"
 
 #include "core/errors.h"
+#include "cost/costs.h"
 #include "cut/edge_graph.h"
 #include "even/even_map.h"
 #include "part_maps/part_mesh.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,11 +18,7 @@
 namespace koebe {
 namespace {
 
-constexpr double longest_cut = 1.5;      // length of a cut, in roots of the surface's area
-constexpr double least_piece = 0.002;    // area of a piece, over the surface's
-constexpr double share_released = 0.25;  // of the bound
 constexpr std::size_t most_cuts = 2;
-constexpr double ends_apart = 0.25;  // distance between the ends of two cuts, over their length
 
 /// Sums along the shortest way from a vertex to the boundary, without the vertex itself.
 struct WayOut {
@@ -37,7 +33,7 @@ public:
     ThroughSearch(const FlatPart& flat, double even, const ThroughPrice& price)
         : flat_(flat),
           price_(price),
-          compliance_(2.0 * (1.0 + area_weight(even)) / (8.0 * area_weight(even))),
+          even_(even),
           forces_(forces_in(flat, even)),
           tension_(flat, forces_),
           outside_(boundary_mask(flat.surface)),
@@ -120,21 +116,17 @@ private:
         const WayOut &from = ways_[a], &to = ways_[b];
         if (from.end < 0 || to.end < 0 || from.end == to.end || next(a) == b || next(b) == a) return 0.0;
         const double length = tree_.distance[a] + tree_.distance[b] + mesh_.length[h];
-        if (length > longest_cut || is_too_small(a, b)) return 0.0;
+        if (length > tuning::longest_through || is_too_small(a, b)) return 0.0;
         const Complex at_a = tension_.at(a, b, next(a)), at_b = tension_.at(b, a, next(b));
         const Complex force = from.force + at_a + at_b + to.force;
         const double moment = from.moment + tree_.distance[a] * at_a.imag() + length * (to.force + at_b).imag() -
                               to.moment - tree_.distance[b] * at_b.imag() - 0.5 * length * force.imag();
-        const double released =
-            share_released * compliance_ * (std::norm(force) + 12.0 * moment * moment / (length * length));
-        return std::min(released, forces_.energy.sum()) - price_.length * length - piece_price(from.end, to.end);
+        const double released = tuning::released_share * beam_energy(force, moment, length, even_);
+        return std::min(released, forces_.energy.sum()) - price_.of(length, splits(from.end, to.end));
     }
 
-    /// Of a cut between two vertices of the boundary, beside its length: between two loops it makes no piece.
-    double piece_price(Index from, Index to) const
-    {
-        return loop_of_[from] == loop_of_[to] ? price_.piece.value_or(std::numeric_limits<double>::infinity()) : 0.0;
-    }
+    /// Whether a cut between two vertices of the boundary makes one more piece: between two loops it does not.
+    bool splits(Index from, Index to) const { return loop_of_[from] == loop_of_[to]; }
 
     /// Whether a cut between two places of one loop would leave too small a piece.
     bool is_too_small(Index a, Index b) const
@@ -143,7 +135,7 @@ private:
         if (loop_of_[from.end] != loop_of_[to.end]) return false;
         double round = swept(a, b) - from.swept + to.swept + arc_[from.end] - arc_[to.end];
         if (arc_[from.end] < arc_[to.end]) round += enclosed_[loop_of_[from.end]];
-        return std::min(std::abs(round), std::abs(area_ - round)) < 2.0 * least_piece;
+        return std::min(std::abs(round), std::abs(area_ - round)) < 2.0 * tuning::least_piece;
     }
 
     ThroughCut path(Index h) const
@@ -161,7 +153,7 @@ private:
         cut.halfedges.push_back(h);
         walk(target(flat_.surface.triangles, h));
         for (const Index e : cut.halfedges) cut.length += mesh_.length[e];
-        cut.cost = price_.length * cut.length + piece_price(cut.vertices.front(), cut.vertices.back());
+        cut.cost = price_.of(cut.length, splits(cut.vertices.front(), cut.vertices.back()));
         return cut;
     }
 
@@ -171,12 +163,12 @@ private:
         const Index a = one.vertices.front(), b = one.vertices.back();
         const Index c = other.vertices.front(), d = other.vertices.back();
         return std::min(std::max(between(a, c), between(b, d)), std::max(between(a, d), between(b, c))) <
-               ends_apart * one.length;
+               tuning::cut_reach * one.length;
     }
 
     const FlatPart& flat_;
     ThroughPrice price_;
-    double compliance_;
+    double even_;
     EvenForces forces_;
     Tension tension_;
     std::vector<char> outside_;  // (V) 1 on the boundary
@@ -246,7 +238,7 @@ std::optional<FlatPart> piece_of(const FlatPart& flat, const std::vector<Index>&
         corner = number;
     }
     auto piece = opened_piece(flat, faces, triangles, source);
-    if (!piece || face_areas(piece->vertices, piece->surface.triangles).sum() < least_piece) return {};
+    if (!piece || face_areas(piece->vertices, piece->surface.triangles).sum() < tuning::least_piece) return {};
     for (const Index tip : flat.tips)
         if (own[tip] >= 0) piece->tips.push_back(own[tip]);
     return piece;

@@ -1,19 +1,13 @@
 // Cuts through a relaxed part, from one place of its boundary to another.
 #pragma once
 
+#include "cost/costs.h"
 #include "parts/flat_part.h"
 
 #include <optional>
 #include <vector>
 
 namespace koebe {
-
-/// What cuts cost, in energy.
-struct ThroughPrice {
-    double length = 0.0;          ///< of a cut as long as the root of the surface's area
-    std::optional<double> piece;  ///< of one more piece, in addition to its cut; without a value no part is split
-    double smooth = 1.0;  ///< factor on `length` of cuts for room, where the surface is bent by under 50 degrees
-};
 
 /// A path along edges. It joins two loops of a part, or splits the part in two.
 struct ThroughCut {

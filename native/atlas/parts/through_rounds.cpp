@@ -1,6 +1,7 @@
 #include "parts/through_rounds.h"
 
 #include "core/connectivity.h"
+#include "cost/costs.h"
 #include "even/even_forces.h"
 #include "execution/side_by_side.h"
 #include "parts/roomy_cuts.h"
@@ -222,6 +223,7 @@ std::vector<std::vector<std::size_t>> mirror_groups(const std::vector<HeldPart>&
             groups.push_back({k});
             continue;
         }
+        // The part in which all images of its inner edges lie.
         std::optional<std::size_t> image;
         bool is_one = true;
         inner_edges(parts[k].flat, parts[k].flat.image, [&](EdgeEnds edge) {

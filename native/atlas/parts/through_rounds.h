@@ -1,6 +1,7 @@
 // Cuts relaxed parts through, as long as cuts pay.
 #pragma once
 
+#include "cost/costs.h"
 #include "execution/execution.h"
 #include "parts/dart_rounds.h"
 #include "parts/through_cuts.h"

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/length.h"
+#include "cost/costs.h"
 #include "mesh/nearest_first.h"
 
 #include <algorithm>
@@ -35,12 +36,14 @@ std::vector<char> slit_edges(const Part& part, double& slit_length)
     const Surface& surface = part.mesh.surface;
     const Triangles& triangles = surface.triangles;
     const Index count = surface.vertex_count;
+    // Edges along which the tube may be opened.
     std::vector<char> is_end(count, 0);
     std::vector<Index> arrived(count, no_twin);  // half-edge by which a vertex is reached
     std::vector<std::vector<Index>> leaving(count);
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
         if (const Index t = surface.twin[h]; t != no_twin && !within_polygon(part.mesh, h, t))
             leaving[origin(triangles, h)].push_back(h);
+    // The shortest way from one loop to the other. Edges across the strip count as longer, shown ones too.
     NearestFirst nearest(count);
     for (const Index v : surface.loops[1]) is_end[v] = 1;
     for (const Index v : surface.loops[0]) nearest.reach(v, 0.0);
@@ -60,6 +63,7 @@ std::vector<char> slit_edges(const Part& part, double& slit_length)
         }
     }
     if (end < 0) return {};
+    // Back along this way.
     std::vector<char> slit(triangles.size(), 0);
     for (Index v = end; arrived[v] != no_twin; v = origin(triangles, arrived[v])) {
         slit[arrived[v]] = slit[surface.twin[arrived[v]]] = 1;

@@ -50,9 +50,8 @@ bool keeps_angles(const FlatPart& part, const PlanarPoints& points)
     return error(points) <= worse_share * error(part.points) + worse_angles;
 }
 
-}  // namespace
-
-std::vector<std::optional<Twin>> find_twins(std::vector<FlatPart>& parts, bool mirrored)
+/// @param mirrored false: a mirror image is no twin
+std::vector<std::optional<Twin>> twins_of(std::vector<FlatPart>& parts, bool mirrored)
 {
     std::vector<const FlatPart*> all;
     for (const FlatPart& part : parts) all.push_back(&part);
@@ -71,6 +70,16 @@ std::vector<std::optional<Twin>> find_twins(std::vector<FlatPart>& parts, bool m
         parts[k].along_axes = other.along_axes;
         parts[k].up = twins[k]->mirrored ? -std::conj(other.up) : other.up;
     }
+    return twins;
+}
+
+}  // namespace
+
+Twins find_twins(std::vector<FlatPart>& parts)
+{
+    Twins twins;
+    twins.copies = twins_of(parts, false);
+    twins.all = twins_of(parts, true);
     return twins;
 }
 

@@ -1,16 +1,14 @@
 #include "parts/unfolding.h"
 
 #include "core/errors.h"
+#include "cost/tolerances.h"
+#include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
-#include "parts/dart_rounds.h"
 #include "parts/flat_charts.h"
-#include "parts/packing.h"
+#include "parts/hard_room.h"
 #include "parts/regions.h"
-#include "parts/through_rounds.h"
 #include "planar/planar_predicates.h"
 #include "surface/free_flattening.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -29,36 +27,20 @@ constexpr double least_border = 0.12;     // of a chart's boundary: a shorter co
 constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
-constexpr double between_plates = 0.5;    // of a chart's outline, at planar regions
-constexpr double large_chart = 0.01;      // of the area: charts from there on
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
 
-constexpr double packed_well = 1.155;  // longest island, in roots of the area of all surfaces: the side of a square
-                                       // that is covered to 75 %,
-constexpr double side_of_nut = 1.80;   // or in roots of its own area: the six sides of a nut as high as its radius;
-constexpr double thin = 0.2;           // charts whose area over the square of the length is less are cut across;
-constexpr double middle = 1e-6;        // of a piece: a region so near to its end belongs to the next piece
+constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut;
+constexpr double thin = 0.2;          // charts whose area over the square of the length is less are cut across;
+constexpr double middle = 1e-6;       // of a piece: a region so near to its end belongs to the next piece
 
-constexpr double small_rest = 0.02;  // of the area: smaller pieces of the rest go with an island,
-constexpr double most_scaled = 4.0;  // if no face's area changes by more than this factor
-
-// Cuts between planar regions that make room, in energy (roomy_cuts.h): a cut as long as the root of the area has to
-// save 2 % of the area, and one more island 1 %. Along a rolled face a cut costs ten times as much: a cone stays one
-// sector, a thin ring does not stay one. On 24 models of over 10 islands: coverage 0.63 to 0.73, cuts 6 % longer.
-constexpr double cosine_of_plane = 0.99985;  // of 1 degree: noise parts regions of one plate, cuts do not
-constexpr ThroughPrice room_price{1e-4, 5e-5, 10.0};
-
-constexpr double packed_badly =
-    0.45;                             // share of the square that a single island covers: less is tried in more islands,
-constexpr double worth_apart = 1.18;  // which have to be so many times as large,
-constexpr double usual_margin = 0.004;  // with this margin;
-constexpr double whole_mesh = 0.999;    // of the area of all surfaces: this one is alone
+constexpr double whole_mesh = 0.999;  // of the area of all surfaces: this one is alone
+constexpr double most_scaled = 4.0;   // factor by which the area of a face beside an island may change
 
 /// The longest island, in roots of the area of all surfaces. @param area of this surface
 double longest_island(double area, const UnfoldOptions& options)
 {
     if (!options.roomy) return std::numeric_limits<double>::infinity();
-    return options.compact ? packed_well : std::max(packed_well, side_of_nut * std::sqrt(area));
+    return options.compact ? tuning::longest_hard : std::max(tuning::longest_hard, side_of_nut * std::sqrt(area));
 }
 
 class Unfolding {
@@ -96,7 +78,7 @@ public:
                     if (is_planar(face_of(twin(h)))) at_planar += surface_.lengths[h];
                 }
             }
-            sum += at_planar > between_plates * outline ? area : planar;
+            sum += at_planar > tolerance::majority * outline ? area : planar;
         }
         return sum;
     }
@@ -107,8 +89,8 @@ public:
         for (std::size_t k = 0, count = islands_.size(); k < count; ++k) {
             Complex along;
             const double length = extent(islands_[k], along);
-            if (length > packed_well && surface_.areas(islands_[k]).sum() < thin * length * length)
-                cut_strip(k, along, static_cast<int>(std::ceil(length / packed_well)));
+            if (length > tuning::longest_hard && surface_.areas(islands_[k]).sum() < thin * length * length)
+                cut_strip(k, along, static_cast<int>(std::ceil(length / tuning::longest_hard)));
         }
     }
 
@@ -134,7 +116,7 @@ public:
         std::vector<SeamedMesh> pieces = connected_parts(rest);
         std::erase_if(pieces, [&](const SeamedMesh& piece) {
             return chart_[piece.face.front()] >= 0 ||
-                   surface_.areas(piece.face).sum() > small_rest * surface_.areas.sum();
+                   surface_.areas(piece.face).sum() > tuning::noticeable * surface_.areas.sum();
         });
         // A piece between two others waits until one of them is attached.
         for (std::size_t before = 0; before != pieces.size();) {
@@ -175,41 +157,15 @@ public:
     }
 
     /// The parts, cut between planar regions where the pieces need less room in the square; empty: nowhere.
-    std::vector<FlatPart> cut_for_room(const std::vector<FlatPart>& parts, ExecutionContext& context) const
+    std::vector<FlatPart> roomier(const std::vector<FlatPart>& parts, ExecutionContext& context) const
     {
-        DisjointSets uncut(chart_.size());  // faces of a region, or of a polygon
-        for (Index h = 0; h < halfedges(); ++h)
-            if (const Index t = charts_.net.twin[h];
-                t != no_twin && (charts_.net.whole[h] || charts_.region[face_of(h)] == charts_.region[face_of(t)] ||
-                                 normal(face_of(h)).dot(normal(face_of(t))) > cosine_of_plane))
-                uncut.join(face_of(h), face_of(t));
-        std::vector<HeldPart> held;
-        for (const FlatPart& part : parts) {
-            FlatPart& own = held.emplace_back(HeldPart{part, {}}).flat;
-            own.polygon.clear();
-            for (const Index f : part.faces) own.polygon.push_back(uncut.find(f));
-        }
-        std::vector<FlatPart> pieces;
-        if (!cut_parts_for_room(held, room_price, 1, context)) return pieces;
-        for (HeldPart& part : held) {
-            FlatPart& piece = pieces.emplace_back(std::move(part.flat));
-            piece.polygon.clear();
-            if (!surface_.polygon.empty())
-                for (const Index f : piece.faces) piece.polygon.push_back(surface_.polygon[f]);
-        }
-        return pieces;
+        return cut_between_planes(surface_, charts_, parts, context);
     }
 
 private:
     Index halfedges() const { return charts_.net.halfedge_count(); }
     Index twin(Index h) const { return surface_.surface.twin[h]; }
     Index island_of(Index h) const { return island_[chart_[face_of(h)]]; }
-
-    Eigen::RowVector3d normal(Index f) const
-    {
-        const auto corner = [&](int k) { return surface_.vertices.row(surface_.surface.triangles(f, k)); };
-        return (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNormalized();
-    }
 
     bool same(Complex a, Complex b) const { return std::abs(a - b) < charts_.near; }
 
@@ -277,7 +233,7 @@ private:
         for (const auto& [root, own] : pieces) {
             Complex unused;
             auto part = part_of(own);
-            if (!part || extent(own, unused) > packed_well) break;
+            if (!part || extent(own, unused) > tuning::longest_hard) break;
             parts.push_back(std::move(*part));
         }
         if (parts.size() != pieces.size()) {
@@ -322,6 +278,7 @@ private:
     /// enough. Smooth borders first, then the longest.
     std::vector<Index> borders() const
     {
+        // Borders of each pair of charts, and the whole boundary of each chart.
         std::map<std::pair<Index, Index>, std::vector<Index>> common;
         std::vector<double> boundary(islands_.size(), 0.0);
         for (Index h = 0; h < halfedges(); ++h) {
@@ -332,6 +289,7 @@ private:
             if (twin(h) == no_twin) continue;
             if (const Index b = chart_[face_of(twin(h))]; a < b) common[{a, b}].push_back(h);
         }
+        // At the longest edge of a border the charts are joined: what then lies in one place counts as common.
         std::vector<std::tuple<char, double, Index>> found;
         for (const auto& [charts, halfedges] : common) {
             const Index longest =
@@ -359,6 +317,7 @@ private:
         const PlaneMotion motion = motion_to(crease);
         Complex unused;
         const double longest = std::max({longest_, extent(islands_[a], unused), extent(islands_[b], unused)});
+        // The second island moves to the first one. Edges that then lie in one place are joined.
         std::vector<Index> joined;
         std::vector<Complex> before;
         for (const Index f : islands_[b])
@@ -379,6 +338,7 @@ private:
         std::vector<Index> faces = islands_[a];
         faces.insert(faces.end(), islands_[b].begin(), islands_[b].end());
         std::ranges::sort(faces);
+        // Undo it if the joined island is too long, or overlaps itself.
         std::optional<FlatPart> part;
         if (!(extent(faces, unused) > longest)) part = part_of(faces);
         if (!part) {
@@ -430,6 +390,7 @@ private:
         std::vector<Index> border = longest_border(piece);
         if (border.empty()) return false;
         const Index island = island_of(twin(in_net(border.front())));
+        // Its border stays where the island has it. The rest follows, conformal in the sense of least squares.
         std::map<Index, Complex> places;
         for (Index& h : border) {
             const Index t = twin(in_net(h));
@@ -450,6 +411,7 @@ private:
         } catch (const SolverError&) {
             return false;
         }
+        // Draw it. It stays by itself if a face becomes much larger or smaller.
         for (Index h = 0; h < piece.halfedge_count(); ++h) {
             charts_.at[in_net(h)] = image[origin(piece.fans, h)];
             if (piece.twin[h] != no_twin) charts_.net.twin[in_net(h)] = in_net(piece.twin[h]);
@@ -460,6 +422,7 @@ private:
             const double scale = 0.5 * std::imag(std::conj(b) * c) / std::max(surface_.areas[piece.face[f]], 1e-300);
             if (!(scale > 1.0 / most_scaled && scale < most_scaled)) return false;
         }
+        // Join it to the island, unless they overlap.
         for (const Index t : border) {
             charts_.net.twin[t] = twin(t);
             charts_.net.twin[twin(t)] = t;
@@ -501,10 +464,10 @@ std::optional<UnfoldedParts> larger_when_packed(const CutSurface& surface, Unfol
     const double area = surface.areas.sum();
     if (!whole || !options.roomy || whole->parts.size() != 1 || !whole->rest.empty() || area < whole_mesh) return whole;
     const double scale = quickly_packed_scale(whole->parts);
-    if (area * scale * scale >= packed_badly) return whole;
+    if (area * scale * scale >= tuning::packed_badly) return whole;
     options.compact = true;
     std::optional<UnfoldedParts> apart = unfold(options);
-    return apart && quickly_packed_scale(apart->parts) > worth_apart * scale ? apart : whole;
+    return apart && quickly_packed_scale(apart->parts) > tuning::worth_apart * scale ? apart : whole;
 }
 
 std::optional<UnfoldedParts> unfolded_once(const CutSurface& surface, ExecutionContext& context,
@@ -523,12 +486,12 @@ std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, Executio
 {
     const double area = surface.areas.sum();
     Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options);
-    if (!(unfolding.hard_area(large_chart * area) >= least_hard * area)) return {};
+    if (!(unfolding.hard_area(tuning::small_area * area) >= least_hard * area)) return {};
     if (options.roomy) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
     unfolding.attach_rest(context);
     UnfoldedParts found{unfolding.parts(), {}, unfolding.rest(), unfolding.cut_length()};
-    if (options.roomy && !options.cut_hard) found.roomier = unfolding.cut_for_room(found.parts, context);
+    if (options.roomy && !options.cut_hard) found.roomier = unfolding.roomier(found.parts, context);
     return found;
 }
 
@@ -546,13 +509,6 @@ std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionCont
 {
     return larger_when_packed(surface, options,
                               [&](const UnfoldOptions& own) { return hard_parts_once(surface, context, own); });
-}
-
-double quickly_packed_scale(const std::vector<FlatPart>& parts)
-{
-    std::vector<Outline> outlines;
-    for (const FlatPart& part : parts) outlines.push_back({part.points, part.surface.loops});
-    return pack_around(outlines, usual_margin, {}).scale;
 }
 
 }  // namespace koebe

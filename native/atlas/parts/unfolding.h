@@ -40,7 +40,4 @@ std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContex
 std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
                                         const UnfoldOptions& options = {});
 
-/// The scale at which parts fill the square, packed quickly with the usual margin.
-double quickly_packed_scale(const std::vector<FlatPart>& parts);
-
 }  // namespace koebe

@@ -1,5 +1,7 @@
 #include "parts/upright_parts.h"
 
+#include "cost/tolerances.h"
+#include "cost/tuning.h"
 #include "part_maps/part_mesh.h"
 #include "parts/packed_island.h"
 #include "planar/planar_predicates.h"
@@ -13,14 +15,10 @@
 namespace koebe {
 namespace {
 
-constexpr double still_straight = 0.9998;    // cosine of 1 degree: circles of fewer than 360 edges have none
 constexpr double long_edge = 0.15;           // in roots of the part's area
 constexpr double straight_as_drawn = 0.999;  // chord over length
-constexpr double worth_straightening = 0.3;  // of the outline's length, in one direction
-constexpr double worth_any_room = 0.5;       // of the outline's length, too;
-constexpr double most_room = 1.02;           // a box times as large as the smallest box is allowed for less
-constexpr double same_direction = 2e-3, exactly_same = 1e-6;  // radians
-constexpr double clearly_up = 0.5;                            // mean slope towards the height, 1 on a wall
+constexpr double exactly_same = 1e-6;        // radians
+constexpr double clearly_up = 0.5;           // mean slope towards the height, 1 on a wall
 
 /// A run of the outline that is straight in space, as it is drawn.
 struct StraightRun {
@@ -41,7 +39,7 @@ void straight_runs(const FlatPart& part, const VertexLoop& loop, double least, s
         return Complex(point[0], point[1]);
     };
     std::size_t corner = 0;
-    while (corner < count && direction(corner).dot(direction(corner + count - 1)) > still_straight) ++corner;
+    while (corner < count && direction(corner).dot(direction(corner + count - 1)) > tolerance::straight) ++corner;
     for (std::size_t i = corner; i < corner + count;) {
         const Eigen::RowVector3d first = direction(i);
         double in_space = 0.0, drawn = 0.0;
@@ -50,7 +48,7 @@ void straight_runs(const FlatPart& part, const VertexLoop& loop, double least, s
             in_space += (part.vertices.row(loop[(i + 1) % count]) - part.vertices.row(loop[i % count])).norm();
             drawn += std::abs(at(i + 1) - at(i));
             ++i;
-        } while (i < corner + count && direction(i).dot(first) > still_straight);
+        } while (i < corner + count && direction(i).dot(first) > tolerance::straight);
         const Complex chord = at(i) - at(begin);
         if (!(in_space >= least) || !(std::abs(chord) >= straight_as_drawn * drawn)) continue;
         constexpr double quarter = 0.5 * std::numbers::pi;
@@ -94,17 +92,18 @@ Complex straightening(const FlatPart& part)
     std::vector<StraightRun> runs;
     for (const VertexLoop& loop : part.surface.loops) straight_runs(part, loop, least, runs);
     std::ranges::sort(runs, {}, &StraightRun::angle);
-    const std::vector<StraightRun> alike = longest_together(runs, same_direction);
+    const std::vector<StraightRun> alike = longest_together(runs, tolerance::off_axis);
     double length = 0.0;
     for (const StraightRun& run : alike) length += run.length;
-    if (!(length > worth_straightening * outline)) return 0.0;
+    if (!(length > tolerance::along_axes * outline)) return 0.0;
     const std::vector<StraightRun> same = longest_together(alike, exactly_same);
     const StraightRun& longest = *std::ranges::max_element(same, {}, &StraightRun::length);
     const Complex turn = std::conj(longest.chord) / longest.length;
     // Where straight edges are the smaller part of the outline, the part must not need more room.
     const double smallest = box_size(upright_island({part.points, part.surface.loops}).points).prod();
-    const bool has_room = box_size(place_island(part.points, {turn}, 1.0)).prod() <= most_room * smallest;
-    return length > worth_any_room * outline || has_room ? turn : 0.0;
+    const bool has_room =
+        box_size(place_island(part.points, {turn}, 1.0)).prod() <= (1.0 + tuning::noticeable) * smallest;
+    return length > tolerance::majority * outline || has_room ? turn : 0.0;
 }
 
 /// The mean gradient of the height, as a direction of length 1; 0: the part has no clear up.

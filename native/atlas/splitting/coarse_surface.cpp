@@ -1,6 +1,7 @@
 #include "splitting/coarse_surface.h"
 
 #include "mesh/halfedge_mesh.h"
+#include "surface/face_vectors.h"
 
 #include <Eigen/Geometry>
 
@@ -82,19 +83,17 @@ private:
     /// The tip of a cone stays for as long as an edge that is as long as its faces' edges together.
     void note_tips(const Vertices& vertices, const Triangles& triangles)
     {
-        std::vector<double> angle(parent.size(), 0.0), around(parent.size(), 0.0);
+        const VectorXd angle = angle_sums(vertices, triangles);
+        std::vector<double> around(parent.size(), 0.0);
         for (const auto face : triangles.rowwise())
-            for (int k = 0; k < 3; ++k) {
-                const Eigen::RowVector3d a = vertices.row(face[(k + 1) % 3]) - vertices.row(face[k]);
-                const Eigen::RowVector3d b = vertices.row(face[(k + 2) % 3]) - vertices.row(face[k]);
-                angle[face[k]] += std::atan2(a.cross(b).norm(), a.dot(b));
-                around[face[k]] += a.norm();
-            }
+            for (int k = 0; k < 3; ++k)
+                around[face[k]] += (vertices.row(face[(k + 1) % 3]) - vertices.row(face[k])).norm();
         for (std::size_t v = 0; v < parent.size(); ++v) {
             const Vertex own(static_cast<int>(v));
             const double sides = on_border(own) ? 2.0 : 1.0;  // half of the faces round it are here
             if (on_border(own) || !mesh.is_boundary(own))
-                reach_[v] = std::abs(1.0 - sides * angle[v] / (2.0 * std::numbers::pi)) * sides * around[v];
+                reach_[v] = std::abs(1.0 - sides * angle[static_cast<Eigen::Index>(v)] / (2.0 * std::numbers::pi)) *
+                            sides * around[v];
         }
     }
 
@@ -223,6 +222,7 @@ CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangle
     const HalfedgeMesh& mesh = coarsening.mesh;
     std::vector<Index>& parent = coarsening.parent;
     CoarseSurface coarse;
+    // The faces that are left, with vertices numbered as they come.
     std::vector<Index> number(parent.size(), -1);
     std::vector<Eigen::RowVector3i> rows;
     for (Index f = 0; f < static_cast<Index>(mesh.n_faces()); ++f) {
@@ -243,6 +243,7 @@ CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangle
     coarse.vertices = vertices(coarse.vertex, Eigen::all);
     coarse.triangles.resize(static_cast<Eigen::Index>(rows.size()), 3);
     for (std::size_t f = 0; f < rows.size(); ++f) coarse.triangles.row(static_cast<Eigen::Index>(f)) = rows[f];
+    // Where the other vertices went.
     coarse.vertex_at.resize(parent.size());
     for (std::size_t v = 0; v < parent.size(); ++v) {
         Index root = static_cast<Index>(v);

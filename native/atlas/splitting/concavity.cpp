@@ -1,6 +1,7 @@
 #include "splitting/concavity.h"
 
 #include "core/connectivity.h"
+#include "surface/face_vectors.h"
 
 #include <Eigen/Geometry>
 
@@ -19,17 +20,9 @@ VectorXd mean_curvature(const CutSurface& whole, double radius)
     const Triangles& triangles = whole.surface.triangles;
     const Eigen::Index faces = triangles.rows(), vertices = whole.vertices.rows();
     Eigen::MatrixX3d normals(faces, 3);
-    const Eigen::RowVector3d center = whole.vertices.colwise().mean();
-    double outward = 0.0;
-    for (Eigen::Index f = 0; f < faces; ++f) {
-        const Eigen::RowVector3d a = whole.vertices.row(triangles(f, 0));
-        const Eigen::RowVector3d b = whole.vertices.row(triangles(f, 1)) - a;
-        const Eigen::RowVector3d c = whole.vertices.row(triangles(f, 2)) - a;
-        const Eigen::RowVector3d normal = b.cross(c);
-        outward += normal.dot(a + (b + c) / 3.0 - center);
-        normals.row(f) = normal.normalized();
-    }
-    const double side = outward < 0.0 ? -1.0 : 1.0;
+    for (Eigen::Index f = 0; f < faces; ++f)
+        normals.row(f) = twice_area_vector(whole.vertices, triangles, f).normalized();
+    const double side = outer_side(whole.vertices, triangles);
 
     // Half the edge's length times its bend, shared by its ends; over the area of the faces round them.
     VectorXd bend = VectorXd::Zero(vertices), area = bend, length = bend, count = bend;
@@ -49,6 +42,7 @@ VectorXd mean_curvature(const CutSurface& whole, double radius)
         bend[w] += share;
     }
 
+    // Averages both over rounds of neighbours: so many that they reach about as far as the radius.
     const double step = length.sum() / std::max(count.sum(), 1.0);
     const int rounds = static_cast<int>(
         std::clamp(std::ceil(std::pow(radius / std::max(step, 1e-12), 2)), 1.0, most_diffusion_rounds));

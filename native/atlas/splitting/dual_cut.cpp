@@ -159,6 +159,7 @@ void drop_ears(const PartMesh& part, std::vector<int>& label)
 
 std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& given, const VectorXd& factor)
 {
+    // A node for each group of free faces that are not cut apart. Faces with a side are the source or the sink.
     std::vector<Side> sides = given;
     Groups groups(part, sides);
     constexpr Index source = 0, sink = 1;
@@ -176,6 +177,7 @@ std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& give
                   : sides[f] == Side::outside ? sink
                                               : node[groups.root(static_cast<Index>(f))];
 
+    // The capacity between two nodes is the length of their border.
     Graph graph(count);
     std::vector<double> to_source(count, 0.0), to_sink(count, 0.0);
     for (Index h = 0; h < static_cast<Index>(part.surface.twin.size()); ++h) {
@@ -196,6 +198,7 @@ std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& give
         if (to_source[v] > 0.0) add_edge(graph, source, v, to_source[v]);
         if (to_sink[v] > 0.0) add_edge(graph, v, sink, to_sink[v]);
     }
+    // The cut of least length: what the source still reaches is inside.
     boost::boykov_kolmogorov_max_flow(graph, source, sink);
     const auto color = boost::get(boost::vertex_color, graph);
     std::vector<int> label(sides.size());

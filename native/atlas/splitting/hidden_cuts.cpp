@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cost/costs.h"
 #include "execution/side_by_side.h"
 #include "mesh/nearest_first.h"
 #include "splitting/concavity.h"
@@ -15,15 +16,6 @@
 
 namespace koebe {
 namespace {
-
-constexpr double scale = 0.03;      // size of the hollows that count, in roots of the area
-constexpr double band = 0.08;       // half the width in which a cut may move, in roots of the area
-constexpr double least_core = 0.6;  // of a part's area: at least this stays in the part
-constexpr double strength = 0.5;    // log of the factor on an edge's length, for a standard deviation of the curvature
-constexpr double most_deviation = 1.5;  // standard deviations that count
-constexpr double worthwhile = 0.98;     // weighted length of a border, over that before
-constexpr double small_price = 0.1;     // of a part's price: most that hiding a cut may cost
-constexpr double longest = 1.02;        // length of a border, over its length before; longer where it is shown
 
 /// Distance of each face from the border, from middle to middle; the nearest first. @param label (F) 0 and 1
 std::vector<double> border_distance(const PartMesh& both, const std::vector<int>& label)
@@ -49,7 +41,7 @@ std::vector<double> border_distance(const PartMesh& both, const std::vector<int>
 /// The width within which neither part loses too much.
 double band_width(const PartMesh& both, const std::vector<int>& label, const std::vector<double>& distance)
 {
-    double width = band;
+    double width = tuning::hidden_band;
     for (const int side : {0, 1}) {
         std::vector<std::pair<double, double>> order;
         double whole = 0.0, passed = 0.0;
@@ -61,7 +53,7 @@ double band_width(const PartMesh& both, const std::vector<int>& label, const std
         std::ranges::sort(order);
         for (const auto& [d, area] : order) {
             passed += area;
-            if (passed > (1.0 - least_core) * whole) {
+            if (passed > (1.0 - tuning::hidden_core) * whole) {
                 width = std::min(width, d);
                 break;
             }
@@ -92,7 +84,7 @@ VectorXd visibility(const PartMesh& both, const VectorXd& curvature, const std::
     const double mean = sum / count, deviation = std::sqrt(std::max(squares / count - mean * mean, 0.0));
     if (!(deviation > 0.0)) return factor;
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
-        factor[h] *= std::exp(strength * std::clamp((of_edge(h) - mean) / deviation, -most_deviation, most_deviation));
+        factor[h] *= hollow_factor((of_edge(h) - mean) / deviation);
     return factor;
 }
 
@@ -138,6 +130,7 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
     std::vector<Index> faces = a.mesh.faces;
     faces.insert(faces.end(), b.mesh.faces.begin(), b.mesh.faces.end());
     const PartMesh both = some_or_all(whole, std::move(faces));
+    // The border may move in a band beside it.
     std::vector<int> label;
     for (const Index f : both.faces) label.push_back(std::ranges::binary_search(a.mesh.faces, f));
     const std::vector<double> distance = border_distance(both, label);
@@ -149,11 +142,14 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
             sides[f] = label[f] ? Side::inside : Side::outside;
             in_band[f] = 0;
         }
+    // It becomes the cut of least weighted length there, if that is worth it: not longer, no more pieces or loops.
     const VectorXd factor = visibility(both, curvature, in_band);
     const std::vector<int> cut = minimum_cut(both, sides, factor);
     if (cut.empty() || cut == label) return {};
     const BorderCost before = border_cost(both, label, factor), after = border_cost(both, cut, factor);
-    if (!(after.seen < worthwhile * before.seen) || after.shown > longest * before.shown) return {};
+    if (!(after.seen < (1.0 - tuning::noticeable) * before.seen) ||
+        after.shown > (1.0 + tuning::noticeable) * before.shown)
+        return {};
     Index pieces = 0;
     connected_pieces(both, cut, pieces);
     if (pieces != 2) return {};
@@ -164,12 +160,13 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
     if (first->mesh.surface.loops.size() != a.mesh.surface.loops.size() ||
         second->mesh.surface.loops.size() != b.mesh.surface.loops.size())
         return {};
+    // The parts may cost a little more.
     map_anew(whole, *first, context, effort);
     map_anew(whole, *second, context, effort);
     const double gain = a.map.overflow + b.map.overflow - first->map.overflow - second->map.overflow +
-                        options.cut_price * (before.length - after.length);
+                        options.of(0.0, before.length - after.length);
     const bool loses = first->map.lost_area + second->map.lost_area > a.map.lost_area + b.map.lost_area;
-    if (loses || gain < -small_price * options.part_price) return {};
+    if (loses || gain < -tuning::little_price * options.part_price) return {};
     return {first, second};
 }
 
@@ -216,7 +213,7 @@ void hide_cuts(const CutSurface& whole, const SplitOptions& options, std::vector
                ExecutionContext& context, SplitEffort& effort)
 {
     if (parts.size() < 2) return;
-    const VectorXd curvature = mean_curvature(whole, scale);
+    const VectorXd curvature = mean_curvature(whole, tuning::hollow_scale);
     for (Borders borders = longest_borders(whole, parts); !borders.empty();) {
         const Borders wave = next_borders(borders);
         std::vector<std::pair<PartPointer, PartPointer>> moved(wave.size());

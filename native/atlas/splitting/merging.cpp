@@ -1,4 +1,5 @@
 #include "core/connectivity.h"
+#include "cost/tuning.h"
 #include "execution/side_by_side.h"
 #include "splitting/piece_forecast.h"
 #include "splitting/splitting.h"
@@ -14,7 +15,6 @@ constexpr double worth_mapping = -0.25;  // of a part's price: with a larger pre
 constexpr std::size_t most_at_once = 4;  // merges tried side by side, for any number of threads
 constexpr std::size_t few = 20;          // a part with fewer faces is small, and
 constexpr std::size_t small = 400;       // a part with less than one face in so many of the whole
-constexpr double small_worth = 4.0;      // prices of a part: a small part stays if it saves more, beside its own price
 constexpr double sure = 0.5;             // of price and forecast: a larger gain needs no map
 
 /// The smallest part from which both parts come.
@@ -58,7 +58,7 @@ PartPointer joined(const CutSurface& whole, const Part& a, const Part& b, std::s
 /// The cost of both parts, and the price of having two.
 double cost_apart(const Part& a, const Part& b, double border, const SplitOptions& options)
 {
-    return a.map.overflow + b.map.overflow + options.part_price + options.cut_price * border;
+    return a.map.overflow + b.map.overflow + options.of(1.0, border);
 }
 
 /// Both parts as one, if that is better. For parts of the two halves of a closed surface: they have no common origin.
@@ -174,10 +174,11 @@ void merge_small_parts(const CutSurface& whole, const SplitOptions& options, std
         const auto found = std::ranges::find_if(
             parts, [&](const PartPointer& part) { return part->mesh.faces.size() < largest && !kept.contains(part); });
         if (found == parts.end()) return;
+        // The neighbour for which both as one cost least, if they lose no more area.
         const int own = static_cast<int>(found - parts.begin());
         PartPointer best;
         int neighbour = -1;
-        double best_gain = -small_worth * options.part_price;
+        double best_gain = -tuning::small_part_worth * options.part_price;
         for (const auto& [pair, length] : borders(whole, parts)) {
             if (pair.first != own && pair.second != own) continue;
             context.checkpoint();
@@ -193,6 +194,7 @@ void merge_small_parts(const CutSurface& whole, const SplitOptions& options, std
             best = std::move(both);
             neighbour = other;
         }
+        // Merge them, or let the part be.
         if (neighbour < 0) {
             kept.insert(*found);
             continue;

@@ -1,6 +1,7 @@
 #include "splitting/mirror_symmetry.h"
 
 #include "core/connectivity.h"
+#include "cost/costs.h"
 #include "mesh/connected_pieces.h"
 
 #include <Eigen/Eigenvalues>
@@ -15,9 +16,6 @@
 
 namespace koebe {
 namespace {
-
-constexpr double worth = 2.0;    // symmetric parts may cost this times as much,
-constexpr double little = 0.03;  // or this much more: a texel density that is 3 % off everywhere, which nobody sees
 
 double border_of(const CutSurface& whole, const std::vector<PartPointer>& parts)
 {
@@ -34,13 +32,10 @@ double border_of(const CutSurface& whole, const std::vector<PartPointer>& parts)
 
 double cost_of(const CutSurface& whole, const SplitOptions& options, const std::vector<PartPointer>& parts)
 {
-    double cost = options.part_price * static_cast<double>(parts.size()) + options.cut_price * border_of(whole, parts);
+    double cost = options.of(static_cast<double>(parts.size()), border_of(whole, parts));
     for (const PartPointer& part : parts) cost += part->map.overflow;
     return cost;
 }
-
-/// What symmetric parts may cost. @param cost of others
-double most_cost(double cost) { return std::max(worth * cost, cost + little); }
 
 /// Sets of faces: the parts of one side, and their images.
 std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mirror& mirror,
@@ -84,7 +79,7 @@ std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mi
 bool is_worth_symmetry(const CutSurface& whole, const SplitOptions& options, const std::vector<PartPointer>& symmetric,
                        const std::vector<PartPointer>& others)
 {
-    return cost_of(whole, options, symmetric) < most_cost(cost_of(whole, options, others));
+    return cost_of(whole, options, symmetric) < most_cost_of_symmetric(cost_of(whole, options, others));
 }
 
 std::vector<std::vector<Index>> faces_of_sides(const CutSurface& whole, const Mirror& mirror)
@@ -103,10 +98,12 @@ bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const 
 {
     if (mirror.image.empty()) return false;
     if (parts.size() < 2) return true;
+    // Parts that stay need no new map.
     std::map<std::vector<Index>, PartPointer> known;
     for (const PartPointer& part : parts) known.emplace(part->mesh.faces, part);
-    double best = most_cost(cost_of(whole, options, parts));
+    double best = most_cost_of_symmetric(cost_of(whole, options, parts));
     std::vector<PartPointer> chosen;
+    // The parts of one side and their images, for both sides: the cheaper ones, if they cost little enough.
     for (const double side : {1.0, -1.0}) {
         std::vector<PartPointer> mirrored;
         std::vector<std::vector<Index>> sets = mirrored_faces(whole, mirror, parts, side);

@@ -2,11 +2,11 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "cost/tuning.h"
 #include "mesh/connected_pieces.h"
 #include "mesh/nearest_first.h"
+#include "surface/face_vectors.h"
 #include "surface/nearest_triangles.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,8 @@
 namespace koebe {
 namespace {
 
-constexpr int most_rounds = 30;               // of smoothing the border between the sides
-constexpr double least_piece_of_side = 0.02;  // of the area: smaller pieces go to the other side
-constexpr double sharp_tip = 5.0;             // radians round a vertex: with less it is the tip of a cone
+constexpr int most_rounds = 30;    // of smoothing the border between the sides
+constexpr double sharp_tip = 5.0;  // radians round a vertex: with less it is the tip of a cone
 
 /// Which faces are on the first side. The border between the sides has no corner of one face, and no face or edge
 /// leads from one of its vertices to another.
@@ -103,7 +102,7 @@ private:
         std::size_t largest = 0;
         for (std::size_t k = 0; k < area.size(); ++k)
             if (first[k] && (!first[largest] || area[k] > area[largest])) largest = k;
-        const double least = least_piece_of_side * whole_.areas.sum();
+        const double least = tuning::noticeable * whole_.areas.sum();
         for (std::size_t f = 0; f < piece.size(); ++f) {
             const auto own = static_cast<std::size_t>(piece[f]);
             if (first[own] ? own != largest : area[own] < least) is_first[f] = !is_first[f];
@@ -121,15 +120,10 @@ bool has_tip_beside(const CutSurface& whole, const MirrorPlane& plane, const std
     const Triangles& triangles = whole.surface.triangles;
     std::vector<char> beside = boundary_mask(whole.surface);
     for (std::size_t v = 0; v < beside.size(); ++v) beside[v] = !beside[v] && !border[v];
-    VectorXd angle = VectorXd::Zero(static_cast<Eigen::Index>(beside.size())), longest = angle;
-    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
-        const Index v = origin(triangles, h);
-        const Eigen::RowVector3d a = whole.vertices.row(target(triangles, h)) - whole.vertices.row(v);
-        const Eigen::RowVector3d b =
-            whole.vertices.row(origin(triangles, previous_halfedge(h))) - whole.vertices.row(v);
-        angle[v] += std::atan2(a.cross(b).norm(), a.dot(b));
-        longest[v] = std::max(longest[v], a.norm());
-    }
+    const VectorXd angle = angle_sums(whole.vertices, triangles);
+    VectorXd longest = VectorXd::Zero(angle.size());
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
+        longest[origin(triangles, h)] = std::max(longest[origin(triangles, h)], whole.lengths[h]);
     for (Index v = 0; v < static_cast<Index>(beside.size()); ++v)
         if (beside[v] && angle[v] < sharp_tip && std::abs(plane.distance(whole.vertices.row(v))) < longest[v])
             return true;
@@ -258,6 +252,93 @@ void note_others(const CutSurface& whole, const Sides& sides, CoarseSurface& coa
                 coarse.vertex_at[w] = coarse.vertex_at[v];
 }
 
+/// One side of a surface, with its border in the plane.
+struct Half {
+    Vertices vertices;
+    Triangles triangles;
+    std::vector<Index> vertex;  // (V) of the whole
+    std::vector<char> border;   // (V) 1 in the plane
+};
+
+/// @param border_of_whole (V) 1 between the sides @return nothing if the side is no surface
+std::optional<Half> half_of(const CutSurface& whole, const MirrorPlane& plane, const Sides& sides,
+                            const std::vector<char>& border_of_whole)
+{
+    // The faces of the first side, with vertices of their own.
+    Half half;
+    std::vector<Index> number(border_of_whole.size(), -1), own;
+    for (Index f = 0; f < static_cast<Index>(sides.is_first.size()); ++f)
+        if (sides.is_first[f]) own.push_back(f);
+    half.triangles = whole.surface.triangles(own, Eigen::all);
+    for (Index& v : half.triangles.reshaped()) {
+        if (number[v] < 0) {
+            number[v] = static_cast<Index>(half.vertex.size());
+            half.vertex.push_back(v);
+        }
+        v = number[v];
+    }
+
+    // The border goes to its nearest points in the plane.
+    half.vertices = whole.vertices(half.vertex, Eigen::all);
+    for (const Index v : half.vertex) half.border.push_back(border_of_whole[v]);
+    for (std::size_t i = 0; i < half.vertex.size(); ++i)
+        if (half.border[i]) {
+            const auto row = static_cast<Eigen::Index>(i);
+            half.vertices.row(row) -= plane.distance(half.vertices.row(row)) * plane.normal;
+        }
+    try {
+        analyze_surface(half.triangles, static_cast<Index>(half.vertex.size()));
+    } catch (const TopologyError&) {
+        return {};
+    }
+    return half;
+}
+
+/// A coarse side and its mirror image as one surface. Vertices of the other side get the names of fine ones there.
+/// @param coarse of the half @return nothing if there are no names, or not the topology of the whole
+std::optional<CoarseSurface> doubled(const CutSurface& whole, const MirrorPlane& plane, const Sides& sides,
+                                     const Half& half, const CoarseSurface& coarse, const std::vector<Index>& image)
+{
+    // The image of each vertex: itself in the plane, else a new one.
+    CoarseSurface both;
+    const auto count = static_cast<Index>(coarse.vertex.size());
+    std::vector<Index> twin(coarse.vertex.size()), beside;  // beside the plane
+    for (Index v = 0; v < count; ++v) {
+        twin[v] = v;
+        if (half.border[coarse.vertex[v]]) continue;
+        twin[v] = count + static_cast<Index>(beside.size());
+        beside.push_back(v);
+    }
+    for (const Index v : coarse.vertex) both.vertex.push_back(half.vertex[v]);
+    std::vector<Index> originals;
+    Vertices places(static_cast<Eigen::Index>(beside.size()), 3);
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+        originals.push_back(both.vertex[beside[i]]);
+        places.row(static_cast<Eigen::Index>(i)) = plane.image(coarse.vertices.row(beside[i]));
+    }
+    const std::vector<Index> names = NamesOfImages(whole, sides, image).take(originals, places);
+    if (names.empty()) return {};
+
+    // The faces of the side, and their images turned over.
+    both.vertex.insert(both.vertex.end(), names.begin(), names.end());
+    both.vertices.resize(count + places.rows(), 3);
+    both.vertices << coarse.vertices, places;
+    const Eigen::Index rows = coarse.triangles.rows();
+    both.triangles.resize(2 * rows, 3);
+    both.triangles.topRows(rows) = coarse.triangles;
+    for (Eigen::Index f = 0; f < rows; ++f)
+        both.triangles.row(rows + f) << twin[coarse.triangles(f, 0)], twin[coarse.triangles(f, 2)],
+            twin[coarse.triangles(f, 1)];
+    if (!corresponds(whole.surface, both)) return {};
+
+    // Where fine vertices are.
+    both.vertex_at.assign(static_cast<std::size_t>(whole.surface.vertex_count), -1);
+    for (std::size_t i = 0; i < half.vertex.size(); ++i) both.vertex_at[half.vertex[i]] = coarse.vertex_at[i];
+    for (std::size_t i = 0; i < names.size(); ++i) both.vertex_at[names[i]] = count + static_cast<Index>(i);
+    note_others(whole, sides, both);
+    return both;
+}
+
 /// Whether a vertex has so many faces that boxes do not tell them apart: images are found in a tree of boxes.
 bool has_needles(const CutSurface& whole)
 {
@@ -274,74 +355,14 @@ std::optional<CoarseSurface> mirrored_coarse_surface(const CutSurface& whole, co
                                                      ExecutionContext& context)
 {
     if (has_needles(whole)) return {};
-    // One side, with its border in the plane.
     Sides sides(whole, plane);
     if (!sides.smooth()) return {};
-    const std::vector<char> border_of_whole = sides.border_vertices();
-    if (has_tip_beside(whole, plane, border_of_whole)) return {};
-    std::vector<Index> number(border_of_whole.size(), -1), vertex;
-    std::vector<Index> own;
-    for (Index f = 0; f < static_cast<Index>(sides.is_first.size()); ++f)
-        if (sides.is_first[f]) own.push_back(f);
-    Triangles triangles = whole.surface.triangles(own, Eigen::all);
-    for (Index& v : triangles.reshaped()) {
-        if (number[v] < 0) {
-            number[v] = static_cast<Index>(vertex.size());
-            vertex.push_back(v);
-        }
-        v = number[v];
-    }
-    Vertices vertices = whole.vertices(vertex, Eigen::all);
-    std::vector<char> border;
-    for (const Index v : vertex) border.push_back(border_of_whole[v]);
-    for (std::size_t i = 0; i < vertex.size(); ++i)
-        if (border[i]) {
-            const auto row = static_cast<Eigen::Index>(i);
-            vertices.row(row) -= plane.distance(vertices.row(row)) * plane.normal;
-        }
-    try {
-        analyze_surface(triangles, static_cast<Index>(vertex.size()));
-    } catch (const TopologyError&) {
-        return {};
-    }
-    const CoarseSurface half = coarse_surface(vertices, triangles, faces / 2, {}, context, border);
-
-    // The other side.
-    CoarseSurface coarse;
-    const auto count = static_cast<Index>(half.vertex.size());
-    std::vector<Index> twin(half.vertex.size()), beside;  // the image of each vertex; vertices beside the plane
-    for (Index v = 0; v < count; ++v) {
-        twin[v] = v;
-        if (border[half.vertex[v]]) continue;
-        twin[v] = count + static_cast<Index>(beside.size());
-        beside.push_back(v);
-    }
-    for (const Index v : half.vertex) coarse.vertex.push_back(vertex[v]);
-    std::vector<Index> originals;
-    Vertices places(static_cast<Eigen::Index>(beside.size()), 3);
-    for (std::size_t i = 0; i < beside.size(); ++i) {
-        originals.push_back(coarse.vertex[beside[i]]);
-        places.row(static_cast<Eigen::Index>(i)) = plane.image(half.vertices.row(beside[i]));
-    }
-    const std::vector<Index> names = NamesOfImages(whole, sides, image).take(originals, places);
-    if (names.empty()) return {};
-    coarse.vertex.insert(coarse.vertex.end(), names.begin(), names.end());
-    coarse.vertices.resize(count + places.rows(), 3);
-    coarse.vertices << half.vertices, places;
-    const Eigen::Index rows = half.triangles.rows();
-    coarse.triangles.resize(2 * rows, 3);
-    coarse.triangles.topRows(rows) = half.triangles;
-    for (Eigen::Index f = 0; f < rows; ++f)
-        coarse.triangles.row(rows + f) << twin[half.triangles(f, 0)], twin[half.triangles(f, 2)],
-            twin[half.triangles(f, 1)];
-    if (!corresponds(whole.surface, coarse)) return {};
-
-    // Where fine vertices are.
-    coarse.vertex_at.assign(border_of_whole.size(), -1);
-    for (std::size_t i = 0; i < vertex.size(); ++i) coarse.vertex_at[vertex[i]] = half.vertex_at[i];
-    for (std::size_t i = 0; i < names.size(); ++i) coarse.vertex_at[names[i]] = count + static_cast<Index>(i);
-    note_others(whole, sides, coarse);
-    return coarse;
+    const std::vector<char> border = sides.border_vertices();
+    if (has_tip_beside(whole, plane, border)) return {};
+    const std::optional<Half> half = half_of(whole, plane, sides, border);
+    if (!half) return {};
+    const CoarseSurface coarse = coarse_surface(half->vertices, half->triangles, faces / 2, {}, context, half->border);
+    return doubled(whole, plane, sides, *half, coarse, image);
 }
 
 }  // namespace koebe

@@ -3,6 +3,7 @@
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
 #include "core/connectivity.h"
+#include "cost/tuning.h"
 #include "part_maps/even_pole.h"
 
 #include <algorithm>
@@ -72,14 +73,14 @@ double tube_overflow(const MapSample& sample, const Circle& circle)
     const VectorXd u = sample.u.array() + std::log(1.0 - std::norm(about)) -
                        0.5 * (sample.centers.array() - about).abs2().max(tiny).log() -
                        0.5 * (1.0 - std::conj(about) * sample.centers.array()).abs2().max(tiny).log();
-    return u.allFinite() ? rough_overflow(u, sample.areas) : lost_cost * sample.areas.sum();
+    return u.allFinite() ? rough_overflow(u, sample.areas) : tuning::lost_cost * sample.areas.sum();
 }
 
 /// @param loops loops of the piece, the outer loop first
 void judge(MapSample sample, const std::vector<PieceLoop>& loops, PieceForecast& forecast)
 {
     const double known = forecast.area - forecast.lost_area;
-    forecast.overflow = lost_cost * forecast.lost_area;
+    forecast.overflow = tuning::lost_cost * forecast.lost_area;
     if (sample.u.size() == 0 || !(known > 0.0)) return;
     Circle outer = loops.front().circle;
     if (!(outer.radius > 0.0)) outer = {};
@@ -93,7 +94,7 @@ void judge(MapSample sample, const std::vector<PieceLoop>& loops, PieceForecast&
     circles.front() = {};
     const EvenPole pole = even_pole(every(sample, pole_samples), circles, 0);
     const MapSample disk = moved(sample, circles, pole);
-    double overflow = disk.u.allFinite() ? rough_overflow(disk.u, disk.areas) : lost_cost * disk.areas.sum();
+    double overflow = disk.u.allFinite() ? rough_overflow(disk.u, disk.areas) : tuning::lost_cost * disk.areas.sum();
     if (circles.size() == 2) overflow = std::min(overflow, tube_overflow(sample, circles[1]));
     forecast.overflow += overflow * known / sample.areas.sum();
 }

@@ -2,6 +2,7 @@
 
 #include "circles/moebius.h"
 #include "core/connectivity.h"
+#include "cost/tuning.h"
 #include "execution/side_by_side.h"
 #include "part_maps/log_polar.h"
 
@@ -13,9 +14,8 @@
 namespace koebe {
 namespace {
 
-constexpr double window_share = 0.85;  // of even_range
-constexpr double margin = 0.35;        // in u: faces beyond it are surely on the other side
-constexpr double apart = 0.5;          // in u: between the windows that are proposed
+constexpr double margin = 0.35;  // in u: faces beyond it are surely on the other side
+constexpr double apart = 0.5;    // in u: between the windows that are proposed
 constexpr std::size_t most_windows = 3, most_tips = 6, most_holes = 6;
 
 struct Window {
@@ -29,7 +29,7 @@ Window window_at(const PartMesh& part, const PartMap& map, double from)
     std::vector<int> label(part.faces.size());
     for (std::size_t f = 0; f < label.size(); ++f) {
         const double u = map.u[static_cast<Eigen::Index>(f)];
-        label[f] = u >= from && u <= from + window_share * even_range;
+        label[f] = u >= from && u <= from + tuning::window_share * tuning::even_range;
     }
     Window window{from, 0.0, -1, {}};
     Index count = 0;
@@ -51,6 +51,7 @@ std::vector<Window> best_windows(const PartMesh& part, const PartMap& map)
     for (std::size_t f = 0; f < map.lost.size(); ++f)
         if (!map.lost[f]) u.push_back(map.u[static_cast<Eigen::Index>(f)]);
     if (u.empty()) return {};
+    // Windows at equal steps over the values of u, without the outermost hundredths.
     const auto quantile = [&](std::size_t at) {
         std::nth_element(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(at), u.end());
         return u[at];
@@ -59,17 +60,19 @@ std::vector<Window> best_windows(const PartMesh& part, const PartMap& map)
     const double step = std::max(0.12, (high - low) / 60.0);
     std::vector<Window> open, best;
     for (double from = low - 0.5; from < high; from += step) open.push_back({from, 0.0, -1, {}});
+    // The area in each: faces enter the first window that reaches them and leave after the last.
     std::vector<double> change(open.size() + 1, 0.0);
     const auto first_at = [&](double from) {
         return static_cast<std::size_t>(
             std::clamp(std::ceil((from - open.front().from) / step), 0.0, static_cast<double>(open.size())));
     };
     for (Eigen::Index f = 0; f < map.u.size(); ++f) {
-        change[first_at(map.u[f] - window_share * even_range)] += part.areas[f];
+        change[first_at(map.u[f] - tuning::window_share * tuning::even_range)] += part.areas[f];
         change[first_at(map.u[f])] -= part.areas[f];
     }
     double sum = 0.0;
     for (std::size_t i = 0; i < open.size(); ++i) open[i].area = (sum += change[i]) + 1e-9 * part.area;
+    // The best ones. A window is looked at closely when its area is the largest left.
     while (!open.empty() && best.size() < most_windows) {
         const auto largest =
             std::ranges::max_element(open, [](const Window& a, const Window& b) { return a.area < b.area; });
@@ -91,7 +94,7 @@ Proposal propose(const PartMap& map, const Window& window)
         const double u = map.u[static_cast<Eigen::Index>(f)];
         if (window.pieces[f] == window.piece)
             proposal.sides[f] = Side::inside;
-        else if (u < window.from - margin || u > window.from + window_share * even_range + margin)
+        else if (u < window.from - margin || u > window.from + tuning::window_share * tuning::even_range + margin)
             proposal.sides[f] = Side::outside;
     }
     return proposal;
@@ -113,7 +116,7 @@ std::vector<Complex> tips(const PartMesh& part, const PartMap& map, const Window
         if (!label[f]) continue;
         const auto face = static_cast<Eigen::Index>(f);
         Tip& tip = all[piece[f]];
-        tip.cost += part.areas[face] * std::min(window.from - map.u[face], lost_cost);
+        tip.cost += part.areas[face] * std::min(window.from - map.u[face], tuning::lost_cost);
         if (map.u[face] < tip.u) {
             tip.u = map.u[face];
             tip.place = map.centers[face];

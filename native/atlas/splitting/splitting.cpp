@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/length.h"
+#include "cost/costs.h"
 #include "execution/side_by_side.h"
 #include "splitting/halving.h"
 #include "splitting/piece_forecast.h"
@@ -15,15 +16,9 @@
 namespace koebe {
 namespace {
 
-constexpr double remaining = 0.6;          // of an uneven child's cost: left after later splits
-constexpr double unknown_cost = 0.25;      // in u: cost of a face that the parent's map lost, as its own map may not
 constexpr std::size_t most_looked_at = 8;  // most proposals of a part
 constexpr std::size_t most_verified = 3;   // proposals whose children are mapped
-constexpr double nearly_all = 0.9;         // of a part's area: a larger child leaves only a small part beside it
-constexpr double least_return = 0.5;       // of the price: the cost that a split must save at once
 constexpr double worth_verifying = 1.1;    // of the best gain so far, as forecast
-constexpr double surely_lost = 0.02;       // of a part's area: such a child needs its own map
-constexpr double hopeless = 1.0;           // overflow over area: so uneven that any cut in two is better than none
 constexpr double most_maps = 12.0;         // faces mapped, over the surface's: then parts that are open stay whole
 constexpr std::size_t few_open = 3;        // with fewer open parts, the work for each part goes side by side too
 constexpr double most_off_round = 0.12;    // radii: a child with a loop less round is mapped before it is judged, if it
@@ -38,19 +33,10 @@ struct Split {
 
 double cost_of(const PartMap& map)
 {
-    return map.measured ? map.overflow : std::max(map.overflow - (lost_cost - unknown_cost) * map.lost_area, 0.0);
+    return map.measured ? map.overflow : doubtful_overflow(map.overflow, map.lost_area);
 }
 
-double cost_of(const PieceForecast& forecast)
-{
-    return std::max(forecast.overflow - (lost_cost - unknown_cost) * forecast.lost_area, 0.0);
-}
-
-/// The part of a child's cost that is left in the end.
-double expected_cost(double cost, double price)
-{
-    return cost > 2.0 * price ? 2.0 * price + remaining * (cost - 2.0 * price) : cost;
-}
+double cost_of(const PieceForecast& forecast) { return doubtful_overflow(forecast.overflow, forecast.lost_area); }
 
 double border_length(const PartMesh& part, const std::vector<int>& label)
 {
@@ -76,8 +62,7 @@ void make_children(const CutSurface& whole, const PartPointer& part, Split& spli
 /// by itself, without hope for later splits: otherwise small parts would be cut off one after the other.
 double gain_of(const Split& split, const Part& part, const SplitOptions& options)
 {
-    const double price =
-        options.cut_price * split.border + options.part_price * static_cast<double>(split.forecasts.size() - 1);
+    const double price = options.of(static_cast<double>(split.forecasts.size() - 1), split.border);
     double left = 0.0, expected = 0.0, largest = 0.0;
     for (std::size_t k = 0; k < split.forecasts.size(); ++k) {
         const bool measured = k < split.children.size() && split.children[k]->map.positions.size() > 0;
@@ -87,8 +72,8 @@ double gain_of(const Split& split, const Part& part, const SplitOptions& options
         expected += expected_cost(cost, options.part_price);
     }
     const double before = cost_of(part.map);
-    const bool leaves_little = largest > nearly_all * part.mesh.area;
-    return leaves_little && before - left < least_return * price ? -price : before - expected - price;
+    const bool leaves_little = largest > tuning::nearly_all * part.mesh.area;
+    return leaves_little && before - left < tuning::least_return * price ? -price : before - expected - price;
 }
 
 /// The splits that seem to pay, the best first.
@@ -98,6 +83,7 @@ std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions&
     std::vector<Proposal> all = proposals(part->mesh, part->map, threads, context);
     std::ranges::stable_sort(all, [](const Proposal& a, const Proposal& b) { return a.area > b.area; });
     if (all.size() > most_looked_at) all.resize(most_looked_at);
+    // A short border for each proposal, and each border once.
     std::vector<Split> splits;
     std::vector<std::vector<int>> labels(all.size());
     side_by_side(all.size(), threads, context, [&](std::size_t i, ExecutionContext& own) {
@@ -108,6 +94,7 @@ std::vector<Split> promising_splits(const PartPointer& part, const SplitOptions&
     std::vector<std::vector<int>> different;
     for (std::vector<int>& label : labels)
         if (!label.empty() && std::ranges::count(different, label) == 0) different.push_back(std::move(label));
+    // What the pieces cost by the map of the part.
     splits.resize(different.size());
     side_by_side(different.size(), threads, context, [&](std::size_t i, ExecutionContext& own) {
         own.checkpoint();
@@ -148,10 +135,10 @@ Split best_split(const CutSurface& whole, const PartPointer& part, const SplitOp
 
 }  // namespace
 
-void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort, bool exact)
+void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort, MapPurpose purpose)
 {
     context.checkpoint();
-    part.map = map_part(part.mesh, exact && whole.exact, context);
+    part.map = map_part(part.mesh, std::min(purpose, whole.purpose), context);
     effort.maps += static_cast<double>(part.mesh.faces.size()) / static_cast<double>(whole.areas.size());
 }
 
@@ -206,7 +193,7 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
                ExecutionContext& context)
 {
     Step step;
-    if (!part->map.measured && part->map.lost_area > surely_lost * part->mesh.area)
+    if (!part->map.measured && part->map.lost_area > tuning::noticeable * part->mesh.area)
         map_anew(whole, *part, context, step.effort);
     Split split;
     if (!part->settled && part->map.overflow > options.part_price && !is_late)
@@ -222,7 +209,7 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
             return step;
         }
     }
-    if (part->map.overflow > std::max(options.part_price, hopeless * part->mesh.area) && !is_late)
+    if (part->map.overflow > std::max(options.part_price, tuning::hopeless * part->mesh.area) && !is_late)
         step.open = halved(whole, part, threads, context, step.effort);
     if (!step.open.empty()) return step;
     part->settled = true;

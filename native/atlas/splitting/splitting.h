@@ -1,6 +1,7 @@
 // Splits a surface into parts where that pays, maps the parts, and merges them again where a cut does not pay.
 #pragma once
 
+#include "cost/costs.h"
 #include "part_maps/part_map.h"
 
 #include <memory>
@@ -10,10 +11,8 @@
 
 namespace koebe {
 
-struct SplitOptions {
-    double part_price = 0.0;  ///< price of a part, in overflow
-    double cut_price = 0.0;   ///< price of a cut as long as the root of the area
-    int threads = 1;          ///< most threads; 0: one for each core. The result is the same for any number
+struct SplitOptions : CutPrices {
+    int threads = 1;  ///< most threads; 0: one for each core. The result is the same for any number
 };
 
 struct Part {
@@ -31,8 +30,9 @@ struct SplitEffort {
     int cuts = 0;       ///< number of minimum cuts
 };
 
-/// Maps a part anew.
-void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort, bool exact = true);
+/// Maps a part anew. The map only judges if that is its purpose, or that of all maps of the whole.
+void map_anew(const CutSurface& whole, Part& part, ExecutionContext& context, SplitEffort& effort,
+              MapPurpose purpose = MapPurpose::result);
 
 /// Maps parts anew, side by side.
 void map_all(const CutSurface& whole, const std::vector<Part*>& parts, int threads, ExecutionContext& context,

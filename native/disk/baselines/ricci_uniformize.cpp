@@ -5,9 +5,7 @@
 #include "core/counted.h"
 #include "core/tolerances.h"
 #include "ears/ear_map.h"
-#include "execution/detachable_run.h"
-#include "execution/peak_memory.h"
-#include "execution/stopwatch.h"
+#include "execution/run_on_copies.h"
 #include "linear/dense_spd.h"
 #include "pipeline/final_check.h"
 #include "pipeline/flip_removal.h"
@@ -16,6 +14,7 @@
 #include "pipeline/map_warnings.h"
 #include "pipeline/normalization.h"
 #include "quality/distortion.h"
+#include "quality/map_clock.h"
 #include "quality/take_verdict.h"
 #include "surface/intrinsic_metric.h"
 
@@ -67,7 +66,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.face_count = static_cast<Index>(triangles.rows());
     result.center = options.common.center;
     result.point = options.common.point;
-    const Stopwatch run;
+    MapClock clock;
 
     context.begin_stage("topology", 0.0, 0.05);
     const MapInput whole = prepare_input(vertices, triangles, options.common);
@@ -76,12 +75,11 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     if (!cut.ears.empty()) core = core_input(whole, cut);
     const MapInput& input = core ? *core : whole;
     result.outer_loop = input.outer_rank;
-    result.seconds.topology = run.elapsed();
+    clock.end(&StageSeconds::topology);
 
     context.begin_stage("metric", 0.05, 0.1);
-    Stopwatch stage;
     const IntrinsicMetric metric = intrinsic_metric(input.vertices, input.surface, {.delaunay = options.delaunay});
-    result.seconds.metric = stage.lap();
+    clock.end(&StageSeconds::metric);
 
     context.begin_stage("iterate", 0.1, 0.9);
     RicciFlowOptions flow_options{.packing = options.packing,
@@ -97,7 +95,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
     result.sweeps = flow.outcome.sweeps;
     result.steps = flow.outcome.steps;
     result.history = flow.outcome.history;
-    result.seconds.iterate = stage.lap();
+    clock.end(&StageSeconds::iterate);
 
     context.begin_stage("finish", 0.9, 1.0);
     CircleMap map = in_normal_position(flow, input);
@@ -127,10 +125,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
         result.warnings.push_back(faults.warning("not one to one: ", whole.original, whole.original_faces));
     }
     take_verdict({.most_lost = options.common.most_lost, .done = true}, result);
-    result.seconds.finish = stage.lap();
-    result.seconds.total = run.elapsed();
-    result.peak_memory_mb = peak_memory_mb();
-    context.advance(1.0);
+    clock.finish(result, context);
     return result;
 }
 
@@ -139,9 +134,7 @@ UniformizeResult run_pipeline(const Vertices& vertices, const Triangles& triangl
 UniformizeResult ricci_uniformize(const Vertices& vertices, const Triangles& triangles, const RicciOptions& options,
                                   ExecutionContext& context)
 {
-    return run_detachable<UniformizeResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return run_pipeline(vertices, triangles, options, own);
-    });
+    return run_on_copies<UniformizeResult>(context, run_pipeline, vertices, triangles, options);
 }
 
 }  // namespace koebe

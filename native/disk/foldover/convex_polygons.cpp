@@ -1,14 +1,14 @@
 #include "foldover/convex_polygons.h"
 
 #include "core/counted.h"
-#include "core/errors.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
+#include "foldover/polygon_outlines.h"
 #include "foldover/repair_effort.h"
+#include "foldover/uv_mesh.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -21,166 +21,11 @@
 namespace koebe {
 namespace {
 
-constexpr double least_turn = 1e-6;         // of a corner's triangle, over the polygon's area
 constexpr double guard_weight = 0.1;        // of a corner's triangle in the sum; a face has 1
 constexpr double stored_loss = 1.5e-7;      // twice the area a face can lose by rounding, over its longest edge, in UVs
 constexpr double wanted_height = 0.05;      // of a corner's triangle that is not upright, over its longest edge
 constexpr int mend_rings[] = {1, 2, 4, 8};  // of polygons around a concave one
 constexpr std::size_t few_steps = 100000;   // allowed effort in steps of a face (repair_effort.h), and 5 for each face
-
-/// Whether each corner turns left, and all corners go round once.
-/// @param left (a, b, c) -> whether the corner b turns left
-template <class Left>
-bool goes_round_convex(std::span<const Complex> points, const Left& left)
-{
-    const std::size_t n = points.size();
-    int changes = 0;  // of the half-plane in which an edge points: two in one turn
-    const auto points_down = [](Complex d) { return d.imag() < 0.0 || (d.imag() == 0.0 && d.real() < 0.0); };
-    for (std::size_t i = 0; i < n; ++i) {
-        const Complex a = points[i], b = points[(i + 1) % n], c = points[(i + 2) % n];
-        if (!left(a, b, c)) return false;
-        changes += points_down(b - a) != points_down(c - b) ? 1 : 0;
-    }
-    return changes == 2;
-}
-
-bool is_convex_as_stored(std::span<const Complex> uv)
-{
-    const auto stored = [](Complex z) { return StoredPoint{as_stored(z.real()), as_stored(z.imag())}; };
-    return goes_round_convex(
-        uv, [&](Complex a, Complex b, Complex c) { return !StoredFace(stored(a), stored(b), stored(c)).doubtful(); });
-}
-
-/// Whether a polygon's projection onto the plane of its area vector is convex.
-bool is_convex_in_space(std::span<const Eigen::Vector3d> corners)
-{
-    // In units of the polygon, so that no square over- or underflows.
-    std::vector<Eigen::Vector3d> p;
-    double unit = 0.0;
-    for (const Eigen::Vector3d& corner : corners) {
-        p.push_back(0.5 * corner - 0.5 * corners.front());
-        unit = std::max(unit, p.back().lpNorm<Eigen::Infinity>());
-    }
-    if (!(unit > 0.0)) return false;
-    for (Eigen::Vector3d& corner : p) corner /= unit;
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < p.size(); ++i) normal += p[i].cross(p[(i + 1) % p.size()]);
-    const double area = normal.norm();  // twice
-    if (!(area > 0.0)) return false;
-    const Eigen::Vector3d across = normal.unitOrthogonal(), up = (normal / area).cross(across);
-    std::vector<Complex> flat;
-    for (const Eigen::Vector3d& corner : p) flat.emplace_back(corner.dot(across), corner.dot(up));
-    return goes_round_convex(flat,
-                             [&](Complex a, Complex b, Complex c) { return cross(b - a, c - a) > least_turn * area; });
-}
-
-/// The faces of each polygon of two triangles or more, and the corners along its outline.
-class PolygonOutlines {
-public:
-    explicit PolygonOutlines(const SurfacePolygons& surface) : surface_(surface), turned_(surface.triangles.rows(), 0)
-    {
-        const std::vector<Index>& polygon = surface.polygon;
-        if (polygon.empty()) return;
-        if (polygon.size() != turned_.size()) throw InputError("there must be a polygon for each face");
-        for (const Index f : surface.turned) turned_[f] = 1;
-        std::vector<Index> order(polygon.size());
-        std::iota(order.begin(), order.end(), 0);
-        if (!std::ranges::is_sorted(polygon)) std::ranges::stable_sort(order, {}, [&](Index f) { return polygon[f]; });
-        std::vector<char> out(turned_.size(), 0);
-        for (const Index f : surface.left_out) out[f] = 1;
-        for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-            while (end < order.size() && polygon[order[end]] == polygon[order[begin]]) ++end;
-            const std::span<const Index> faces(order.data() + begin, order.data() + end);
-            if (faces.size() > 1 && std::ranges::none_of(faces, [&](Index f) { return out[f] != 0; })) add(faces);
-        }
-    }
-
-    Index count() const { return static_cast<Index>(face_begin_.size()) - 1; }
-    std::span<const Index> faces(Index i) const
-    {
-        return {faces_.data() + face_begin_[i], faces_.data() + face_begin_[i + 1]};
-    }
-    /// Half-edges along the outline, each by its first corner 3 f + k; empty if the outline is not one simple loop.
-    std::span<const Index> outline(Index i) const
-    {
-        return {outlines_.data() + outline_begin_[i], outlines_.data() + outline_begin_[i + 1]};
-    }
-    /// The k-th corner of a face in the map's orientation, as 3 f + k in the input's.
-    Index corner(Index face, int k) const { return 3 * face + (turned_[face] != 0 && k > 0 ? 3 - k : k); }
-    Index vertex(Index corner) const { return surface_.triangles.data()[corner]; }
-
-    bool convex_in_space(Index i) const
-    {
-        std::vector<Eigen::Vector3d> corners;
-        for (const Index c : outline(i)) corners.push_back(surface_.vertices.row(vertex(c)).transpose());
-        return !corners.empty() && is_convex_in_space(corners);
-    }
-
-    /// Whether each vertex has one place in the polygon, and all places make a convex polygon.
-    bool convex_in(Index i, const PlanarPoints& uv) const
-    {
-        const std::span<const Index> around = outline(i);
-        std::vector<Complex> places;
-        for (const Index c : around) places.emplace_back(uv(c, 0), uv(c, 1));
-        return !around.empty() && is_convex_as_stored(places) && !torn(i, uv);
-    }
-
-    bool torn(Index i, const PlanarPoints& uv) const
-    {
-        std::vector<std::pair<Index, Index>> corners;
-        for (const Index f : faces(i))
-            for (Index c = 3 * f; c < 3 * f + 3; ++c) corners.emplace_back(vertex(c), c);
-        std::ranges::sort(corners);
-        for (std::size_t k = 1; k < corners.size(); ++k)
-            if (corners[k].first == corners[k - 1].first &&
-                !(uv.row(corners[k].second) == uv.row(corners[k - 1].second)))
-                return true;
-        return false;
-    }
-
-private:
-    struct Edge {
-        Index from, to, corner;
-    };
-
-    void add(std::span<const Index> faces)
-    {
-        faces_.insert(faces_.end(), faces.begin(), faces.end());
-        face_begin_.push_back(faces_.size());
-        add_outline(faces);
-        outline_begin_.push_back(outlines_.size());
-    }
-
-    /// Half-edges without an opposite one in the polygon, in their order round it.
-    void add_outline(std::span<const Index> faces)
-    {
-        edges_.clear();
-        for (const Index f : faces)
-            for (int k = 0; k < 3; ++k)
-                edges_.push_back({vertex(corner(f, k)), vertex(corner(f, (k + 1) % 3)), corner(f, k)});
-        const auto ends = [](const Edge& edge) { return std::pair(edge.from, edge.to); };
-        std::ranges::sort(edges_, {}, ends);
-        outer_.clear();
-        for (const Edge& edge : edges_)
-            if (!std::ranges::binary_search(edges_, std::pair(edge.to, edge.from), {}, ends)) outer_.push_back(edge);
-        if (outer_.size() != faces.size() + 2) return;
-        const std::size_t begin = outlines_.size();
-        Index at = outer_.front().from;
-        do {
-            const auto next = std::ranges::equal_range(outer_, at, {}, &Edge::from);
-            if (next.size() != 1 || outlines_.size() - begin == outer_.size()) return outlines_.resize(begin);
-            outlines_.push_back(next.front().corner);
-            at = next.front().to;
-        } while (at != outer_.front().from);
-        if (outlines_.size() - begin != outer_.size()) outlines_.resize(begin);
-    }
-
-    const SurfacePolygons& surface_;
-    std::vector<char> turned_;
-    std::vector<Index> faces_, outlines_;
-    std::vector<std::size_t> face_begin_{0}, outline_begin_{0};
-    std::vector<Edge> edges_, outer_;  // of one polygon
-};
 
 std::vector<Index> concave_ones(const PolygonOutlines& polygons, const PlanarPoints& uv)
 {
@@ -189,138 +34,6 @@ std::vector<Index> concave_ones(const PolygonOutlines& polygons, const PlanarPoi
         if (!polygons.convex_in(i, uv) && polygons.convex_in_space(i)) found.push_back(i);
     return found;
 }
-
-/// The corners of the UVs that are one place, and the polygons around it. A triangle outside all polygons is a cell of
-/// its own, as each polygon is.
-class UvMesh {
-public:
-    UvMesh(const SurfacePolygons& surface, const PolygonOutlines& polygons, PlanarPoints& uv)
-        : surface_(surface), polygons_(polygons), uv_(uv), node_(static_cast<std::size_t>(3 * surface.triangles.rows()))
-    {
-        make_cells();
-        make_nodes();
-        for (Index c = 0; c < static_cast<Index>(node_.size()); ++c) corners_.push_back(c);
-        std::ranges::stable_sort(corners_, {}, [&](Index c) { return node_[c]; });
-        for (std::size_t i = 0; i < corners_.size(); ++i)
-            while (begin_.size() <= static_cast<std::size_t>(node_[corners_[i]])) begin_.push_back(i);
-        begin_.push_back(corners_.size());
-    }
-
-    Index node(Index corner) const { return node_[corner]; }
-    bool held(Index node) const { return held_[node] != 0; }
-    /// Whether only two polygons meet at an inner vertex. Their angles there make a full turn, so one is not convex.
-    bool between_two(Index corner) const
-    {
-        const Index node = node_[corner];
-        if (held(node) || at_rim_[node] != 0) return false;
-        std::array<Index, 2> met{cell(corner), -1};
-        for (const Index c : corners(node)) {
-            if (cell(c) == met[0] || cell(c) == met[1]) continue;
-            if (met[1] >= 0) return false;
-            met[1] = cell(c);
-        }
-        return true;
-    }
-    Index node_count() const { return static_cast<Index>(held_.size()); }
-    std::span<const Index> corners(Index node) const
-    {
-        return {corners_.data() + begin_[node], corners_.data() + begin_[node + 1]};
-    }
-    Index cell(Index corner) const { return cell_[corner / 3]; }
-    Index cell_count() const { return cell_count_; }
-    std::span<const Index> faces(Index cell) const
-    {
-        return cell < polygons_.count() ? polygons_.faces(cell)
-                                        : std::span<const Index>(&single_[cell - polygons_.count()], 1);
-    }
-    Complex place(Index corner) const { return {uv_(corner, 0), uv_(corner, 1)}; }
-
-private:
-    void make_cells()
-    {
-        cell_.assign(node_.size() / 3, -1);
-        for (Index i = 0; i < polygons_.count(); ++i)
-            for (const Index f : polygons_.faces(i)) cell_[f] = i;
-        for (Index f = 0; f < static_cast<Index>(cell_.size()); ++f)
-            if (cell_[f] < 0) {
-                cell_[f] = polygons_.count() + static_cast<Index>(single_.size());
-                single_.push_back(f);
-            }
-        cell_count_ = polygons_.count() + static_cast<Index>(single_.size());
-    }
-
-    /// Joins the corners over edges whose two sides lie in one place, or differ by a translation if the map is
-    /// periodic. A corner at any other edge is held.
-    void make_nodes()
-    {
-        struct Side {
-            Index low, high, from, to;  // vertices, and corners of the half-edge
-        };
-        std::vector<Side> sides;
-        for (Index f = 0; f < static_cast<Index>(cell_.size()); ++f)
-            for (int k = 0; k < 3; ++k) {
-                const Index from = polygons_.corner(f, k), to = polygons_.corner(f, (k + 1) % 3);
-                const Index a = polygons_.vertex(from), b = polygons_.vertex(to);
-                sides.push_back({std::min(a, b), std::max(a, b), from, to});
-            }
-        const auto ends = [](const Side& side) { return std::pair(side.low, side.high); };
-        std::ranges::stable_sort(sides, {}, ends);
-        std::vector<Index> root(node_.size());
-        std::iota(root.begin(), root.end(), 0);
-        const auto find = [&](Index c) {
-            while (root[c] != c) c = root[c] = root[root[c]];
-            return c;
-        };
-        std::vector<char> open(node_.size(), 0);
-        for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-            while (end < sides.size() && ends(sides[end]) == ends(sides[begin])) ++end;
-            const Side& one = sides[begin];
-            const Side& two = sides[end - 1];
-            const bool joined = end - begin == 2 && polygons_.vertex(one.from) == polygons_.vertex(two.to) &&
-                                is_same_side(place(two.to) - place(one.from), place(two.from) - place(one.to));
-            if (joined) {
-                root[find(two.to)] = find(one.from);
-                root[find(two.from)] = find(one.to);
-            } else {
-                for (std::size_t i = begin; i < end; ++i) open[sides[i].from] = open[sides[i].to] = 1;
-            }
-        }
-        std::vector<Index> number(node_.size(), -1);
-        for (Index c = 0; c < static_cast<Index>(node_.size()); ++c) {
-            Index& own = number[find(c)];
-            if (own < 0) {
-                own = static_cast<Index>(held_.size());
-                held_.push_back(0);
-                at_rim_.push_back(0);
-            }
-            node_[c] = own;
-            if (open[c] == 0) continue;
-            at_rim_[own] = 1;
-            if (!surface_.free_rims) held_[own] = 1;
-        }
-        if (surface_.held.empty()) return;
-        std::vector<char> stays(static_cast<std::size_t>(surface_.vertices.rows()), 0);
-        for (const Index v : surface_.held) stays[v] = 1;
-        for (Index c = 0; c < static_cast<Index>(node_.size()); ++c)
-            if (stays[polygons_.vertex(c)] != 0) held_[node_[c]] = 1;
-    }
-
-    bool is_same_side(Complex first, Complex second) const
-    {
-        return first == second && (surface_.periodic || first == Complex(0.0, 0.0));
-    }
-
-    const SurfacePolygons& surface_;
-    const PolygonOutlines& polygons_;
-    const PlanarPoints& uv_;
-    std::vector<Index> cell_, single_;  // (F) cell of each face; faces outside all polygons
-    Index cell_count_ = 0;
-    std::vector<Index> node_;     // (3F)
-    std::vector<char> held_;      // of each node
-    std::vector<char> at_rim_;    // of each node: 1 on a loop, or on a side of a cut
-    std::vector<Index> corners_;  // by node
-    std::vector<std::size_t> begin_;
-};
 
 class PolygonMender {
 public:

@@ -6,8 +6,8 @@
 #include "core/errors.h"
 #include "embedding/embedded_map.h"
 #include "embedding/fixed_places.h"
-#include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
+#include "execution/run_on_copies.h"
 #include "execution/stopwatch.h"
 #include "execution/thread_share.h"
 #include "foldover/angle_polish.h"
@@ -355,9 +355,7 @@ UniformizeResult uniformize_here(const Vertices& vertices, const Triangles& tria
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options,
                             ExecutionContext& context)
 {
-    return run_detachable<UniformizeResult>(context, [vertices, triangles, options](ExecutionContext& own) {
-        return uniformize_here(vertices, triangles, options, own);
-    });
+    return run_on_copies<UniformizeResult>(context, uniformize_here, vertices, triangles, options);
 }
 
 UniformizeResult uniformize(const Vertices& vertices, const Triangles& triangles, const UniformizeOptions& options)

@@ -1,9 +1,12 @@
 #include "sphere/elastic_sphere.h"
 
+#include "even/even_map.h"
+#include "even/wanted_shapes.h"
 #include "foldover/face_energy.h"
 #include "sphere/sphere_check.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +21,14 @@ constexpr double unregularized = 1e-9;   // the epsilon of the energy: its faces
 constexpr double diagonal_shift = 1e-8;  // of the Hessian, relative: turns of the sphere cost nothing
 constexpr double least_fall = 1e-4;      // of the energy, over the fall that the slope promises (Armijo)
 constexpr int most_halvings = 30;
+
+constexpr double nearest_size = 8.0;  // most ratio of the area that a face wants next to its present area,
+constexpr double few_far_off = 1e-3;  // until sizes differ by more only on this share of the area
+constexpr int most_approaches = 30;
+constexpr int steps_an_approach = 4;
+constexpr int last_steps = 60;
+constexpr double settled_fall = 5e-4;   // relative decrease of the energy
+constexpr double lightest_face = 1e-3;  // weight of a face, over the mean
 
 using Frame = Eigen::Matrix<double, 3, 2>;  // two unit vectors
 
@@ -216,6 +227,42 @@ ElasticRelaxation relax_on_sphere(const ElasticSphere& sphere, Vertices& points,
                                   KeptFactor& factor, const ExecutionContext& context)
 {
     return SphereRelaxation(sphere, points, factor).run(most_steps, settled, context);
+}
+
+bool make_sphere_even(const PeriodicSurface& domain, double even, Vertices& points, const ExecutionContext& context)
+{
+    const Triangles& triangles = domain.surface.triangles;
+    if (!all_upright(triangles, points)) return false;
+    // The surface, scaled to the area that the faces cover on the sphere, and its faces laid flat.
+    const auto area_now = [&](Eigen::Index f) { return 0.5 * flat_edges(points, triangles, f).determinant(); };
+    double covered = 0.0;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) covered += area_now(f);
+    const Vertices surface = domain.vertices / scale_to_size(domain.vertices, triangles, 1.0) * std::sqrt(covered);
+    const PatchShapes shapes = wanted_shapes(surface, triangles, PlanarPoints::Zero(points.rows(), 2), {});
+    ElasticSphere sphere{triangles, shapes.references, shapes.areas.cwiseMax(lightest_face * shapes.areas.mean())};
+    sphere.weight /= sphere.weight.sum();
+    sphere.area_weight = area_weight(even);
+    sphere.held.assign(static_cast<std::size_t>(points.rows()), 0);
+    for (const VertexLoop& loop : domain.loops)
+        for (const Index v : loop) sphere.held[v] = 1;
+    // Sizes within a factor of the present ones are wanted first, until few faces are farther off.
+    KeptFactor factor;
+    int steps = 0;
+    for (int approach = 0; approach < most_approaches; ++approach) {
+        double far = 0.0;
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+            const double ratio = shapes.areas[f] / area_now(f);
+            const double wanted = std::clamp(ratio, 1.0 / nearest_size, nearest_size);
+            if (wanted != ratio) far += shapes.areas[f];
+            sphere.reference[f] = shapes.references[f] * std::sqrt(wanted / ratio);
+        }
+        if (!(far > few_far_off * shapes.areas.sum())) break;
+        steps += relax_on_sphere(sphere, points, steps_an_approach, settled_fall, factor, context).steps;
+    }
+    // Then the surface's own sizes.
+    sphere.reference = shapes.references;
+    steps += relax_on_sphere(sphere, points, last_steps, settled_fall, factor, context).steps;
+    return steps > 0;
 }
 
 }  // namespace koebe

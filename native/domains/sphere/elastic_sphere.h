@@ -4,6 +4,7 @@
 #include "core/types.h"
 #include "execution/execution.h"
 #include "linear/kept_factor.h"
+#include "surface/periodic_surface.h"
 
 #include <Eigen/Core>
 
@@ -50,5 +51,13 @@ ElasticRelaxation relax_on_sphere(const ElasticSphere& sphere, Vertices& points,
 
 /// Whether all faces are upright, in exact arithmetic.
 bool all_upright(const Triangles& triangles, const Vertices& points);
+
+/// Minimizes E_t of even/even_map.h, from the surface's faces to the flat faces on the sphere. The surface is scaled to
+/// the area of the map. At first sizes are wanted that are near the present ones (Liu, Ye, Ni and Fu 2018). Vertices of
+/// loops stay.
+/// @param points (V, 3) unit vectors @param even E, above 0 to 1
+/// @return false, with the points as they were, if the map has faces that are not upright, or none that moves
+/// @throws Cancelled
+bool make_sphere_even(const PeriodicSurface& domain, double even, Vertices& points, const ExecutionContext& context);
 
 }  // namespace koebe

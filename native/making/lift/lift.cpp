@@ -4,8 +4,8 @@
 #include "core/counted.h"
 #include "core/enum_words.h"
 #include "core/sort_unique.h"
-#include "execution/detachable_run.h"
 #include "execution/peak_memory.h"
+#include "execution/run_on_copies.h"
 #include "execution/stopwatch.h"
 #include "execution/thread_share.h"
 #include "lift/bent_mesh.h"
@@ -345,9 +345,7 @@ const char* to_string(LiftShape shape) noexcept
 LiftResult lift(const Vertices& vertices, const Triangles& triangles, const std::string& pattern,
                 const LiftOptions& options, ExecutionContext& context)
 {
-    return run_detachable<LiftResult>(context, [vertices, triangles, pattern, options](ExecutionContext& own) {
-        return lift_here(vertices, triangles, pattern, options, own);
-    });
+    return run_on_copies<LiftResult>(context, lift_here, vertices, triangles, pattern, options);
 }
 
 }  // namespace koebe

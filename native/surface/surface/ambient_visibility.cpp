@@ -1,6 +1,7 @@
 #include "surface/ambient_visibility.h"
 
 #include "core/silent_cgal.h"
+#include "surface/face_vectors.h"
 #include "surface/triangle_tree.h"
 
 #include <Eigen/Geometry>
@@ -48,15 +49,9 @@ private:
 Vertices outward_normals(const Vertices& vertices, const Triangles& triangles)
 {
     Vertices normals = Vertices::Zero(vertices.rows(), 3);
-    const Eigen::RowVector3d center = vertices.colwise().mean();
-    double outward = 0.0;
-    for (const auto row : triangles.rowwise()) {
-        const Eigen::RowVector3d a = vertices.row(row[0]), b = vertices.row(row[1]), c = vertices.row(row[2]);
-        const Eigen::RowVector3d normal = (b - a).cross(c - a);
-        outward += normal.dot((a + b + c) / 3.0 - center);
-        for (const Index v : row) normals.row(v) += normal;
-    }
-    return outward < 0.0 ? -normals : normals;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        for (const Index v : triangles.row(f)) normals.row(v) += twice_area_vector(vertices, triangles, f);
+    return outer_side(vertices, triangles) * normals;
 }
 
 /// The first neighbour that a face gives a vertex: with the normal it makes a frame that turns with the surface.

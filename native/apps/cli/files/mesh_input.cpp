@@ -34,8 +34,7 @@ MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions op
     const Stopwatch reading;
     const ThreadShare threads(options.threads);
     MeshInput input;
-    if (options.hash) input.sha256 = input_hash(path);
-    input.file = read_mesh_file(path);
+    input.file = read_hashed(path, options, input.sha256);
     input.polygons = parse_mesh(input.file.bytes, input.file.extension);
     if (options.uv_set) input.uvs = uvs_of(input.file, input.polygons, *options.uv_set);
     const MeshFormat* const format = io::mesh_format(input.file.extension);
@@ -62,12 +61,13 @@ void join_vertices(MeshInput& input, const ReadOptions& options)
 
 }  // namespace
 
-std::string input_hash(const std::filesystem::path& path)
+MeshFile read_hashed(const std::filesystem::path& path, const ReadOptions& options, std::string& sha256)
 {
     // Hash before reading: if the file changes in between, the hash belongs to no mesh, and the map is not taken for
     // another mesh's.
     std::error_code error;
-    return std::filesystem::is_regular_file(path, error) ? batch::sha256_of_file(path) : "";
+    if (options.hash && std::filesystem::is_regular_file(path, error)) sha256 = batch::sha256_of_file(path);
+    return read_mesh_file(path);
 }
 
 void triangulate_input(MeshInput& input, const ReadOptions& options)

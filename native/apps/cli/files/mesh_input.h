@@ -74,8 +74,9 @@ struct ReadOptions {
 /// @throws FileError, InputError, Cancelled
 MeshInput read_mesh_input(const std::filesystem::path& path, const CancelToken& token, const ReadOptions& options = {});
 
-/// The hash of a file before it is read; empty for a pipe or a device.
-std::string input_hash(const std::filesystem::path& path);
+/// Reads a file. @param sha256 takes its hash before, if the options ask for it; stays empty for a pipe or a device
+/// @throws FileError
+MeshFile read_hashed(const std::filesystem::path& path, const ReadOptions& options, std::string& sha256);
 
 /// Joins vertices, triangulates the polygons, and adds warnings about left out ones, and about coincident vertices.
 /// @throws InputError

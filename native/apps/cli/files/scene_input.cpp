@@ -12,8 +12,7 @@ SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
     const Stopwatch reading;
     const ThreadShare threads(options.threads);
     SceneInput scene;
-    if (options.hash) scene.sha256 = input_hash(path);
-    scene.file = read_mesh_file(path);
+    scene.file = read_hashed(path, options, scene.sha256);
     scene.meshes = read_gltf_meshes(scene.file.bytes);
     std::vector<PlanarPoints> uvs;
     if (options.uv_set) uvs = read_gltf_uvs(scene.file.bytes, *options.uv_set);

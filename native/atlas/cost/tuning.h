@@ -1,0 +1,133 @@
+// The numbers that were chosen, not derived: by them a cut pays or does not. Each row has the unit, the meaning, and
+// where the value comes from; "chosen" means that no measurement is kept. costs.h has the formulas, and
+// docs/developers/costs.md prints both. tolerances.h says what counts as flat, straight and similar. Limits of the
+// effort stand where they are used.
+#pragma once
+
+namespace koebe::tuning {
+
+// Uneven texels. u = 1/2 log(UV area / area), overflow in area times u.
+/// u | width of the even window | 0.8 log 3: texels within a factor 3 are even, less a fifth for rounding
+inline constexpr double even_range = 0.8 * 1.0986122886681098;
+/// u | most that a face costs, and what a lost face costs | prototype
+inline constexpr double lost_cost = 6.0;
+/// u | a face lost in the map of the parent: its own map may have it | chosen
+inline constexpr double doubtful_cost = 0.25;
+/// of a cost above two prices | what is left after later splits | prototype
+inline constexpr double later_share = 0.6;
+/// of even_range | width of the windows that are proposed as parts | prototype
+inline constexpr double window_share = 0.85;
+/// overflow over area | so uneven that any cut in two is better than none | chosen
+inline constexpr double hopeless = 1.0;
+/// overflow over area | most for one map that can be painted on | chosen
+inline constexpr double most_uneven = 2.0;
+/// overflow over area | what repairs may add without a price | chosen
+inline constexpr double free_unevenness = 0.5;
+
+// Bent angles.
+/// degrees | a smaller mean angle error is not seen: no other layout is tried | chosen
+inline constexpr double unseen_error = 1.0;
+/// degrees | the surface is crumpled, and a map without repairs says little | crumpled pieces
+inline constexpr double crumpled_error = 10.0;
+/// degrees | what repairs may add without a price | chosen
+inline constexpr double free_bend = 5.0;
+/// of the parts' angle error | one map with more is not repaired: repairs remove no more | crumpled pieces
+inline constexpr double repairable = 1.2;
+/// of an overflow or angle error | other parts with less are clearly better | chosen
+inline constexpr double clearly_less = 0.9;
+/// of the angle error at E = 0 | what parts carried from a proxy may have until they are relaxed | chosen
+inline constexpr double carried_error = 1.1;
+/// of the faces | so many may go back to E = 0 before E becomes smaller for all | 25 models: parts.md#packing
+inline constexpr double few_worse = 0.1;
+
+// Islands. The user's price is that of one more island, in overflow.
+/// of the area | in smaller pieces parts cost less | chosen
+inline constexpr double own_price_area = 0.25;
+/// of the area | smaller regions and pieces do not count | chosen
+inline constexpr double small_area = 0.01;
+/// of the area | the smallest plate, and the smallest piece of a through cut | chosen
+inline constexpr double least_piece = 0.002;
+/// of a part's area | a larger child leaves only a small part beside it | chosen
+inline constexpr double nearly_all = 0.9;
+/// of the price | what it must save at once to cut a small part off | chosen
+inline constexpr double least_return = 0.5;
+/// of the prices | at these parts are split; they are merged at the whole prices | a person's cuts: comparison.md
+inline constexpr double eager = 0.37;
+/// overflow | the price at which one more flat part costs as much as a cut of length 1 | as eager
+inline constexpr double price_like_cut = 0.0037;
+/// prices | what a part of a few faces must save to stay | chosen
+inline constexpr double small_part_worth = 4.0;
+/// of the cost | what parts that are mirror images of each other may cost | chosen
+inline constexpr double symmetric_factor = 2.0;
+/// overflow | or that much more: texels that are 3 % off everywhere, which nobody sees | chosen
+inline constexpr double symmetric_more = 0.03;
+/// prices | most that hiding a border may cost; one more island that makes room | 29 models: parts.md#packing
+inline constexpr double little_price = 0.1;
+
+// Cuts. Lengths are in roots of the area.
+/// factor | on a cut where `show` is 1, or which runs along a rim | cuts in front of a ball 7.4 -> 3.4 radii
+inline constexpr double avoided_factor = 8.0;
+/// of the directions | added to what is seen of a vertex: what a hidden cut costs | chosen
+inline constexpr double least_seen = 0.05;
+/// log of a factor | on a cut's length, for a standard deviation of the curvature | 30 models: hollows 32 -> 38 %
+inline constexpr double hollow_strength = 0.5;
+/// standard deviations | that count | as hollow_strength
+inline constexpr double hollow_deviation = 1.5;
+/// length | the size of the hollows that count | as hollow_strength
+inline constexpr double hollow_scale = 0.03;
+/// length | half the width in which a border may move | as hollow_strength
+inline constexpr double hidden_band = 0.08;
+/// of a part's area | what stays in the part while its border moves | as hollow_strength
+inline constexpr double hidden_core = 0.6;
+/// of a length, area, energy or angle error | less is not noticed: no cut is moved, made or lengthened for it | chosen
+inline constexpr double noticeable = 0.02;
+/// length | a piece unfolded with shorter cuts is not tried otherwise | cuts of a box, a tin, a pencil
+inline constexpr double few_cuts = 3.6;
+
+// Darts and through cuts, in energy.
+/// energy | a cut of length 1 with --darts 1 | 0.2: texels even to 1.1; 0.02: cuts as long as a person's
+inline constexpr double dart_unit = 1e-4;
+/// length | a new dart counts as longer by this | chosen
+inline constexpr double new_dart = 0.03;
+/// of the bound | expected of a through cut, and of a dart that begins at a round loop | measured: about a quarter
+inline constexpr double released_share = 0.25;
+/// of a length | a cut unloads the surface beside it so far | chosen
+inline constexpr double cut_reach = 0.25;
+/// length | between the tips of darts that are opened together | chosen
+inline constexpr double dart_spacing = 0.12;
+/// length | of darts from round loops, or they would cut off thin strips | chosen
+inline constexpr double rim_spacing = 0.04;
+/// length | round the tip of a dart that did not pay: no new tips there | chosen
+inline constexpr double refused_reach = 0.06;
+/// length | of the longest dart | chosen
+inline constexpr double longest_dart = 0.5;
+/// length | of the longest through cut | chosen
+inline constexpr double longest_through = 1.5;
+/// E | at which darts are opened if no E is given, and maps are compared | chosen
+inline constexpr double dart_even = 0.1;
+/// factor | on cuts of a proxy: coarse parts bend in fewer places, and overrate them | 25 models: parts.md#packing
+inline constexpr double proxy_factor = 2.0;
+
+// Room in the square.
+/// energy | of a square as large as the surface | 29 models: coverage 57 -> 69 %, cuts 5 % longer
+inline constexpr double room_worth = 0.005;
+/// of the square | what convex parts cover when packed | as room_worth
+inline constexpr double packed_share = 0.85;
+/// area | no part that fits into this square is shortened | as room_worth
+inline constexpr double least_square = 1.45;
+/// energy | a cut of length 1 between planar regions: it has to save 2 % of the area | 24 models: coverage 63 -> 73 %
+inline constexpr double hard_cut = 1e-4;
+/// energy | one more island of planar regions: it has to save 1 % | as hard_cut: cuts 6 % longer
+inline constexpr double hard_island = 5e-5;
+/// factor | on cuts between planar regions that meet at less than 50 degrees: a cone stays one sector | as hard_cut
+inline constexpr double smooth_factor = 10.0;
+/// length | of the longest island of planar regions | the side of a square that is covered to 75 %
+inline constexpr double longest_hard = 1.155;
+/// of the square | a single island that covers less is tried in more islands | the cross of a cube
+inline constexpr double packed_badly = 0.45;
+/// factor | on texels: more islands are taken if they are so much larger | the cross of a cube
+inline constexpr double worth_apart = 1.18;
+/// power of the number | by which texels must grow if hard parts are cut for room | twice as many cover 15 % more
+inline constexpr double larger_by_count = 0.1;
+
+}  // namespace koebe::tuning
