@@ -84,7 +84,7 @@ $(DONE)/wheel-%: $(NATIVE_SOURCES) scripts/wheel.sh scripts/pack_wheel.py build/
 
 # Wheels that were made for other Pythons go into the zip too, and are made again when the sources change.
 $(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) native/options/options.json docs/guide.md docs/troubleshooting.md scripts/package_extension.py scripts/guide_html.py
-	$(VENV)/bin/python scripts/package_extension.py
+	/usr/bin/python3 scripts/package_extension.py
 	@touch $@
 
 # One wheel a platform, for every Python, and its zip: from pinned sources, cross compiling (docs/developers/releases.md).
@@ -95,7 +95,7 @@ PYTHONS ?= 3.10 3.11 3.12 3.13 3.14
 # The source package is made of a copy of what git knows: its maker would walk through all of build/, other Debians too.
 dist: build/venv-dist/.done $(DONE)/install-dist ## wheels and zips of PLATFORMS for PYTHONS, and the sources
 	PYTHONS="$(PYTHONS)" scripts/dist.sh build/venv-dist $(PLATFORMS)
-	$(PYTHON) scripts/package_extension.py --release
+	/usr/bin/python3 scripts/package_extension.py --release
 	rm -rf build/source && mkdir -p build/source && git ls-files -z | xargs -0 cp --parents -t build/source
 	build/venv-dist/bin/python -m build --quiet --sdist --no-isolation --outdir dist build/source
 	$(PYTHON) scripts/check_dist.py dist $(PYTHONS)

@@ -20,13 +20,14 @@ def test_each_construct():
     made = page("# A *b*: `c*d`\n\nOne\ntwo, **three**.\n![no\npicture](x.png)\n- p\n  q\n- r\n\n"
                 "| h | i |\n| --- | --- |\n| [t](guide.md#a-b) | [u](even.md) |\n\n"
                 "```text\n<x> *y*\n```\n", "T")  # fmt: skip
-    body = made.split("<body>\n")[1].split("\n</body>")[0].splitlines()
-    assert body == [
-        '<h1 id="a-b-cd">A <em>b</em>: <code>c*d</code></h1>',
-        "<p>One two, <strong>three</strong>.</p>", "<ul><li>p q</li><li>r</li></ul>",
-        '<table><tr><th>h</th><th>i</th></tr><tr><td><a href="guide.html#a-b">t</a></td><td>u</td></tr></table>',
-        "<pre>&lt;x&gt; *y*</pre>",
-    ]  # fmt: skip
+    body = re.sub(r"\s*\n\s*", " ", made.split("<body>\n")[1].split("\n</body>")[0])
+    for part in (
+        '<h1 id="a-b-cd">A <em>b</em>: <code>c*d</code></h1>', "<p>One two, <strong>three</strong>. </p>",
+        "<ul> <li>p q</li> <li>r</li> </ul>", '<td><a href="guide.html#a-b">t</a></td> <td>u</td>',
+        "&lt;x&gt; *y*",
+    ):  # fmt: skip
+        assert part in body
+    assert "<img" not in made and "even" not in made
 
 
 @pytest.mark.parametrize("name", PAGES)
