@@ -45,9 +45,9 @@ Sized of_area_one(const Vertices& vertices, const Triangles& triangles)
 OpenedSurface strict_surface(const Vertices& vertices, const Triangles& triangles)
 {
     validate_arrays(vertices, triangles);
-    Surface surface = require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows()));
+    const Surface surface = require_bordered_genus_zero(triangles, static_cast<Index>(vertices.rows()));
     OpenedSurface opened;
-    opened.pieces.push_back(whole_piece(vertices, std::move(surface.triangles)));
+    opened.pieces.push_back(whole_piece(vertices, surface.triangles));
     return opened;
 }
 

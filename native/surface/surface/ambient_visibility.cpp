@@ -16,7 +16,7 @@ namespace {
 constexpr int directions = 32;
 constexpr double golden_angle = 2.399963229728653;  // the turn from one direction to the next: they spread evenly
 constexpr double off_surface = 1e-3;                // start of a ray, over the extent
-constexpr int most_looks = 200;                     // at boxes and faces, for a ray: needles that cross have no tree
+constexpr int most_looks = 500;                     // at boxes and faces, for a ray: needles that cross have no tree
 
 using TreeTraits = TriangleTree::AABB_traits;
 

@@ -7,7 +7,7 @@
 namespace koebe::cli {
 namespace {
 
-SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
+SceneInput read_scene(const std::filesystem::path& path, const ReadOptions& options)
 {
     const Stopwatch reading;
     const ThreadShare threads(options.threads);
@@ -33,7 +33,7 @@ SceneInput read_scene(const std::filesystem::path& path, ReadOptions options)
 
 }  // namespace
 
-SceneInput read_scene_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options)
+SceneInput read_scene_input(const std::filesystem::path& path, const CancelToken& token, const ReadOptions& options)
 {
     ExecutionContext context({}, token);
     return run_detachable<SceneInput>(context,

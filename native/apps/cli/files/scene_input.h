@@ -21,7 +21,7 @@ struct SceneInput {
 };
 
 /// @throws FileError, InputError, Cancelled
-SceneInput read_scene_input(const std::filesystem::path& path, const CancelToken& token, ReadOptions options);
+SceneInput read_scene_input(const std::filesystem::path& path, const CancelToken& token, const ReadOptions& options);
 
 /// Calls compute(), and puts the mesh's name before an error's message, if the file has several.
 template <typename Compute>
