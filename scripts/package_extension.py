@@ -16,8 +16,6 @@ import re
 import zipfile
 from pathlib import Path
 
-from guide_html import PAGES, page
-
 ROOT = Path(__file__).resolve().parent.parent
 FOLDER = "koebe_uv"
 DATE = (1980, 1, 1, 0, 0, 0)  # the oldest that a zip can hold
@@ -73,6 +71,8 @@ def filled_bl_info(text: str, version: str) -> str:
 
 def members(addon: Path, version: str, wheels: list[Path]) -> dict[str, bytes]:
     """What the zip holds: path inside the folder -> content."""
+    from guide_html import PAGES, page  # here: wheels are packed by Pythons without its Markdown
+
     files = {
         path.relative_to(addon).as_posix(): path.read_bytes()
         for path in addon.rglob("*")
