@@ -15,7 +15,8 @@ namespace {
 constexpr int fewest_terms = 12;
 constexpr Eigen::Index most_unknowns = 800;
 constexpr Eigen::Index samples_per_term = 6;
-constexpr double most_stretch = 16.0;
+constexpr double most_stretch = 8.0;  // to the power of -3 times the most terms it does not underflow
+constexpr int tried_stretches = 32;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double unit_roundoff = 0x1p-53;
 
@@ -23,6 +24,18 @@ constexpr double unit_roundoff = 0x1p-53;
 const std::vector<int>& inner_side(const Condenser& condenser)
 {
     return std::ranges::find(condenser.high, 0) == condenser.high.end() ? condenser.high : condenser.low;
+}
+
+/// Below it the functions on circle b are analytic in the angle (CirclePart::stretch): no other centre is in the
+/// annulus.
+double largest_stretch(const std::vector<Circle>& circles, int b)
+{
+    double most = most_stretch;
+    for (int k = 1; k < static_cast<int>(circles.size()); ++k) {
+        const double apart = std::abs(circles[b].center - circles[k].center);
+        if (k != b && apart > 0.0) most = std::min(most, b == 0 ? 1.0 / apart : apart / circles[b].radius);
+    }
+    return most;
 }
 
 }  // namespace
@@ -192,30 +205,45 @@ void CircleCapacities::solve()
 void CircleCapacities::add_what_samples_miss(int b)
 {
     const VectorXd zero = VectorXd::Zero(module_.size());
-    const auto circle = static_cast<std::size_t>(b);
-    double most = most_stretch;
-    for (int k = 1; k <= inner(); ++k) {
-        const double apart = std::abs(circles_[b].center - circles_[k].center);
-        if (k != b && apart > 0.0) most = std::min(most, b == 0 ? 1.0 / apart : apart / circles_[b].radius);
-    }
-    const double stretch = std::pow(most, 0.75);
-    // Coefficient m is at most the bound in the annulus times stretch^-|m|, and samples show it in another's place.
-    const double tail = 4.0 * std::pow(stretch, -0.5 * static_cast<double>(samples_)) / (1.0 - 1.0 / stretch);
-    const OnCircle real = bounds_on(circles_, {circle}, CircleMotion(zero), CircleMotion(zero));
-    const double rounding =
-        unit_roundoff * (static_cast<double>(size()) + 64.0 * terms_ + 64.0) * (1.0 + 1.0 / real.nearest);
+    const auto on_circle = [&](double stretch, const VectorXd& speed) {
+        return bounds_on(circles_, {static_cast<std::size_t>(b), stretch}, CircleMotion(zero), CircleMotion(speed));
+    };
+
+    // Fourier coefficient m is at most the bound in the annulus times stretch^-|m|, and samples show it in another's
+    // place.
+    const double samples = static_cast<double>(samples_);
+    const auto tail = [&](double stretch) {
+        return 4.0 * rounded_up * std::pow(stretch, -0.5 * samples) / (1.0 - 1.0 / stretch);
+    };
+
+    // A sample is wrong by so much of what its terms are at most; a polynomial of samples by sqrt(samples) times as
+    // much, as in largest(). A logarithm near 0 is not known relative to its own size, but to 1.
+    const double rounding = std::sqrt(samples) * unit_roundoff * (static_cast<double>(size()) + 64.0 * terms_ + 64.0) *
+                            (1.0 + 1.0 / on_circle(1.0, zero).nearest);
+    const auto sizes = [&](const VectorXd& speed) {
+        OnCircle on = on_circle(1.0, speed);
+        for (BoundedFunction& logarithm : on.logarithm) logarithm.value += 1.0;
+        return on;
+    };
+
+    const double most = largest_stretch(circles_, b);
     for (int i = 0; i < inner(); ++i) {
+        // Any stretch is right. A larger one lowers the tail, and raises the bound.
         const Coefficients still(*this, i, zero, zero);
-        errors_(b, i) +=
-            tail * still.sum(bounds_on(circles_, {circle, stretch}, CircleMotion(zero), CircleMotion(zero))).value +
-            rounding * still.sum(real).value;
+        double stretch = 1.0, least = infinite;
+        for (int k = 1; k < tried_stretches; ++k) {
+            const double other = std::pow(most, static_cast<double>(k) / tried_stretches);
+            const double missed = tail(other) * still.sum(on_circle(other, zero)).value;
+            if (!(missed < least)) continue;
+            stretch = other;
+            least = missed;
+        }
+        errors_(b, i) += least + rounding * still.sum(sizes(zero)).value;
         for (Eigen::Index l = 0; l < module_.size(); ++l) {
             const VectorXd step = VectorXd::Unit(module_.size(), l);
             const Coefficients moving(*this, i, zero, step);
-            const auto speed_on = [&](double factor) {
-                return moving.sum(bounds_on(circles_, {circle, factor}, CircleMotion(zero), CircleMotion(step))).first;
-            };
-            errors_of_derivatives_[l](b, i) += tail * speed_on(stretch) + rounding * speed_on(1.0);
+            errors_of_derivatives_[l](b, i) +=
+                tail(stretch) * moving.sum(on_circle(stretch, step)).first + rounding * moving.sum(sizes(step)).first;
         }
     }
 }
