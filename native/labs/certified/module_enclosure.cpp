@@ -19,7 +19,7 @@ namespace {
 
 constexpr int newton_steps = 20;
 constexpr double newton_share = 0.02, error_share = 1e-3;  // of the widest bounds of a capacity
-constexpr double least_error = 1e-12;                      // of harmonic measures
+constexpr double least_error = 1e-9;  // of harmonic measures; more terms than it needs add rounding
 constexpr int tried_boxes = 40;
 constexpr double box_growth = 1.5;
 constexpr double sum_rounded_up = 1.0 + 0x1p-50;
