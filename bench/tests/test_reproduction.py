@@ -314,7 +314,8 @@ def test_a_goal_counts_when_it_is_kept():
 
 
 def test_the_verdicts():
-    assert table_two.verdict([2.0, 2.4, 1.96]) == "yes"
+    assert table_two.verdict([2.0, 2.4, 2.1]) == "yes"
+    assert table_two.verdict([2.0, 2.4, 1.96]) == "in part"
     assert table_two.verdict([2.0, 1.9, 2.1]) == "in part"
     assert table_two.verdict([1.0, 1.9]) == "no"
 

@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <random>
 
@@ -44,6 +46,35 @@ CapacityReport enclosed(const Vertices& vertices, const Triangles& triangles, st
 {
     ExecutionContext context;
     return certified_capacities(vertices, triangles, {}, {.width = width}, context);
+}
+
+/// Two regular hexagons, glued along every other side, of 6 n^2 faces each.
+std::pair<Vertices, Triangles> doubled_hexagon(int n)
+{
+    std::vector<Eigen::Vector3d> points;
+    std::map<std::array<int, 3>, Index> number;  // of lattice points (a, b) of a side
+    const auto at = [&](int a, int b, int side) {
+        const bool glued = a + b == n || a == -n || b == -n;
+        const auto [entry, is_new] = number.try_emplace({a, b, glued ? 0 : side}, static_cast<Index>(points.size()));
+        if (is_new) points.emplace_back(a + 0.5 * b, std::sqrt(0.75) * b, 0.0);
+        return entry->second;
+    };
+    const auto inside = [&](int a, int b) { return std::max({std::abs(a), std::abs(b), std::abs(a + b)}) <= n; };
+    std::vector<std::array<Index, 3>> faces;
+    for (const int side : {0, 1})
+        for (int a = -n; a <= n; ++a)
+            for (int b = -n; b <= n; ++b)
+                for (const int up : {1, -1}) {
+                    if (!inside(a, b) || !inside(a + up, b) || !inside(a, b + up)) continue;
+                    std::array<Index, 3> face{at(a, b, side), at(a + up, b, side), at(a, b + up, side)};
+                    if (side == 1) std::swap(face[1], face[2]);
+                    faces.push_back(face);
+                }
+    std::pair<Vertices, Triangles> surface{Vertices(points.size(), 3), Triangles(faces.size(), 3)};
+    for (std::size_t v = 0; v < points.size(); ++v) surface.first.row(v) = points[v];
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (int k = 0; k < 3; ++k) surface.second(f, k) = faces[f][k];
+    return surface;
 }
 
 /// The module of circles whose polygons a domain's loops are, in the order of the report.
@@ -149,6 +180,38 @@ TEST(ModuleEnclosure, slow_polygons_have_nearly_the_module_of_their_circles)
             EXPECT_LT(error, before / 2.5);
             before = error;
         }
+    }
+}
+
+// Circle 2 is nearer to the unit circle than its own radius: a term of the series grows as fast there as samples fall.
+TEST(ModuleEnclosure, circles_near_the_rim_are_enclosed)
+{
+    const std::vector<Circle> circles{{}, {0.0, 0.226}, {{0.0, 0.82}, 0.094}};
+    const CircleDomain domain = make_circle_domain(circles, 1500);
+    const CapacityReport report = enclosed(lift(domain.points, Lift::plane), domain.triangles, 1e-3);
+    ASSERT_EQ(report.no_module, "");
+    EXPECT_LT(report.faces, 10000);
+    const VectorXd exact = exact_module(domain, circles, report.order);
+    for (Eigen::Index l = 0; l < exact.size(); ++l)
+        EXPECT_NEAR(0.5 * (report.module[l].lower + report.module[l].upper), exact[l], 0.01);
+}
+
+// Three sides of a hexagon go over into three others if it is turned: the capacities between three sides, with no flux
+// through the others, are 1 / sqrt(3), and twice as much on both sides. Numbers of the module to all digits that stand.
+TEST(ModuleEnclosure, a_doubled_hexagon_is_enclosed)
+{
+    const auto [vertices, triangles] = doubled_hexagon(4);
+    const CapacityReport report = enclosed(vertices, triangles, 1e-4);
+    ASSERT_EQ(report.no_module, "");
+    for (const Capacity& capacity : report.capacities) {
+        EXPECT_LE(capacity.value.lower, 4.0 / std::sqrt(3.0));
+        EXPECT_GE(capacity.value.upper, 4.0 / std::sqrt(3.0));
+    }
+    const double exact[] = {0.02594142, 0.16303084, 0.02525147};
+    ASSERT_EQ(report.module.size(), std::size(exact));
+    for (std::size_t l = 0; l < std::size(exact); ++l) {
+        EXPECT_LE(report.module[l].lower, exact[l] + 5e-9);
+        EXPECT_GE(report.module[l].upper, exact[l] - 5e-9);
     }
 }
 

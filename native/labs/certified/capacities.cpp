@@ -163,6 +163,8 @@ public:
     {
     }
 
+    bool may_narrow() const { return near_.may_narrow; }
+
     /// Leaves in the report the module, or why it is not enclosed.
     void enclose(Enclosures& enclosures, ExecutionContext& context)
     {
@@ -172,7 +174,8 @@ public:
         report.no_module.clear();
         try {
             if (static_cast<int>(surface_.loops.size()) > most_enclosed_loops)
-                throw SolverError("there are proved bounds for up to four loops");
+                throw SolverError("there are proved bounds for up to four loops: with more, several domains may have "
+                                  "capacities between the bounds");
             ExecutionContext quiet({}, {}, [&] { context.checkpoint(); });  // it is a stage of no known length
             if (near_.order.empty()) near_ = near_module(vertices_, surface_, threads_, quiet);
             enclosures.take_module(enclose_module(near_, report.capacities, quiet));
@@ -220,7 +223,8 @@ CapacityReport capacities_here(const Vertices& vertices, const Triangles& triang
         const double before = std::exchange(of_capacities, report.width);
         if (condensers.empty() && loop_count > 2 && report.width <= wanted) module.enclose(enclosures, context);
         report.converged = report.width <= wanted;
-        const bool may_find_circles = !report.no_module.empty() && loop_count <= most_enclosed_loops && options.width &&
+        const bool may_find_circles = !report.no_module.empty() && loop_count <= most_enclosed_loops &&
+                                      module.may_narrow() && options.width &&
                                       of_capacities > width_for_circles * wanted;
         const bool stuck = report.levels > 1 && of_capacities > (1.0 - least_progress) * before;
         if ((report.converged && !may_find_circles) || stuck) return std::move(report);

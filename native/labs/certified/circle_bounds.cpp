@@ -47,40 +47,55 @@ OnCircle bounds_on(const std::vector<Circle>& circles, const CirclePart& part, c
                    const CircleMotion& speed)
 {
     OnCircle on;
-    const std::size_t count = circles.size(), b = part.circle;
+    const std::size_t b = part.circle;
     const double stretch = part.stretch;
-    on.ratio.resize(count);
-    on.logarithm.resize(count);
     const double radius = circles[b].radius + slack.of_radii[b];
     const double moved = speed.of_centers[b] + stretch * speed.of_radii[b];
-    on.ratio[0] =
-        b == 0 ? BoundedFunction{stretch}
-               : BoundedFunction{std::abs(circles[b].center) + slack.of_centers[b] + stretch * radius, moved, 0.0};
-    for (std::size_t k = 1; k < count; ++k) {
+    const BoundedFunction z{std::abs(circles[b].center) + slack.of_centers[b] + stretch * radius, moved, 0.0};
+    // z is at most so far from here.
+    const Complex here = part.point.value_or(circles[b].center);
+    const double reach =
+        slack.of_centers[b] + (part.point ? slack.of_radii[b] + part.neighbourhood * radius : stretch * radius);
+    // Logarithms of functions without zeros have branches with angles of at most pi.
+    const double angle = stretch > 1.0 ? std::numbers::pi : 0.0;
+    for (std::size_t k = 1; k < circles.size(); ++k) {
         const double slack_k = slack.of_radii[k], speed_k = speed.of_radii[k];
+        const BoundedFunction radius_k{circles[k].radius + slack_k, speed_k, 0.0};
+
+        // r / (z - c)
         if (k == b) {
             const double least = circles[k].radius - slack_k;
             if (!(least > 0.0)) return {};
-            on.ratio[k] = {stretch};  // exp(-i angle), wherever the circle is
-            on.logarithm[k] = {std::abs(std::log(least)) + 1e-12, speed_k / least, speed_k * speed_k / (least * least)};
-            continue;
+            on.ratio.push_back({stretch});  // exp(-i angle), wherever the circle is
+            on.logarithm.push_back(
+                {std::abs(std::log(least)) + 1e-12, speed_k / least, speed_k * speed_k / (least * least)});
+        } else {
+            const double apart = std::abs(here - circles[k].center);
+            const double loose = reach + slack.of_centers[k] + 1e-14;
+            const double least = apart - loose, most = apart + loose;
+            if (!(least > 0.0)) return {};
+            on.nearest = std::min(on.nearest, least);
+            const double relative = (moved + speed.of_centers[k]) / least;
+            on.ratio.push_back(radius_k *
+                               BoundedFunction{1.0 / least, relative / least, 2.0 * relative * relative / least});
+            on.logarithm.push_back(
+                {std::max(std::abs(std::log(least)), std::abs(std::log(most))) + angle, relative, relative * relative});
         }
-        const double apart = std::abs(circles[b].center - circles[k].center);
-        const double loose = slack.of_centers[b] + slack.of_centers[k] + 1e-15;
-        double least = b == 0 ? 1.0 / stretch - apart - loose : apart - loose - stretch * radius;
-        if (part.point)
-            least = std::abs(*part.point - circles[k].center) - loose - slack.of_radii[b] - part.neighbourhood * radius;
-        const double most = b == 0 ? 1.0 + stretch * (apart + loose) : apart + loose + stretch * radius;
+
+        // r z / D: D' = -(conj(c') z + conj(c) z'), D'' = -2 conj(c') z'
+        const double size = std::abs(circles[k].center), size_k = size + slack.of_centers[k];
+        const double at_here = std::abs(1.0 - std::conj(circles[k].center) * here);
+        const double loose = size * reach + slack.of_centers[k] * z.value + 1e-14;
+        const double least = at_here - loose, most = at_here + loose;
         if (!(least > 0.0)) return {};
         on.nearest = std::min(on.nearest, least);
-        const double relative = (moved + speed.of_centers[k]) / least;
-        // On the unit circle |z - c| is |1 - c / z|, whose logarithm has one value outside |c|.
-        const double lowest = b == 0 ? 1.0 - stretch * (apart + loose) : least;
-        const double angle = stretch > 1.0 ? std::numbers::pi : 0.0;
-        on.logarithm[k] = {std::max(std::abs(std::log(lowest)), std::abs(std::log(most))) + angle, relative,
-                           relative * relative};
-        on.ratio[k] = BoundedFunction{circles[k].radius + slack_k, speed_k, 0.0} *
-                      BoundedFunction{1.0 / least, relative / least, 2.0 * relative * relative / least};
+        const double relative = (speed.of_centers[k] * z.value + size_k * moved) / least;
+        const double bend = 2.0 * speed.of_centers[k] * moved / least;
+        on.mirrored.push_back(
+            radius_k * z * BoundedFunction{1.0 / least, relative / least, (2.0 * relative * relative + bend) / least});
+        on.logarithm.back() =
+            on.logarithm.back() + BoundedFunction{std::max(std::abs(std::log(least)), std::abs(std::log(most))) + angle,
+                                                  relative, relative * relative + bend};
     }
     return on;
 }

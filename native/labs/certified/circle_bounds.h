@@ -48,14 +48,16 @@ struct CircleMotion {
     std::vector<double> of_centers, of_radii;
 };
 
-/// What the functions 1 / (z - c), r / (z - c) and log |z - c| of one circle, or z, are at most on another.
+/// What the functions of inner circles k = 1, 2, ... are at most on another. D = 1 - conj(c) z.
 struct OnCircle {
-    std::vector<BoundedFunction> ratio, logarithm;             // of each circle; ratio[0] is z
-    double nearest = std::numeric_limits<double>::infinity();  // to a centre
+    std::vector<BoundedFunction> ratio;                        // [k - 1] r / (z - c)
+    std::vector<BoundedFunction> mirrored;                     // [k - 1] r z / D, its mirror image in the unit circle
+    std::vector<BoundedFunction> logarithm;                    // [k - 1] the sum of log |z - c| and log |D|
+    double nearest = std::numeric_limits<double>::infinity();  // |z - c| and |D| at least
 };
 
-/// A part of circle b: all of it, or a point of it and the neighbourhood of so many radii. If stretch > 1, where the
-/// angle is complex, too: in the annulus between r / stretch and r * stretch, to which each function of the angle
+/// A part of inner circle b: all of it, or a point of it and the neighbourhood of so many radii. If stretch > 1, where
+/// the angle is complex, too: in the annulus between r / stretch and r * stretch, to which each function of the angle
 /// continues analytically.
 struct CirclePart {
     std::size_t circle;
@@ -64,7 +66,7 @@ struct CirclePart {
     double neighbourhood = 0.0;
 };
 
-/// Nothing where a centre may lie on the part.
+/// Nothing where a centre, or its mirror image, may lie on the part.
 OnCircle bounds_on(const std::vector<Circle>& circles, const CirclePart& part, const CircleMotion& slack,
                    const CircleMotion& speed);
 

@@ -14,13 +14,15 @@ namespace koebe {
 ///
 /// The harmonic measure u_i of inner circle i is approximated by
 ///
-///     h_i = sum_k a_k log |z - c_k| + Re sum_k sum_s b_ks (r_k / (z - c_k))^s + Re sum_s d_s z^s,
+///     h_i = sum_k a_k (log |z - c_k| - log |D_k|) + Re sum_k sum_s (b_ks w_k^s - conj(b_ks) v_k^s),
+///     w_k = r_k / (z - c_k),  v_k = r_k z / D_k,  D_k = 1 - conj(c_k) z,
 ///
-/// harmonic in the domain, with coefficients that are linear in m. If |h_i - u_i| <= e_i on all circles, this holds
-/// inside too, by the maximum principle. The flux of h_i out of circle j is exactly -2 pi a_j. Green's formula gives
-/// |flux - C_ij| <= e_i times the integral of |du_j/dn|, which is 2 C_jj: the flux of u_j leaves through circle j and
-/// enters through the others. e_i is bounded for all m in a box round the module: by samples on each circle, by
-/// how fast the Fourier coefficients of an analytic function fall, and by the second derivative in m.
+/// harmonic in the domain, with coefficients that are linear in m. v_k is the mirror image of w_k in the unit circle,
+/// so that h_i is 0 there. If |h_i - u_i| <= e_i on the inner circles, this holds inside too, by the maximum principle.
+/// The flux of h_i out of circle j is exactly -2 pi a_j. Green's formula gives |flux - C_ij| <= e_i times the integral
+/// of |du_j/dn|, which is 2 C_jj: the flux of u_j leaves through circle j and enters through the others. e_i is bounded
+/// for all m in a box round the module: by samples on each circle, by how fast the Fourier coefficients of an analytic
+/// function fall, and by the second derivative in m.
 class CircleCapacities {
 public:
     /// @param wanted_error of the harmonic measures, to aim at @throws Cancelled
@@ -50,16 +52,15 @@ private:
     int inner() const { return static_cast<int>(circles_.size()) - 1; }
     Eigen::Index log_of(int k) const { return k - 1; }
     Eigen::Index pole_of(int k) const { return inner() + 2 * terms_ * (k - 1); }  ///< then Re and Im, s = 1, 2, ...
-    Eigen::Index power() const { return inner() + 2 * terms_ * inner(); }         ///< likewise; the constant is last
-    Eigen::Index size() const { return power() + 2 * terms_ + 1; }
+    Eigen::Index size() const { return inner() + 2 * terms_ * inner(); }
 
     VectorXd module_;
     std::vector<Circle> circles_;
     int terms_ = 0;
-    Eigen::Index samples_ = 0;                     // of each circle
-    MatrixXd coefficients_;                        // (size, inner)
-    std::vector<MatrixXd> derivatives_;            // of them, in each number of the module
-    MatrixXd errors_;                              // (circles, inner) of the potentials, at the module
+    Eigen::Index samples_ = 0;           // of each circle
+    MatrixXd coefficients_;              // (size, inner)
+    std::vector<MatrixXd> derivatives_;  // of them, in each number of the module
+    MatrixXd errors_;                    // (inner, inner) on circle 1, 2, ... of the potentials, at the module
     std::vector<MatrixXd> errors_of_derivatives_;  // likewise, per number of the module
 };
 

@@ -12,13 +12,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace koebe {
 namespace {
 
 constexpr int newton_steps = 20;
 constexpr double newton_share = 0.02, error_share = 1e-3;  // of the widest bounds of a capacity
-constexpr double least_error = 1e-12;                      // of harmonic measures
+constexpr double least_error = 1e-9;  // of harmonic measures; more terms than it needs add rounding
 constexpr int tried_boxes = 40;
 constexpr double box_growth = 1.5;
 constexpr double sum_rounded_up = 1.0 + 0x1p-50;
@@ -116,8 +117,8 @@ void approach(VectorXd& module, const std::vector<Condenser>& condensers, const 
     }
 }
 
-/// Half of the sides of a box that the step takes into itself. @param change largest, in each number
-VectorXd closed_box(const LinearStep& step, const VectorXd& change)
+/// Half of the sides of a box that the step takes into itself, if one is found. @param change largest, in each number
+std::optional<VectorXd> closed_box(const LinearStep& step, const VectorXd& change)
 {
     VectorXd reach = box_growth * (change + step.errors(VectorXd::Zero(change.size())));
     for (int i = 0; i < tried_boxes; ++i) {
@@ -126,7 +127,7 @@ VectorXd closed_box(const LinearStep& step, const VectorXd& change)
         if ((needed.array() * sum_rounded_up < reach.array()).all()) return reach;
         reach = reach.cwiseMax(box_growth * needed);
     }
-    throw SolverError("the bounds of the capacities are too wide for it: a smaller width, or a finer mesh, may help");
+    return std::nullopt;
 }
 
 }  // namespace
@@ -163,7 +164,17 @@ std::vector<Interval> enclose_module(NearModule& near, const std::vector<Capacit
     const CircleCapacities circles(near.numbers, std::max(error_share * widest, least_error), context);
     const LinearStep step(circles, condensers);
     const Box change = step.change(known);
-    VectorXd reach = closed_box(step, largest_in(change));
+    const std::optional<VectorXd> closed = closed_box(step, largest_in(change));
+    if (!closed) {
+        // Exact capacities leave the errors of the circles' own capacities.
+        const CircleCapacities finest(near.numbers, least_error, context);
+        near.may_narrow = closed_box(LinearStep(finest, condensers), VectorXd::Zero(change.size())).has_value();
+        throw SolverError(near.may_narrow
+                              ? "the bounds of the capacities are too wide for it: a smaller width may help"
+                              : "the capacities of circles so near to each other, or so near to their mirror image, "
+                                "are not known well enough: a smaller width does not help");
+    }
+    VectorXd reach = *closed;
     while (true) {
         const VectorXd errors = step.errors(reach);
         Box box;

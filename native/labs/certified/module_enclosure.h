@@ -17,6 +17,7 @@ constexpr int most_enclosed_loops = 4;
 struct NearModule {
     VectorXd numbers;        ///< (3 n - 6)
     std::vector<int> order;  ///< the loop (its number in Surface::loops) of each circle, the unit circle first
+    bool may_narrow = true;  ///< false after an error of enclose_module that narrower capacities cannot mend
 };
 
 /// @throws KoebeError if the iteration finds no circles; Cancelled

@@ -23,7 +23,7 @@ struct IntrinsicMetric {
     std::vector<Index> flips;    ///< the flipped half-edges, in the order of the flips
 };
 
-/// Makes the surface's metric safe for a Laplacian with nonnegative weights inside.
+/// Makes the surface's metric safe for a Laplacian whose weights inside are not negative, but where a flip is left out.
 ///
 /// Mollification adds one length to every edge so that each triangle inequality holds with a margin (Sharp and Crane
 /// 2020, section 4.5). Flips make opposite angles of every edge sum to at most pi (Fisher et al. 2006; Bobenko and
