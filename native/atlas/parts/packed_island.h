@@ -68,8 +68,6 @@ int board_side(std::size_t count);
 /// Of so many islands each begins to look for room at the row of the one before it, which has about its size: lower
 /// rows are full.
 constexpr std::size_t many_islands = 200;
-/// Area over that of the island for which all rows were looked at: a smaller island looks at all rows again.
-constexpr double similar = 0.8;
 
 /// The largest margin that so many islands keep, in sides of the square.
 double most_margin(std::size_t count);

@@ -1,6 +1,7 @@
 #include "parts/sheet_packing.h"
 
 #include "core/errors.h"
+#include "cost/tolerances.h"
 #include "parts/packed_island.h"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ public:
         SheetPacking packing{std::vector<IslandPlace>(islands_.size()), std::vector<int>(islands_.size(), -1), 0};
         double area = std::numeric_limits<double>::infinity();
         for (const std::size_t k : order) {
-            if (islands_[k].area < similar * area) {
+            if (islands_[k].area < tolerance::similar_area * area) {
                 area = islands_[k].area;
                 for (OpenSheet& sheet : sheets_) sheet.from = 0;
             }

@@ -19,7 +19,6 @@ using Vertex = HalfedgeMesh::VertexHandle;
 using Halfedge = HalfedgeMesh::HalfedgeHandle;
 
 constexpr double least_cosine = 0.2;  // of the angle by which a collapse turns a face
-constexpr int hub = 500;              // faces: a vertex with more of them goes nowhere, and its faces are not looked at
 
 OpenMesh::Vec3d normal(const OpenMesh::Vec3d& a, const OpenMesh::Vec3d& b, const OpenMesh::Vec3d& c)
 {
@@ -187,7 +186,7 @@ private:
             if (!mesh.status(next).deleted()) queue_.emplace(reach_after(first_choice(next)), next.idx());
     }
 
-    bool is_hub(Vertex v) const { return around_[v.idx()] > hub; }
+    bool is_hub(Vertex v) const { return around_[v.idx()] > hub_faces; }
 
     /// The link condition, without a walk round the target: both ends have only the opposite corners in common, and the
     /// edge does not join two places of the boundary.

@@ -8,6 +8,10 @@
 
 namespace koebe {
 
+/// A vertex with more faces is a hub: it goes nowhere, its faces are not looked at, and trees of boxes do not tell them
+/// apart.
+constexpr int hub_faces = 500;
+
 struct CoarseSurface {
     Vertices vertices;
     Triangles triangles;

@@ -342,10 +342,9 @@ std::optional<CoarseSurface> doubled(const CutSurface& whole, const MirrorPlane&
 /// Whether a vertex has so many faces that boxes do not tell them apart: images are found in a tree of boxes.
 bool has_needles(const CutSurface& whole)
 {
-    constexpr int most_around = 500;
     std::vector<int> around(static_cast<std::size_t>(whole.vertices.rows()), 0);
     for (const Index v : whole.surface.triangles.reshaped()) ++around[v];
-    return std::ranges::max(around) > most_around;
+    return std::ranges::max(around) > hub_faces;
 }
 
 }  // namespace
