@@ -173,7 +173,7 @@ def test_defaults_may_be_left_to_the_table():
         "parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | given
     )
     assert said == {
-        "even": None, "loops": "free", "darts": 0.5, "price": 0.01, "cut": True, "round_cuts": False,
+        "even": None, "loops": "free", "darts": 0.5, "price": 0.03, "cut": True, "round_cuts": False,
         "most_lost": 0.5, "density": None, "pixels": 64,
         "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False, "weld": None,
         "hard_angle": 45.0, "cut_hard": True, "no_hard": True,

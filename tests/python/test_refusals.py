@@ -73,9 +73,9 @@ def test_a_plate_far_from_the_origin_is_no_line(addon):
 
 def test_the_dial_and_the_command_have_one_default_price(addon):
     parts, table = addon("maps.parts"), addon("maps.option_table")
-    assert parts.price_of(table.ROWS["evenness"].default) == table.solver_default("parts", "price") == 0.01
+    assert parts.price_of(table.ROWS["evenness"].default) == table.solver_default("parts", "price") == 0.03
     assert parts.price_of(0.0) > parts.price_of(0.5) > parts.price_of(1.0)
-    assert parts.darts_of(0.02, table.ROWS["evenness"].default) == 0.02
+    assert parts.darts_of(0.015, table.ROWS["evenness"].default) == 0.015
     assert parts.darts_of(0.02, 0.0) < parts.darts_of(0.02, 0.5) < parts.darts_of(0.02, 1.0)
     assert parts.darts_of(0.5, 1.0) == 1.0 and parts.darts_of(0.0, 1.0) == 0.0
 

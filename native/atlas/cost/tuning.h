@@ -81,6 +81,10 @@ inline constexpr double hidden_band = 0.08;
 inline constexpr double hidden_core = 0.6;
 /// of a length, area, energy or angle error | less is not noticed: no cut is moved, made or lengthened for it | chosen
 inline constexpr double noticeable = 0.02;
+/// length | half the width of the band in which a cut is straightened | 15 models: comparison.md#straight
+inline constexpr double straight_band = 0.03;
+/// of an edge's length | a right angle in a cut | as straight_band
+inline constexpr double turn_cost = 2.0;
 /// length | a piece unfolded with shorter cuts is not tried otherwise | cuts of a box, a tin, a pencil
 inline constexpr double few_cuts = 3.6;
 

@@ -49,35 +49,6 @@ public:
             if (may_cut(h)) leaving_[next[origin(fine_.surface.triangles, h)]++] = h;
     }
 
-    /// The chains of cut edges. A chain that closes begins at its lowest vertex.
-    std::vector<Path> chains() const
-    {
-        const Triangles& triangles = coarse_.triangles;
-        std::vector<std::vector<Index>> leaving(static_cast<std::size_t>(coarse_.vertex_count));
-        for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
-            if (coarse_.twin[h] != no_twin && (net_.open[h] || net_.open[coarse_.twin[h]]))
-                leaving[origin(triangles, h)].push_back(h);
-        const std::vector<char> outside = boundary_mask(coarse_);
-        std::vector<char> seen(coarse_.twin.size(), 0);
-        std::vector<Path> all;
-        const auto is_node = [&](Index v) { return outside[v] != 0 || leaving[v].size() != 2; };
-        const auto walk = [&](Index h, Index start) {
-            Path chain{h};
-            for (Index end = target(triangles, h); !is_node(end) && end != start; end = target(triangles, h)) {
-                h = leaving[end][leaving[end][0] == coarse_.twin[h] ? 1 : 0];
-                chain.push_back(h);
-            }
-            for (const Index own : chain) seen[own] = seen[coarse_.twin[own]] = 1;
-            all.push_back(std::move(chain));
-        };
-        for (const bool closed : {false, true})
-            for (Index v = 0; v < coarse_.vertex_count; ++v)
-                if (is_node(v) != closed)
-                    for (const Index h : leaving[v])
-                        if (!seen[h]) walk(h, v);
-        return all;
-    }
-
     std::optional<CarriedPath> carried(const Path& chain)
     {
         // A dart may be left out. Other chains get a path that leaves some of their vertices out, or ends on the path
@@ -320,7 +291,7 @@ std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net,
 {
     const PathFinder first(proxy, net);
     const auto is_needed = [&](const Path& chain) { return !first.is_dart(chain); };
-    std::vector<Path> chains = first.chains();
+    std::vector<Path> chains = chains_of(proxy.surface, net.open);
     std::stable_partition(chains.begin(), chains.end(), is_needed);
     std::vector<CarriedPath> best;
     std::size_t fewest = chains.size() + 1;
@@ -342,6 +313,16 @@ std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net,
         std::ranges::move(others, std::back_inserter(chains));
     }
     return best;
+}
+
+std::vector<CarriedPath> straightened(const Proxy& proxy, std::vector<CarriedPath> paths,
+                                      const ExecutionContext& context)
+{
+    std::vector<Path> straight;
+    for (CarriedPath& own : paths) straight.push_back(std::move(own.path));
+    straighten(proxy.fine.whole, straight, context);
+    for (std::size_t i = 0; i < paths.size(); ++i) paths[i].path = std::move(straight[i]);
+    return paths;
 }
 
 double path_length(const Vertices& vertices, const Triangles& triangles, const Path& path)

@@ -172,19 +172,24 @@ std::vector<std::vector<Index>> carried_faces(const Proxy& proxy, const std::vec
 {
     const auto net = coarse_net(proxy, parts);
     if (!net) return {};
-    std::vector<Index> twin = proxy.fine.whole.surface.twin;
-    for (const auto& [chain, path] : carried_paths(proxy, *net, context))
-        if (net->parts_differ(proxy.surface, chain.front()))
-            for (const Index h : path) twin[proxy.fine.whole.surface.twin[h]] = twin[h] = no_twin;
-    Index count = 0;
-    const std::vector<int> same(static_cast<std::size_t>(proxy.fine.whole.areas.size()), 0);
-    const std::vector<Index> piece = connected_pieces(twin, same, count);
-    const std::vector<int> part_of =
-        parts_of_pieces(proxy, *net, NearFaces(proxy), piece, static_cast<std::size_t>(count), parts.size());
-    if (part_of.empty()) return {};
-    std::vector<std::vector<Index>> faces(parts.size());
-    for (std::size_t f = 0; f < piece.size(); ++f) faces[part_of[piece[f]]].push_back(static_cast<Index>(f));
-    return faces;
+    const std::vector<CarriedPath> paths = carried_paths(proxy, *net, context);
+    const NearFaces near(proxy);
+    for (const bool is_straight : {true, false}) {
+        std::vector<Index> twin = proxy.fine.whole.surface.twin;
+        for (const auto& [chain, path] : is_straight ? straightened(proxy, paths, context) : paths)
+            if (net->parts_differ(proxy.surface, chain.front()))
+                for (const Index h : path) twin[proxy.fine.whole.surface.twin[h]] = twin[h] = no_twin;
+        Index count = 0;
+        const std::vector<int> same(static_cast<std::size_t>(proxy.fine.whole.areas.size()), 0);
+        const std::vector<Index> piece = connected_pieces(twin, same, count);
+        const std::vector<int> part_of =
+            parts_of_pieces(proxy, *net, near, piece, static_cast<std::size_t>(count), parts.size());
+        if (part_of.empty()) continue;
+        std::vector<std::vector<Index>> faces(parts.size());
+        for (std::size_t f = 0; f < piece.size(); ++f) faces[part_of[piece[f]]].push_back(static_cast<Index>(f));
+        return faces;
+    }
+    return {};
 }
 
 std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPart>& parts, int threads,
@@ -192,7 +197,16 @@ std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPa
 {
     const auto net = coarse_net(proxy, parts);
     if (!net) return {};
-    return Carrying(proxy, parts, *net, carried_paths(proxy, *net, context)).pieces(threads, context);
+    const std::vector<CarriedPath> paths = carried_paths(proxy, *net, context);
+    std::vector<FlatPart> straight =
+        Carrying(proxy, parts, *net, straightened(proxy, paths, context)).pieces(threads, context);
+    const auto placed = [](const std::vector<FlatPart>& pieces) {
+        return std::ranges::count_if(pieces, &FlatPart::is_near);
+    };
+    if (!straight.empty() && placed(straight) == std::ssize(straight)) return straight;
+    // Where a piece finds no place with straight cuts, they stay as they were.
+    std::vector<FlatPart> bent = Carrying(proxy, parts, *net, paths).pieces(threads, context);
+    return placed(bent) > placed(straight) ? bent : straight;
 }
 
 void start_by_itself(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context)

@@ -4,6 +4,7 @@
 #include "splitting/closed_surface.h"
 #include "splitting/hidden_cuts.h"
 #include "splitting/mirror_symmetry.h"
+#include "splitting/straight_borders.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,7 @@ EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads)
 FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsOptions& options, int threads,
                      ExecutionContext& context, SplitEffort& effort)
 {
-    // Cut it where that pays, alike on both sides of a mirror, and hide the cuts.
+    // Cut it where that pays, alike on both sides of a mirror, and hide and straighten the cuts.
     CutSurface& whole = surface.whole;
     const bool is_closed = whole.surface.loops.empty();
     const SplitOptions prices{prices_of_piece(whole.areas.sum(), options.price), threads};
@@ -103,6 +104,7 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
     }
     const std::vector<PartPointer> before = parts;
     hide_cuts(whole, prices, parts, context, effort);
+    straighten_borders(whole, prices, parts, context, effort);
     if (is_symmetric && !make_symmetric(whole, prices, mirror, parts, context, effort)) parts = before;
     merge_small_parts(whole, prices, parts, context, effort);
     std::ranges::sort(parts, [](const PartPointer& a, const PartPointer& b) { return a->mesh.faces < b->mesh.faces; });

@@ -17,7 +17,7 @@ namespace koebe {
 struct PartsOptions : MapOptions {
     /// Cost of one more part, in overflow (evenness.h) of a surface of area 1. A cut as long as the root of the area
     /// costs as much. A higher price makes fewer parts. Positive.
-    double price = 0.01;
+    double price = 0.03;
     /// true: any mesh is opened and cut at its handles (cut/open_surface.h). false: other surfaces than uniformize
     /// takes are refused.
     bool cut = true;
@@ -41,7 +41,7 @@ struct PartsOptions : MapOptions {
     std::vector<double> importance = {};
     /// Darts (darts.h), from 0 (no darts) to 1 (many). A dart stays if it releases more energy than its length costs:
     /// 1e-4 / darts for the root of the area. At even = 0 there are no darts.
-    double darts = 0.02;
+    double darts = 0.015;
     /// Texel density that the parts get, in pixels per unit of the mesh, as the median over the area. Without a value
     /// the parts fill the square.
     std::optional<double> density = {};

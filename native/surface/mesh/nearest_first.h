@@ -21,6 +21,7 @@ public:
     bool reach(Index node, double distance)
     {
         if (!(distance < distance_[node])) return false;
+        if (distance_[node] == infinite) reached_.push_back(node);
         distance_[node] = distance;
         queue_.emplace(distance, node);
         return true;
@@ -37,6 +38,14 @@ public:
         return -1;
     }
 
+    /// Forgets all nodes, at the cost of those that were reached.
+    void reset()
+    {
+        for (const Index node : reached_) distance_[node] = infinite;
+        reached_.clear();
+        queue_ = {};
+    }
+
     /// (count) infinite for nodes that were not reached.
     const std::vector<double>& distance() const { return distance_; }
 
@@ -45,6 +54,7 @@ private:
     using Entry = std::pair<double, Index>;
 
     std::vector<double> distance_;
+    std::vector<Index> reached_;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
