@@ -36,6 +36,19 @@ constexpr int rings_that_move = 8;  // round places that are replaced
 /// Whether wrong faces are so few that the rest of the map is worth keeping.
 bool is_small_share(std::ptrdiff_t wrong, std::size_t all) { return 200 * wrong < static_cast<std::ptrdiff_t>(all); }
 
+Eigen::RowVector2d middle_of_edges(const VertexLoop& loop, const PlanarPoints& uv)
+{
+    Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
+    double around = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Eigen::RowVector2d from = uv.row(loop[i]), to = uv.row(loop[(i + 1) % loop.size()]);
+        const double length = (to - from).norm();
+        sum += 0.5 * length * (from + to);
+        around += length;
+    }
+    return around > 0.0 ? Eigen::RowVector2d(sum / around) : Eigen::RowVector2d(uv.row(loop[0]));
+}
+
 }  // namespace
 
 FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
@@ -79,11 +92,10 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
                      const ExecutionContext& context)
     : FilledMap(vertices, surface, loops, ears, places)
 {
-    // The holes' fans lie round the centres of their circles.
+    // The holes' fans lie round the middles of their edges, which are inside where all vertices are on the circle.
     PlanarPoints points(filled_.vertex_count, 2);
     points.topRows(surface.vertex_count) = map.uv;
-    for (std::size_t k = 1; k < loops.size(); ++k)
-        points.row(fan_centre(k)) << map.circles[k].center.real(), map.circles[k].center.imag();
+    for (std::size_t k = 1; k < loops.size(); ++k) points.row(fan_centre(k)) = middle_of_edges(loops[k], map.uv);
     now_.points = std::move(points);
     now_.circles = map.circles;
     // Wrong places are replaced, and only vertices near them will move.

@@ -15,10 +15,10 @@
 namespace koebe {
 namespace {
 
-constexpr double gap = 3.0;               // mm between pieces with their allowances
-constexpr double least_gap_share = 0.02;  // of a sheet without page: small pieces have a smaller gap
-constexpr double larger_sheet = 1.05;     // where pieces have no room on one: at least,
-constexpr double largest_step = 1.5;      // and at most
+constexpr double gap = 3.0;                // mm between pieces with their allowances
+constexpr double least_gap_share = 0.02;   // of a sheet without page: small pieces have a smaller gap
+constexpr double larger_sheet = 1.05;      // where pieces have no room on one: at least,
+constexpr double largest_step = 1.5;       // and at most
 constexpr std::size_t many_pieces = 1000;  // whose margins take much of the sheet, and whose packing takes long,
 constexpr double room_of_many = 1.3;       // begin on a sheet so much larger than the boxes say
 constexpr int most_pages = 1000;
