@@ -67,7 +67,8 @@ public:
         }
         if (!bad.empty()) return {};
         put_all_back(context);
-        if (!bad_faces().empty()) return {};
+        for (Index f = 0; f < complex_.face_count(); ++f)
+            if (is_replaced(complex_.face(f)) && !is_upright(complex_.face(f))) return {};
         MendedDrawing result{points_, {}};
         for (Index v = 0; v < complex_.vertex_count(); ++v)
             if (replaced_[v]) result.replaced.push_back(v);
@@ -141,6 +142,17 @@ private:
                 bad.push_back(f);
         }
         return bad;
+    }
+
+    /// Whether a corner was near a wrong face.
+    bool is_replaced(const DiskComplex::Face& face) const
+    {
+        return replaced_[face[0]] || replaced_[face[1]] || replaced_[face[2]];
+    }
+
+    bool is_upright(const DiskComplex::Face& face) const
+    {
+        return cross(at(face[1]) - at(face[0]), at(face[2]) - at(face[0])) > 0.0;
     }
 
     /// Whether a face of a mended drawing has not the area that the faces it stands for need as 32-bit UVs.
