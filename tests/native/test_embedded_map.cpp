@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
 
 using namespace koebe;
@@ -143,4 +144,39 @@ TEST(EmbeddedMap, circles_within_reach_are_kept)
     EXPECT_EQ(map.circles[1].center, wanted[1].center);
     EXPECT_EQ(map.circles[1].radius, wanted[1].radius);
     EXPECT_TRUE(map.off_circle.empty());
+}
+
+TEST(EmbeddedMap, a_map_wrong_in_few_faces_is_mended_there)
+{
+    // A flat disk of rings round a hole, and some vertices that are pushed over their neighbours.
+    constexpr Index around = 60, rings = 40;
+    FaceList faces;
+    Vertices vertices(around * rings, 3);
+    for (Index i = 0; i < rings; ++i)
+        for (Index j = 0; j < around; ++j) {
+            const Complex z = std::polar(1.0 - 0.9 * i / (rings - 1), 2.0 * std::numbers::pi * j / around);
+            vertices.row(i * around + j) << z.real(), z.imag(), 0.0;
+            if (i + 1 == rings) continue;
+            const Index a = i * around + j, b = i * around + (j + 1) % around;
+            faces.push_back({a, b, a + around});
+            faces.push_back({b, b + around, a + around});
+        }
+    const Triangles triangles = as_triangles(faces);
+    const Surface surface = require_bordered_genus_zero(triangles, around * rings);
+    CircleMap map;
+    map.circles = {Circle{}, Circle{0.0, 0.1}};
+    map.uv = vertices.leftCols(2);
+    const PlanarPoints given = map.uv;
+    for (const Index v : {(rings - 1) * around, (rings - 2) * around + 1, 5 * around + 7})
+        map.uv.row(v) += Eigen::RowVector2d(0.05, 0.08);
+    const std::optional<CircleMap> mended = mended_map(vertices, surface, surface.loops, {}, map, {});
+    ASSERT_TRUE(mended);
+    expect_upright(surface, mended->uv);
+    EXPECT_TRUE(mended->off_circle.empty());
+    Index moved = 0;
+    for (Index v = 0; v < around * rings; ++v) moved += mended->uv.row(v) != given.row(v);
+    EXPECT_LT(moved, around * rings / 3) << "the rest stays to the bit";
+    // A map that is wrong in many faces is left to embedded_map.
+    map.uv.col(1) = -map.uv.col(1);
+    EXPECT_FALSE(mended_map(vertices, surface, surface.loops, {}, map, {}));
 }

@@ -24,37 +24,49 @@ using Cdt = PlanarRegion::Cdt;
 /// wanted size has 0.577; splitting at 0.76 leaves edges whose mean is the wanted length.
 constexpr double split_ratio = 0.76;
 
-struct Candidate {
-    Complex place;
-    double excess;  ///< circumradius over wanted size
+/// What is known of a face inside: its info. A new face starts as unseen.
+enum FaceState : char {
+    unseen = 1,      ///< not yet looked at
+    pending,         ///< too large; both of its places may be tried
+    without_center,  ///< too large; its circumcentre is refused for ever
+    done             ///< small enough, or both places are refused for ever
 };
 
-/// Whether a point may be inserted: it sees no boundary edge at an obtuse angle, and no vertex is too close.
-bool may_insert(const PlanarRegion& region, Complex z, double spacing, Cdt::Face_handle hint, Cdt::Face_handle& found)
+struct Candidate {
+    Complex place;
+    double excess;  ///< circumradius over wanted size; 0 for a centroid
+    Cdt::Face_handle face;
+};
+
+enum class Insertion { allowed, refused, refused_for_ever };
+
+/// Whether a point may be inserted: it sees no boundary edge at an obtuse angle, and no vertex is too close. A vertex
+/// that is too close stays so, as points are only added.
+Insertion judge(const PlanarRegion& region, Complex z, double spacing, Cdt::Face_handle hint, Cdt::Face_handle& found)
 {
     const Cdt& cdt = region.cdt();
     const Cdt::Point p = to_point(z);
     Cdt::Locate_type type;
     int index = 0;
     found = cdt.locate(p, type, index, hint);
-    if (type != Cdt::FACE && type != Cdt::EDGE) return false;
+    if (type != Cdt::FACE && type != Cdt::EDGE) return Insertion::refused_for_ever;
     // All vertices of the faces in conflict lie on the rim. Those of the face with the point tell most of the refusals,
     // before the whole conflict zone is looked at, which is large beside long thin faces.
     const auto is_near = [&](Cdt::Vertex_handle v) { return distance(to_complex(v->point()), z) < spacing; };
     for (int k = 0; k < 3; ++k)
-        if (!cdt.is_infinite(found->vertex(k)) && is_near(found->vertex(k))) return false;
+        if (!cdt.is_infinite(found->vertex(k)) && is_near(found->vertex(k))) return Insertion::refused_for_ever;
     std::vector<Cdt::Face_handle> conflict;
     std::vector<Cdt::Edge> rim;
     cdt.get_conflicts_and_boundary(p, std::back_inserter(conflict), std::back_inserter(rim), found);
     for (const Cdt::Face_handle face : conflict)
-        if (cdt.is_infinite(face)) return false;
+        if (cdt.is_infinite(face)) return Insertion::refused;
     for (const auto& [face, i] : rim) {
         const Complex a = to_complex(face->vertex(Cdt::ccw(i))->point());
         const Complex b = to_complex(face->vertex(Cdt::cw(i))->point());
-        if (is_near(face->vertex(Cdt::ccw(i))) || is_near(face->vertex(Cdt::cw(i)))) return false;
-        if (face->is_constrained(i) && dot(a - z, b - z) < 0.0) return false;
+        if (is_near(face->vertex(Cdt::ccw(i))) || is_near(face->vertex(Cdt::cw(i)))) return Insertion::refused_for_ever;
+        if (face->is_constrained(i) && dot(a - z, b - z) < 0.0) return Insertion::refused;
     }
-    return true;
+    return Insertion::allowed;
 }
 
 /// Triangles that are too large, by their circumcentres, largest first. Then the same triangles by their centroids,
@@ -64,15 +76,19 @@ std::vector<Candidate> candidates(const PlanarRegion& region, const SizeField& s
     std::vector<Candidate> result;
     const Cdt& cdt = region.cdt();
     for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
-        if (!region.inside(f)) continue;
+        if (!region.inside(f) || f->info() == done) continue;
         const Complex a = to_complex(f->vertex(0)->point());
         const Complex u = to_complex(f->vertex(1)->point()) - a, v = to_complex(f->vertex(2)->point()) - a;
         const Complex centroid = a + (u + v) / 3.0;
         const Complex arm = Complex(0.0, 1.0) * (u * std::norm(v) - v * std::norm(u)) / (2.0 * cross(u, v));
         const double radius = distance(arm, 0.0), wanted = size(centroid);
-        if (radius <= split_ratio * wanted) continue;
-        if (std::isfinite(radius)) result.push_back({a + arm, radius / wanted});
-        result.push_back({centroid, 0.0});
+        if (radius <= split_ratio * wanted) {
+            f->info() = done;
+            continue;
+        }
+        if (f->info() == unseen) f->info() = std::isfinite(radius) ? pending : without_center;
+        if (f->info() == pending) result.push_back({a + arm, radius / wanted, f});
+        result.push_back({centroid, 0.0, f});
     }
     std::stable_sort(result.begin(), result.end(),
                      [](const Candidate& s, const Candidate& t) { return s.excess > t.excess; });
@@ -89,9 +105,17 @@ void refine(PlanarRegion& region, const SizeField& size, std::vector<Complex>& i
         Cdt::Face_handle hint;
         for (const Candidate& candidate : candidates(region, size)) {
             Cdt::Face_handle found;
-            const bool allowed = may_insert(region, candidate.place, split_ratio * size(candidate.place), hint, found);
+            const Insertion insertion =
+                judge(region, candidate.place, split_ratio * size(candidate.place), hint, found);
             hint = found;
-            if (!allowed || !region.inside(found)) continue;
+            if (insertion == Insertion::refused_for_ever) {
+                char& state = candidate.face->info();  // of another face, unseen, if this one is gone
+                if (candidate.excess > 0.0 && state == pending)
+                    state = without_center;
+                else if (candidate.excess == 0.0 && state == without_center)
+                    state = done;
+            }
+            if (insertion != Insertion::allowed || !region.inside(found)) continue;
             const auto vertex = cdt.insert(to_point(candidate.place), found);
             vertex->info() = next_index++;
             interior.push_back(candidate.place);
@@ -99,7 +123,7 @@ void refine(PlanarRegion& region, const SizeField& size, std::vector<Complex>& i
             // The new faces fill the conflict zone, which lies inside.
             auto face = cdt.incident_faces(vertex);
             const auto first = face;
-            do face->info() = 1;
+            do face->info() = unseen;
             while (++face != first);
             hint = first;
         }

@@ -52,11 +52,14 @@ double SizeField::least_in(const Run& run, Complex place) const
 void SizeField::look(std::size_t level, std::size_t begin, std::size_t end, Complex place, double& size) const
 {
     std::array<std::pair<double, std::size_t>, run_length> bounds;
-    const std::size_t count = end - begin;
-    for (std::size_t i = 0; i < count; ++i) bounds[i] = {least_in(levels_[level][begin + i], place), begin + i};
-    if (level == 0) {
-        for (std::size_t i = 0; i < count; ++i) size = std::min(size, bounds[i].first);
-        return;
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+        const double bound = least_in(levels_[level][i], place);
+        if (!(bound < size)) continue;
+        if (level == 0)
+            size = bound;
+        else
+            bounds[count++] = {bound, i};
     }
     std::sort(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(count));
     for (std::size_t i = 0; i < count && bounds[i].first < size; ++i) {
@@ -67,9 +70,12 @@ void SizeField::look(std::size_t level, std::size_t begin, std::size_t end, Comp
 
 double SizeField::operator()(Complex place) const
 {
-    double size = longest_;
+    // The field is Lipschitz: it bounds its values near the last one.
+    constexpr double rounding = 1e-9;
+    double size = std::min(longest_, (1.0 + rounding) * (last_size_ + gradation_ * distance(place, last_place_)));
     look(levels_.size() - 1, 0, levels_.back().size(), place, size);
-    return size;
+    last_place_ = place;
+    return last_size_ = size;
 }
 
 }  // namespace koebe

@@ -3,13 +3,14 @@
 
 #include "core/types.h"
 
+#include <limits>
 #include <vector>
 
 namespace koebe {
 
 /// size(x) = min(longest, min_v (h_v + gradation |x - v|)) over the polygons' vertices v, h_v the mean of their two
 /// edges. Vertices are kept in runs along the boundary, and runs in runs of runs, with a bound for each run. So a query
-/// looks at a few runs of each level.
+/// looks at a few runs of each level, and at fewer near the place of the last query: one thread at a time may ask.
 class SizeField {
 public:
     SizeField(const std::vector<VectorXcd>& polygons, double longest, double gradation);
@@ -27,6 +28,8 @@ private:
     void look(std::size_t level, std::size_t begin, std::size_t end, Complex place, double& size) const;
 
     double longest_, gradation_;
+    mutable Complex last_place_;
+    mutable double last_size_ = std::numeric_limits<double>::infinity();
     std::vector<std::vector<Run>> levels_;  // vertices, runs of them, and so on; the last level is one short run
 };
 

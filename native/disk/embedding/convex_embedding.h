@@ -4,6 +4,7 @@
 #include "execution/execution.h"
 #include "mesh/topology.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -33,5 +34,19 @@ FilledDisk fill_with_fans(const Surface& surface, const std::vector<VertexLoop>&
 /// @return (filled.vertex_count, 2)
 PlanarPoints convex_embedding(const FilledDisk& filled, const VertexLoop& outer, const VectorXcd& rim,
                               const ExecutionContext& context);
+
+/// A drawing of the disk, and the vertices that are not where they were.
+struct MendedDrawing {
+    PlanarPoints points;          ///< (filled.vertex_count, 2)
+    std::vector<Index> replaced;  ///< ascending
+};
+
+/// Makes a drawing right that is wrong in few places: takes out inner vertices around wrong faces, ring after ring,
+/// until all faces are right, and puts them back as convex_embedding does. All other vertices stay.
+/// @param points (filled.vertex_count, 2), the outer loop on the unit circle
+/// @param wrong (filled.triangles) 1 for faces that are to become right
+/// @return nothing if faces stay wrong
+std::optional<MendedDrawing> mend_drawing(const FilledDisk& filled, const VertexLoop& outer, PlanarPoints points,
+                                          std::vector<char> wrong, const ExecutionContext& context);
 
 }  // namespace koebe

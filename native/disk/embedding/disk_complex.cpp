@@ -56,14 +56,22 @@ void DiskComplex::link(Index vertex, std::vector<Index>& neighbours, std::vector
 
 /// The neighbour to slide into, by its place in the link: of the possible ones the one with fewest faces. -1 without
 /// any.
-Index DiskComplex::heir(const std::vector<Index>& link, bool chords)
+Index DiskComplex::heir(const std::vector<Index>& link, const std::vector<Index>& faces, bool chords,
+                        const std::function<bool(const Face&, double)>& wrong)
 {
     const std::size_t n = link.size();
     Index best = -1;
-    std::size_t least = 0;
+    std::size_t least = 0, fewest = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Index u = link[i];
-        if (best >= 0 && around_[u].size() >= least) continue;
+        std::size_t wrong_faces = 0;
+        for (std::size_t k = 1; wrong && k + 1 < n; ++k) {
+            double weight = weights_[faces[(i + k) % n]];
+            if (k == 1) weight += weights_[faces[i]];
+            if (k + 2 == n) weight += weights_[faces[(i + n - 1) % n]];
+            wrong_faces += wrong({u, link[(i + k) % n], link[(i + k + 1) % n]}, weight);
+        }
+        if (best >= 0 && std::pair(wrong_faces, around_[u].size()) >= std::pair(fewest, least)) continue;
         for (const Index f : around_[u])
             for (const Index w : faces_[f]) marked_[w] = 1;
         bool free = true;
@@ -76,16 +84,17 @@ Index DiskComplex::heir(const std::vector<Index>& link, bool chords)
         if (!free) continue;
         best = static_cast<Index>(i);
         least = around_[u].size();
+        fewest = wrong_faces;
     }
     return best;
 }
 
-bool DiskComplex::take_out(Index vertex, bool chords)
+bool DiskComplex::take_out(Index vertex, bool chords, const std::function<bool(const Face&, double)>& wrong)
 {
     Removal removal{vertex, {}, face_count()};
     std::vector<Index> neighbours;
     link(vertex, neighbours, removal.old_faces);
-    const Index i = heir(neighbours, chords);
+    const Index i = heir(neighbours, removal.old_faces, chords, wrong);
     if (i < 0) return false;
     const std::size_t n = neighbours.size();
     std::rotate(neighbours.begin(), neighbours.begin() + i, neighbours.end());

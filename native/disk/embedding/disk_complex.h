@@ -4,6 +4,7 @@
 #include "core/types.h"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace koebe {
@@ -39,8 +40,10 @@ public:
     void link(Index vertex, std::vector<Index>& neighbours, std::vector<Index>& faces) const;
 
     /// Takes a vertex out. @param chords whether a new edge may join two outer vertices
+    /// @param wrong of the neighbours that can take it the one with the fewest new faces that are wrong takes it, by a
+    /// new face and the number of faces it stands for; empty: the one with the fewest faces
     /// @return false if no neighbour can take it
-    bool take_out(Index vertex, bool chords);
+    bool take_out(Index vertex, bool chords, const std::function<bool(const Face&, double)>& wrong = {});
     std::size_t taken_out() const { return removals_.size(); }
     /// Undoes the last take_out. @return the vertex
     Index put_back();
@@ -52,7 +55,8 @@ private:
         Index first_new;
     };
 
-    Index heir(const std::vector<Index>& link, bool chords);
+    Index heir(const std::vector<Index>& link, const std::vector<Index>& faces, bool chords,
+               const std::function<bool(const Face&, double)>& wrong);
     void add(Index f);
     void drop(Index f);
 

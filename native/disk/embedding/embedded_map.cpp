@@ -94,6 +94,26 @@ public:
     {
     }
 
+    Embedding(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+              const std::vector<Ear>& ears, const CircleMap& map, FixedPlaces places, const ExecutionContext& context)
+        : loops_(loops),
+          map_(vertices, surface, loops, ears, map, places, context),
+          off_(loops.size(), 0),
+          roundness_(loops.size())
+    {
+    }
+
+    /// Pulls replaced vertices back to their circles. @param map the start
+    std::optional<CircleMap> mend(CircleMap map, const ExecutionContext& context)
+    {
+        if (!map_.started()) return {};
+        draw(context);
+        map_.relax({}, 12, context);
+        map_.snap();
+        take_places(map);
+        return map;
+    }
+
     CircleMap run(const std::vector<Circle>& wanted, const ExecutionContext& context)
     {
         // A ring has many conformal maps to a ring: the rim tells which one is meant.
@@ -123,17 +143,23 @@ public:
             map_.relax({}, 12, context);
             map_.snap();
         }
+        take_places(result);
+        return result;
+    }
+
+private:
+    void take_places(CircleMap& result)
+    {
         result.circles = map_.circles();
         result.uv = map_.surface_points();
+        result.off_circle.clear();
         for (std::size_t k = 1; k < loops_.size(); ++k) {
             const std::vector<Index> off = map_.off_circle(k, false);
             result.off_circle.insert(result.off_circle.end(), off.begin(), off.end());
         }
         std::sort(result.off_circle.begin(), result.off_circle.end());
-        return result;
     }
 
-private:
     struct Attempt {
         int off = -1;  // vertices that should be on their circles but are not
         FilledMap::State state;
@@ -214,7 +240,7 @@ private:
     FilledMap map_;
     std::vector<char> off_;  // per loop
     std::vector<Roundness> roundness_;
-    std::size_t most_work_;
+    std::size_t most_work_ = 0;
 };
 
 }  // namespace
@@ -224,6 +250,13 @@ CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const s
                        const ExecutionContext& context, FixedPlaces places)
 {
     return Embedding(vertices, surface, loops, ears, rim, places, context).run(wanted, context);
+}
+
+std::optional<CircleMap> mended_map(const Vertices& vertices, const Surface& surface,
+                                    const std::vector<VertexLoop>& loops, const std::vector<Ear>& ears,
+                                    const CircleMap& map, const ExecutionContext& context, FixedPlaces places)
+{
+    return Embedding(vertices, surface, loops, ears, map, places, context).mend(map, context);
 }
 
 PlanarPoints freely_embedded(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,

@@ -7,6 +7,7 @@
 #include "execution/execution.h"
 #include "mesh/topology.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -25,6 +26,14 @@ namespace koebe {
 CircleMap embedded_map(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
                        const std::vector<Ear>& ears, const std::vector<Circle>& wanted, const VectorXcd& rim,
                        const ExecutionContext& context, FixedPlaces places = {});
+
+/// Makes a map one to one that is wrong in few faces, and stays the same elsewhere: replaces the vertices around these
+/// faces (mend_drawing), and pulls loop vertices back to their circles.
+/// @param map of the surface, the circles apart
+/// @return nothing if faces stay wrong
+std::optional<CircleMap> mended_map(const Vertices& vertices, const Surface& surface,
+                                    const std::vector<VertexLoop>& loops, const std::vector<Ear>& ears,
+                                    const CircleMap& map, const ExecutionContext& context, FixedPlaces places = {});
 
 /// Makes a map that is one to one, without wanted circles for the inner loops, in a small part of the steps.
 /// @return (V, 2), the outer loop on the unit circle; at the start its steps are in proportion to its edges

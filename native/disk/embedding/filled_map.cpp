@@ -14,6 +14,8 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -29,11 +31,28 @@ constexpr double longest_move = 0.3;                    // disk units: |a| of an
 constexpr double least_move = 1e-3, poor_move = 0.02;   // shares of the way to 0
 constexpr double with_room = 0.3, hardest_pull = 1e12;  // dimensionless: weight of the holes' fans, and the pull
 
+constexpr int rings_that_move = 8;  // round places that are replaced
+
+/// Whether wrong faces are so few that the rest of the map is worth keeping.
+bool is_small_share(std::ptrdiff_t wrong, std::size_t all) { return 200 * wrong < static_cast<std::ptrdiff_t>(all); }
+
+Eigen::RowVector2d middle_of_edges(const VertexLoop& loop, const PlanarPoints& uv)
+{
+    Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
+    double around = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Eigen::RowVector2d from = uv.row(loop[i]), to = uv.row(loop[(i + 1) % loop.size()]);
+        const double length = (to - from).norm();
+        sum += 0.5 * length * (from + to);
+        around += length;
+    }
+    return around > 0.0 ? Eigen::RowVector2d(sum / around) : Eigen::RowVector2d(uv.row(loop[0]));
+}
+
 }  // namespace
 
 FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
-                     const std::vector<Ear>& ears, const VectorXcd& rim, FixedPlaces places,
-                     const ExecutionContext& context)
+                     const std::vector<Ear>& ears, FixedPlaces places)
     : vertices_(vertices),
       surface_(surface),
       loops_(loops),
@@ -57,8 +76,77 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
     for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
         for (const Index v : filled_.triangles.row(f)) around_[v].push_back(static_cast<Index>(f));
     std::iota(faces_.begin(), faces_.end(), 0);
+}
+
+FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                     const std::vector<Ear>& ears, const VectorXcd& rim, FixedPlaces places,
+                     const ExecutionContext& context)
+    : FilledMap(vertices, surface, loops, ears, places)
+{
     start(rim, context);
     if (places_.center >= 0) bring_to_center(context);
+}
+
+FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+                     const std::vector<Ear>& ears, const CircleMap& map, FixedPlaces places,
+                     const ExecutionContext& context)
+    : FilledMap(vertices, surface, loops, ears, places)
+{
+    // The holes' fans lie round the middles of their edges, which are inside where all vertices are on the circle.
+    PlanarPoints points(filled_.vertex_count, 2);
+    points.topRows(surface.vertex_count) = map.uv;
+    for (std::size_t k = 1; k < loops.size(); ++k) points.row(fan_centre(k)) = middle_of_edges(loops[k], map.uv);
+    now_.points = std::move(points);
+    now_.circles = map.circles;
+    // Wrong places are replaced, and only vertices near them will move.
+    std::optional<MendedDrawing> mended;
+    std::vector<char> wrong = wrong_faces();
+    if (is_small_share(std::ranges::count(wrong, 1), wrong.size()))
+        mended = mend_drawing(filled_, loops[0], now_.points, std::move(wrong), context);
+    if (!mended || std::ranges::binary_search(mended->replaced, places.center)) {
+        now_.points.resize(0, 2);
+        return;
+    }
+    now_.points = std::move(mended->points);
+    hold_far_from(std::move(mended->replaced));
+    for (std::size_t k = 1; k < loops.size(); ++k)
+        for (const Index v : loops[k])
+            if (pulled_[v] && is_on_circle(now_.circles[k], at(v), inner_circle_tolerance))
+                now_.mobility[v] = Mobility::sliding;
+}
+
+/// Faces of the surface that are flipped as stored, and fans that are not upright.
+std::vector<char> FilledMap::wrong_faces() const
+{
+    std::vector<char> wrong(filled_.triangles.rows());
+    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) {
+        const StoredFace face(filled_.triangles, now_.points, f);
+        wrong[f] = f < surface_.triangles.rows() ? face.doubtful() && !face.below_resolution() : !(area(f) > 0.0);
+    }
+    return wrong;
+}
+
+/// Holds all vertices but some, and the rings around these. @param moving the vertices that move
+void FilledMap::hold_far_from(std::vector<Index> moving)
+{
+    still_.assign(filled_.vertex_count, 1);
+    for (const Index v : moving) still_[v] = 0;
+    std::size_t begin = 0;
+    for (int ring = 0; ring < rings_that_move; ++ring)
+        for (const std::size_t end = moving.size(); begin < end; ++begin)
+            for (const Index f : around_[moving[begin]])
+                for (const Index w : filled_.triangles.row(f))
+                    if (std::exchange(still_[w], 0)) moving.push_back(w);
+    for (const Index v : {places_.center, places_.point})
+        if (v >= 0) still_[v] = 1;
+    std::erase_if(faces_, [&](Index f) { return !moves(f); });
+}
+
+/// Whether a corner of the face moves.
+bool FilledMap::moves(Eigen::Index f) const
+{
+    return still_.empty() || !still_[filled_.triangles(f, 0)] || !still_[filled_.triangles(f, 1)] ||
+           !still_[filled_.triangles(f, 2)];
 }
 
 /// The rim turned so that the vertex for 1 is at 1.
@@ -214,12 +302,17 @@ FoldoverProblem FilledMap::problem(Pull pull) const
     FoldoverProblem problem;
     problem.points = now_.points;
     problem.mobility = now_.mobility;
+    for (std::size_t v = 0; v < still_.size(); ++v)
+        if (still_[v]) problem.mobility[v] = Mobility::held;
     // Faces that have lost their area to rounding take no part, and hold their corners. Faces of the surface want their
     // shape on it, faces of the fans a regular one; a floor keeps the area that 32 bits need.
     const PatchShapes shapes = patch_shapes(vertices_, surface_.triangles, now_.points, faces_, pull.shape);
     std::vector<Index> taken;
     std::vector<double> floors, weights;
+    Eigen::Index row = 0;  // in shapes
     for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f) {
+        if (!moves(f)) continue;
+        const Eigen::Index shape = row++;
         const double now = area(f), longest = longest_edge(f);
         if (!(now > 1e-15 * longest * longest) || !(now > 1e-200)) {
             for (int k = 0; k < 3; ++k) problem.mobility[filled_.triangles(f, k)] = Mobility::held;
@@ -227,9 +320,9 @@ FoldoverProblem FilledMap::problem(Pull pull) const
         }
         const bool fan = f >= surface_.triangles.rows();
         taken.push_back(static_cast<Index>(f));
-        problem.reference.push_back(fan ? fan_reference(f, now) : shapes.references[f]);
+        problem.reference.push_back(fan ? fan_reference(f, now) : shapes.references[shape]);
         const double floor = fan ? 0.0 : std::min(0.5 * caution_[f] * area_rounding * longest, 0.5 * now);
-        floors.push_back(floor / (fan ? now : shapes.areas[f]));
+        floors.push_back(floor / (fan ? now : shapes.areas[shape]));
         weights.push_back(fan ? pull.regular : 1.0);
     }
     problem.triangles = filled_.triangles(taken, Eigen::all);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "circles/circle_fit.h"
+#include "circles/circle_map.h"
 #include "circles/moebius.h"
 #include "ears/ears.h"
 #include "embedding/convex_embedding.h"
@@ -35,6 +36,12 @@ public:
     /// @param places vertices with fixed places; the centre is not at 0 if its faces would turn over there
     FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
               const std::vector<Ear>& ears, const VectorXcd& rim, FixedPlaces places, const ExecutionContext& context);
+
+    /// Starts from a map with few wrong faces (mend_drawing). Only vertices near those that had to be replaced move.
+    FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+              const std::vector<Ear>& ears, const CircleMap& map, FixedPlaces places, const ExecutionContext& context);
+    /// Whether there is a start.
+    bool started() const { return now_.points.rows() > 0; }
 
     /// Lowers the angle error of the surface's faces, and the pulls, by some Newton steps (foldover_free.h, strict).
     void relax(Pull pull, int iterations, const ExecutionContext& context);
@@ -71,6 +78,10 @@ public:
 private:
     using Mobility = FoldoverProblem::Mobility;
 
+    FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
+              const std::vector<Ear>& ears, FixedPlaces places);
+    std::vector<char> wrong_faces() const;
+    void hold_far_from(std::vector<Index> moving);
     void start(const VectorXcd& rim, const ExecutionContext& context);
     VectorXcd placed_rim(VectorXcd rim) const;
     bool move_by(Moebius moebius);
@@ -80,6 +91,7 @@ private:
     double area(Eigen::Index f) const;
     double longest_edge(Eigen::Index f) const;
     bool right(Eigen::Index f) const;
+    bool moves(Eigen::Index f) const;
     bool star_right(Index vertex, const std::vector<char>& was_right) const;
     std::vector<char> right_faces() const;
     Eigen::Matrix2d fan_reference(Eigen::Index f, double area) const;
@@ -97,7 +109,8 @@ private:
     FixedPlaces places_;
     State now_;
     std::size_t work_ = 0;
-    std::vector<Index> faces_;  // the surface's faces
+    std::vector<Index> faces_;  // the surface's faces with vertices that move
+    std::vector<char> still_;   // (V) 1 for vertices that never move; empty if there are none
 };
 
 }  // namespace koebe

@@ -50,6 +50,7 @@ NewtonSystem::NewtonSystem(const FoldoverProblem& problem, NewtonPattern* kept)
         first_of_period_.push_back(unknowns_);
         unknowns_ += j == 0 ? 1 : 2;
     }
+    if (unknowns_ > 0) tangents_.resize(first_unknown_.size());
     if (kept_) pattern_ = std::exchange(*kept_, {});
     const bool fits = pattern_.hessian.rows() == unknowns_ &&
                       pattern_.places.size() == static_cast<std::size_t>(problem.triangles.rows()) &&
@@ -190,7 +191,7 @@ std::pair<Index, Index> NewtonSystem::ends(Eigen::Index f, int k) const
 }
 
 /// The direction in which a sliding or riding vertex moves.
-Eigen::Vector2d NewtonSystem::tangent(Index v) const
+Eigen::Vector2d NewtonSystem::tangent_now(Index v) const
 {
     if (rides(v)) return vector(track_of(v).along({problem_.points(v, 0), problem_.points(v, 1)}));
     const Circle& circle = problem_.circles[v];
@@ -251,6 +252,9 @@ void NewtonSystem::clear()
 {
     gradient_ = VectorXd::Zero(unknowns_);
     std::fill_n(pattern_.hessian.valuePtr(), pattern_.hessian.nonZeros(), 0.0);
+    for (std::size_t v = 0; v < tangents_.size(); ++v)
+        if (problem_.mobility[v] == Mobility::sliding || problem_.mobility[v] == Mobility::riding)
+            tangents_[v] = tangent_now(static_cast<Index>(v));
     outward_force_.assign(problem_.bends ? first_unknown_.size() : problem_.track_of.size(), 0.0);
 }
 

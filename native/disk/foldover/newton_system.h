@@ -67,7 +67,8 @@ private:
     bool is_shared(Eigen::Index f) const;
     std::vector<Column> columns(Eigen::Index f) const;
     std::pair<Index, Index> ends(Eigen::Index f, int k) const;
-    Eigen::Vector2d tangent(Index v) const;
+    Eigen::Vector2d tangent_now(Index v) const;
+    const Eigen::Vector2d& tangent(Index v) const { return tangents_[v]; }
     void set_pattern();
     void add_shared_pairs(Eigen::Index f, std::vector<std::pair<Index, Index>>& pairs) const;
     void add(Index column_vertex, Index row_vertex, Index place, const Eigen::Matrix2d& block);
@@ -80,6 +81,7 @@ private:
     NewtonPattern pattern_;
     NewtonPattern* kept_;
     VectorXd gradient_;
+    std::vector<Eigen::Vector2d> tangents_;  // (V) of sliding and riding vertices, at the present places
     std::vector<double>
         outward_force_;  // (V) of riding, or bending sliding, vertices: minus the gradient, along the radius
 };

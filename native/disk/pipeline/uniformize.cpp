@@ -105,6 +105,7 @@ public:
     void normalize_core();
     void attach_ears();
     void remove_flips();
+    void mend_where_it_failed();
     void embed_where_it_failed();
     void polish();
     void make_even();
@@ -245,6 +246,18 @@ void MapRun::remove_flips()
     if (options_.repair) faults_ = faults_of(*map_);
 }
 
+/// Replaces the map around its wrong faces, if they are few.
+void MapRun::mend_where_it_failed()
+{
+    if (!map_ || !faults_.any() || !circles_apart(map_->circles)) return;
+    std::optional<CircleMap> mended = mended_map(whole().vertices, whole().surface, whole().loops, problem_->cut.ears,
+                                                 *map_, context_, {whole().center, whole().point});
+    if (!mended || faults_of(*mended).any()) return;
+    map_ = std::move(mended);
+    faults_ = {};
+    untangled_ = {};
+}
+
 void MapRun::embed_where_it_failed()
 {
     if (map_ && !faults_.any()) return;
@@ -337,6 +350,7 @@ UniformizeResult map_problem(const Vertices& vertices, const Triangles& triangle
     run.normalize_core();         // z -> (z - a) / (1 - conj(a) z), with even texels or a vertex at 0 (section 4.3)
     run.attach_ears();            // each inside its hole, or along the unit circle
     run.remove_flips();           // det Dz > 0 in each face, as UVs of 32 bits store it
+    run.mend_where_it_failed();   // the rest of the faces that are flipped, if they are few
     run.embed_where_it_failed();  // Tutte's theorem: one to one, not conformal
     run.polish();                 // least sum of |angle errors|, the circles kept
     run.make_even();              // from conformal to true to size

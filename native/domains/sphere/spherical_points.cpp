@@ -6,8 +6,14 @@
 #include <Eigen/Dense>
 
 #include <cmath>
+#include <limits>
 
 namespace koebe {
+namespace {
+
+constexpr double least_sizes = 1e-250;  // no product underflows unseen
+
+}  // namespace
 
 SpherePoint on_sphere(Complex z)
 {
@@ -57,6 +63,16 @@ SpherePoint onto_circle(const Cap& cap, const SpherePoint& point)
 
 int orientation(const SpherePoint& a, const SpherePoint& b, const SpherePoint& c)
 {
+    // det(a, b, c) = det(a, b - a, c - a), whose rounding is small beside small triangles. Where it does not tell the
+    // sign, exact numbers do.
+    constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();  // of the sum of sizes; the bound is 4
+    const SpherePoint along = b - a, across = c - a;
+    const double determinant = a.dot(along.cross(across));
+    const auto size = [](double left, double right) { return std::abs(left) + std::abs(right); };
+    const double sizes = std::abs(a[0]) * size(along[1] * across[2], along[2] * across[1]) +
+                         std::abs(a[1]) * size(along[2] * across[0], along[0] * across[2]) +
+                         std::abs(a[2]) * size(along[0] * across[1], along[1] * across[0]);
+    if (sizes > least_sizes && std::abs(determinant) > rounding * sizes) return determinant > 0.0 ? 1 : -1;
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     const auto point = [](const SpherePoint& p) { return Kernel::Point_3(p[0], p[1], p[2]); };
     return static_cast<int>(CGAL::orientation(Kernel::Point_3(0.0, 0.0, 0.0), point(a), point(b), point(c)));

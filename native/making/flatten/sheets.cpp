@@ -15,10 +15,12 @@
 namespace koebe {
 namespace {
 
-constexpr double gap = 3.0;               // mm between pieces with their allowances
-constexpr double least_gap_share = 0.02;  // of a sheet without page: small pieces have a smaller gap
-constexpr double larger_sheet = 1.05;     // where pieces have no room on one: at least,
-constexpr double largest_step = 1.5;      // and at most
+constexpr double gap = 3.0;                // mm between pieces with their allowances
+constexpr double least_gap_share = 0.02;   // of a sheet without page: small pieces have a smaller gap
+constexpr double larger_sheet = 1.05;      // where pieces have no room on one: at least,
+constexpr double largest_step = 1.5;       // and at most
+constexpr std::size_t many_pieces = 1000;  // whose margins take much of the sheet, and whose packing takes long,
+constexpr double room_of_many = 1.3;       // begin on a sheet so much larger than the boxes say
 constexpr int most_pages = 1000;
 
 /// The side of a square in which the pieces have about room.
@@ -70,6 +72,7 @@ private:
         const std::vector<Outline> outlines = outlines_of(pieces_);
         double side = square_for(pieces_, 2.0 * allowance_);
         const double margin = 2.0 * allowance_ + std::min(gap, least_gap_share * side);
+        if (pieces_.size() >= many_pieces) side = std::max(side, room_of_many * square_for(pieces_, margin));
         SheetPacking packing = pack_on_sheets(outlines, margin, {side, side});
         while (packing.sheets != 1 || std::ranges::count(packing.sheet, -1) > 0) {
             side *= std::clamp(std::sqrt(1.0 / share_on_first(packing)), larger_sheet, largest_step);
