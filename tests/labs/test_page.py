@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "labs.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 14
+    assert len(blocks) == 15
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
@@ -37,6 +37,9 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert names["places"].fitted and names["moved"].shape == (names["neutral"].vertex_count,)
     held, tip = names["held"], names["tip"]
     assert held.flipped == 0 and np.allclose(held.points[tip], names["surprised"].surface[0][tip], atol=1e-9)
+    found = names["found"]
+    assert found.points.shape == (2, names["neutral"].vertex_count, 3) and names["images"].shape == (2, 128, 128)
+    assert np.array_equal(names["matrix"][0], names["depth"][0]) and found.margins[1] > 0.3
     assert (names["bars"] > 0).all() and names["both"].distance_errors[0, 1] > 0
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1,y_2,r_2,x_3,y_3,r_3\nneutral,0.")
     assert names["cortex"].flipped == 0 and names["cortex"].angle_error_deg["mean"] < 6.5

@@ -1,14 +1,11 @@
-"""How sure a shape's numbers are under noise, and whether two groups of shapes differ."""
+"""How sure a shape's numbers are under noise."""
 
-import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from .._arrays import as_points
 from .._native import _koebe
 from .._options import whole
 from .._progress import Progress, Run
@@ -16,9 +13,7 @@ from ..errors import InputError, KoebeError, OptionError, SolverError
 from ..maps.input import surface_of
 from ..maps.result import Source, UniformizeResult
 from ..maps.surface import Surface
-from .family import Family
 from .shapes import chosen_order, conformal_module
-from .sphere_family import SphereFamily
 
 _MEDIAN = 0.6744897501960817  # of |x| for a normal x with the standard deviation 1
 _PROBES = 64  # random vectors for the length of the filter's rows: an error of 1 / sqrt(2 * 64) = 9 % in each
@@ -130,94 +125,3 @@ def noise_error(
         raise SolverError(f"with this noise {count - len(changes)} of {count} surfaces cannot be mapped")
     moves = np.array(changes)
     return np.abs(moves.mean(axis=0)) + 2.0 * moves.std(axis=0, ddof=1)
-
-
-@dataclass(frozen=True)
-class PermutationTest:
-    """Whether groups of shapes differ.
-
-    p            the probability of a difference like this or a greater one if the groups were drawn from one population
-    statistic    Anderson's pseudo-F: the mean square between the groups over the mean square within
-    explained    share of the sum of squared distances that lies between the groups, from 0 to 1
-    permutations the groups that were compared with the given ones
-    exact        whether they are all that there are
-    """
-
-    p: float
-    statistic: float
-    explained: float
-    permutations: int
-    exact: bool
-
-    def __repr__(self) -> str:
-        kind = "all" if self.exact else "random"
-        return (
-            f"<koebe.PermutationTest p {self.p:.3g}, F {self.statistic:.3g}, {self.permutations} {kind} permutations>"
-        )
-
-
-def permutation_test(distances: Any, groups: Any, *, permutations: int = 9999, seed: int = 0) -> PermutationTest:
-    """Test whether two or more groups of shapes differ, by their distances alone (PERMANOVA) [Anderson 2001].
-
-    distances     (N, N) symmetric, such as the distances of a `family`, or of separation_distance for all pairs; or the
-                  Family or SphereFamily itself
-    groups        (N,) the group of each shape: any labels
-    permutations  of the labels, at random; if there are no more than these, all are taken
-    seed          of the random numbers: the same seed gives the same p
-    The false-positive rate at level p is at most p, whatever the distances. Groups with one mean but unlike spread are
-    called different, too, if their sizes differ. docs/shapes.md has the power on a made population. Raises InputError.
-
-    >>> import koebe, numpy as np
-    >>> places = np.concatenate([np.arange(6.0), 4 + np.arange(6.0)])
-    >>> found = koebe.permutation_test(abs(places[:, None] - places), [0] * 6 + [1] * 6)
-    >>> found.p < 0.05, found.exact
-    (True, True)
-    """
-    matrix = distances.distances if isinstance(distances, (Family, SphereFamily)) else distances
-    matrix = as_points(matrix, "distances", len(np.asarray(matrix)))
-    count = len(matrix)
-    if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0) or matrix.diagonal().any() or (matrix < 0.0).any():
-        raise InputError("the distances must be a symmetric matrix without negative numbers, 0 on the diagonal")
-    labels = np.asarray(groups)
-    if labels.shape != (count,):
-        raise InputError(f"the groups must be ({count},) labels, one for each shape, not {labels.shape}")
-    _, member, sizes = np.unique(labels, return_inverse=True, return_counts=True)
-    if len(sizes) < 2 or sizes.min() < 2:
-        raise InputError("there must be two groups at least, of two shapes each")
-    squares = matrix**2
-    total = squares.sum() / (2.0 * count)
-    if total == 0.0:
-        raise InputError("all shapes are equal")
-    tries, exact = _tries(member, sizes, whole(permutations, "permutations", least=1), seed)
-    given = float(_within(squares, member[None], sizes)[0])
-    found = np.concatenate([_within(squares, part, sizes) for part in tries])
-    as_far = int((found <= given + 1e-12 * total).sum())
-    p = as_far / len(found) if exact else (1 + as_far) / (1 + len(found))
-    between, rest = (total - given) / (len(sizes) - 1), given / (count - len(sizes))
-    statistic = between / rest if rest > 0.0 else math.inf
-    return PermutationTest(p, statistic, 1.0 - given / total, len(found), exact)
-
-
-def _tries(member: np.ndarray, sizes: np.ndarray, permutations: int, seed: int) -> tuple[list[np.ndarray], bool]:
-    """Tables (n, N) of the members' groups: all of two groups if there are few, or random ones."""
-    count, first = len(member), int(sizes[0])
-    if len(sizes) == 2 and math.comb(count, first) <= permutations:
-        table = np.ones((math.comb(count, first), count), np.int64)
-        for row, chosen in enumerate(itertools.combinations(range(count), first)):
-            table[row, list(chosen)] = 0
-        return [table], True
-    random = np.random.default_rng(whole(seed, "seed", least=0))
-    return [random.permuted(np.tile(member, (size, 1)), axis=1) for size in _pieces(permutations, 1000)], False
-
-
-def _pieces(count: int, most: int) -> list[int]:
-    return [min(most, count - first) for first in range(0, count, most)]
-
-
-def _within(squares: np.ndarray, members: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """(n,) sums of squares within the groups."""
-    sums = np.zeros(len(members))
-    for group, size in enumerate(sizes):
-        inside = (members == group).astype(np.float64)
-        sums += ((inside @ squares) * inside).sum(axis=1) / (2.0 * size)
-    return sums

@@ -16,7 +16,7 @@ from .._report_entries import Warning
 from ..errors import InputError, OptionError
 from ..io.files import whole_file
 from ..maps.carry import carried, landmark_pairs
-from ..maps.result import Beltrami
+from ..maps.result import Beltrami, MapReport
 from ..maps.sphere import SphereMap
 from .sphere_alignment import applied, by_fields, by_landmarks, correlation, nearest_rotation
 
@@ -279,7 +279,7 @@ def _similarity(located: _Located, sphere: np.ndarray, b: SphereMap, fields: tup
     return float(correlation(located.values(fields[0], sphere[used]), fields[1][used], vertex_areas(b)[used]))
 
 
-def vertex_areas(result: SphereMap) -> np.ndarray:
+def vertex_areas(result: MapReport) -> np.ndarray:
     """(V,) twice the area of the faces around each vertex."""
     a, b, c = result.vertices[result.triangles].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
