@@ -52,6 +52,7 @@ def metadata(version: str) -> str:
         "License-File: LICENSE",
         "License-File: THIRD_PARTY.md",
         f"Requires-Python: {said['requires-python']}",
+        *(f"Project-URL: {name}, {url}" for name, url in said["urls"].items()),
         *(f"Classifier: {item}" for item in said["classifiers"]),
         *(f"Requires-Dist: {item}" for item in said["dependencies"]),
     ]

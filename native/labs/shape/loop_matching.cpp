@@ -80,8 +80,9 @@ struct Best {
 
     void offer(LoopMatch other)
     {
-        if (match.order_a.size() == other.order_a.size() && loops_of_b(match) == loops_of_b(other)) return;
-        next = std::min(next, std::max(match.distance, other.distance));
+        // The same correspondence, seen from another outer loop, has another distance, but is no other one.
+        if (match.order_a.size() != other.order_a.size() || loops_of_b(match) != loops_of_b(other))
+            next = std::min(next, std::max(match.distance, other.distance));
         if (other.distance < match.distance) match = std::move(other);
     }
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .._comparable import Comparable
 from .._progress import Run
 from ..errors import InputError
 from .sphere_alignment import nearest_rotation
@@ -16,8 +17,8 @@ from .transfer import Correspondence
 AnyCorrespondence = Correspondence | SphereCorrespondence
 
 
-@dataclass(frozen=True)
-class LaidShapes:
+@dataclass(frozen=True, eq=False)
+class LaidShapes(Comparable):
     """Shapes with a point of each for every vertex of a reference, as PointFamily says."""
 
     points: np.ndarray
@@ -27,7 +28,7 @@ class LaidShapes:
     maps: list[Any]
 
 
-class PointFamily:
+class PointFamily(Comparable):
     """Shapes with a point of each for every vertex of a reference, moved and turned over their mean.
 
     labels    of the shapes
@@ -50,7 +51,9 @@ class PointFamily:
     @property
     def spread(self) -> np.ndarray:
         """(V,) root mean square distance of the points from their mean, in the shapes' unit."""
-        return np.sqrt(((self.points - self.mean) ** 2).sum(axis=2).mean(axis=0))
+        away = np.linalg.norm(self.points - self.mean, axis=2)
+        size = _size(away)
+        return size * np.sqrt(((away / size) ** 2).mean(axis=0))
 
     @property
     def triangles(self) -> np.ndarray:
@@ -95,11 +98,13 @@ class PointFamily:
         """(N, N) root mean square distances of corresponding points by area, each two turned over each other: in the
         shapes' unit."""
         used, found = self.weights > 0.0, np.zeros((len(self.points),) * 2)
-        for i, one in enumerate(self.points):
+        size = _size(self.points)
+        points, weights = self.points[:, used] / size, self.weights[used]
+        for i, one in enumerate(points):
             for j in range(i):
-                away = _laid_over(self.points[j][used], one[used], self.weights[used]) - one[used]
-                found[i, j] = found[j, i] = np.sqrt(self.weights[used] @ (away**2).sum(axis=1))
-        return found
+                away = _laid_over(points[j], one, weights) - one
+                found[i, j] = found[j, i] = np.sqrt(weights @ (away**2).sum(axis=1))
+        return size * found
 
     def adjacency(self) -> Any:
         """(V, V) scipy.sparse matrix: 1 for the ends of each edge of the reference. Tests of clusters take it, such as
@@ -151,7 +156,8 @@ def laid_over_mean(
     used = weights > 0.0
     points = np.array([base.vertices.astype(np.float64) if one is None else one.points for one in found])
     laid = np.where(used[None, :, None], points, np.nan)
-    laid[:, used] = _over_their_mean(laid[:, used], weights[used])
+    size = _size(laid)
+    laid[:, used] = size * _over_their_mean(laid[:, used] / size, weights[used])
     return LaidShapes(laid, base.triangles, weights, found, list(shapes))
 
 
@@ -169,6 +175,11 @@ def landmark_pairs_of(landmarks: Sequence[Sequence[Any]] | None, number: int, re
     if len(landmarks[number]) != len(landmarks[reference]):
         raise InputError(f"shape {number} has {len(landmarks[number])} landmarks, not {len(landmarks[reference])}")
     return list(zip(landmarks[number], landmarks[reference], strict=True))
+
+
+def _size(values: np.ndarray) -> float:
+    """The largest value's size, by which squares are kept in range; 1 for none."""
+    return float(np.nanmax(np.abs(values), initial=0.0)) or 1.0
 
 
 def _over_their_mean(points: np.ndarray, weights: np.ndarray) -> np.ndarray:

@@ -65,6 +65,9 @@ class Family(PointFamily):
     template: Any = None
     landmarks: Sequence[Sequence[Any]] | None = None
 
+    def _compared(self) -> dict[str, Any]:
+        return {name: value for name, value in super()._compared().items() if name != "laid"}  # made of the others
+
     @cached_property
     def laid(self) -> LaidShapes:  # type: ignore[override]
         """The shapes fitted to the template, and over their mean. Raises InputError or SolverError."""

@@ -75,7 +75,7 @@ class FitResult(UniformizeResult):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         self._set_arrays(mu=native.mu)
-        self.names = [loop["name"] for loop in report["loops"][1:] if "name" in loop]
+        self._set(names=[loop["name"] for loop in report["loops"][1:] if "name" in loop])
         self.ranks = np.array([loop["rank"] for loop in report["loops"]], dtype=np.int32)
 
     def _arrays(self) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._arrays import as_circles, as_indices, as_numbers, as_points
+from .._comparable import Comparable
 from .._native import _koebe
 from .._option_table import rows
 from .._options import choice_of, filled, flag, whole
@@ -284,7 +285,7 @@ def mapped_surface(result: UniformizeResult, shown: bool = False) -> "_koebe.Map
     return _koebe.MappedSurface(*result.surface, np.nan_to_num(domain.uv), loops, off, *circles, [True] * len(loops))
 
 
-class DomainAlignment:
+class DomainAlignment(Comparable):
     """An automorphism of the unit disk that lays one circle domain over another: z -> turn (z - a) / (1 - conj(a) z).
 
     match       the target's loop for each of the source's; of transfer(a, b), b's loop for each of a's

@@ -9,6 +9,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from .._comparable import Comparable
 from .._native import _koebe
 from .._options import flag
 from .._progress import Run, Watched
@@ -50,8 +51,8 @@ class Bending(TypedDict):
     settled: bool
 
 
-@dataclass(frozen=True)
-class SphereCorrespondence:
+@dataclass(frozen=True, eq=False)
+class SphereCorrespondence(Comparable):
     """A point of closed surface a for each vertex of closed surface b.
 
     faces       (V_b,) int32 triangle of a that holds the point
@@ -280,7 +281,8 @@ def _similarity(located: _Located, sphere: np.ndarray, b: SphereMap, fields: tup
 
 
 def vertex_areas(result: MapReport) -> np.ndarray:
-    """(V,) twice the area of the faces around each vertex."""
-    a, b, c = result.vertices[result.triangles].transpose(1, 0, 2)
+    """(V,) areas of the faces around each vertex, relative to each other."""
+    points = result.vertices / np.abs(result.vertices).max(initial=np.finfo(float).tiny)
+    a, b, c = points[result.triangles].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     return np.bincount(result.triangles.ravel(), np.repeat(area, 3), minlength=result.vertex_count)

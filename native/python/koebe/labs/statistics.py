@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .._arrays import as_points
+from .._comparable import Comparable
 from .._options import flag, whole
 from ..errors import InputError
 from .family import Family
@@ -52,7 +53,7 @@ class PermutationTest:
 
 
 @dataclass(frozen=True, eq=False)
-class PointTest:
+class PointTest(Comparable):
     """Where groups differ: figures of each point, NaN where a value is missing or all are equal.
 
     statistic    (V,) F of the linear model with the groups over the one without

@@ -10,6 +10,7 @@ from typing import Any, overload
 import numpy as np
 
 from .._arrays import as_indices, as_numbers
+from .._comparable import Comparable
 from .._native import _koebe
 from .._options import callback, flag, token, vertex
 from .._progress import Progress, Run, Watched
@@ -24,8 +25,8 @@ from .shapes import DomainAlignment, mapped_surface
 from .sphere_transfer import STIFFNESS, SphereCorrespondence, SphereOptions, sphere_transfer
 
 
-@dataclass(frozen=True)
-class Correspondence:
+@dataclass(frozen=True, eq=False)
+class Correspondence(Comparable):
     """A point of surface a for each vertex of surface b.
 
     faces       (V_b,) int32 triangle of a that holds the point
