@@ -1,4 +1,4 @@
-"""docs/labs.md and docs/tutorial.ipynb: every block runs, one after the other, and gives what the page says."""
+"""docs/labs.md and the notebooks tutorial.ipynb and atrium.ipynb: every block runs, one after the other, and gives what the page says."""
 
 import re
 import shutil
@@ -46,11 +46,12 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert np.array_equal(names["results"][1].uv, names["surprised"].uv)
 
 
-def test_the_notebook_runs_and_keeps_no_output(tmp_path, monkeypatch):
+def run(name, tmp_path, monkeypatch):
+    """The notebook of docs/, executed, and how many pictures it shows."""
     import nbclient
     import nbformat
 
-    notebook = nbformat.read(ROOT / "docs" / "tutorial.ipynb", as_version=4)
+    notebook = nbformat.read(ROOT / "docs" / name, as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells)
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
@@ -60,5 +61,17 @@ def test_the_notebook_runs_and_keeps_no_output(tmp_path, monkeypatch):
     where = {"metadata": {"path": str(tmp_path)}}
     nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources=where).execute()
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
-    assert sum("image/png" in output.get("data", {}) for output in shown) == 3
+    return notebook, sum("image/png" in output.get("data", {}) for output in shown)
+
+
+def test_the_tutorial_runs_and_keeps_no_output(tmp_path, monkeypatch):
+    assert run("tutorial.ipynb", tmp_path, monkeypatch)[1] == 3
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1")
+
+
+def test_the_study_of_atria_finds_the_bulge_that_it_made(tmp_path, monkeypatch):
+    notebook, pictures = run("atrium.ipynb", tmp_path, monkeypatch)
+    assert pictures == 3
+    said = notebook.cells[-2].outputs[0]["data"]["text/plain"]
+    *place, p = (float(number) for number in re.findall(r"-?\d+\.\d+", said))
+    assert np.linalg.norm(np.array(place) - (0, 8, 19)) < 8 and p <= 0.05  # mm, on the roof
