@@ -32,6 +32,12 @@ def test_equal_inputs_give_equal_results(kind, tmp_path):
         assert koebe.load(tmp_path / "one.npz") == one and len({one, again, other}) == 2
 
 
+def test_one_entry_of_a_list_makes_a_difference():
+    shapes = [koebe.uniformize(FACE), koebe.uniformize(OTHER)]
+    assert koebe.family(shapes, labels=["a", "b"]) == koebe.family(shapes, labels=["a", "b"])
+    assert koebe.family(shapes, labels=["a", "b"]) != koebe.family(shapes, labels=["a", "c"])
+
+
 @pytest.mark.parametrize("kind", MAPS)
 def test_a_result_does_not_change(kind):
     one = MAPS[kind](FACE)

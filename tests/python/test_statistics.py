@@ -160,6 +160,9 @@ def test_distances_of_numbers_give_the_f_of_the_linear_model():
         f, degrees = f_of_least_squares(y, before, np.column_stack([before, dummies]))
         found = koebe.permutation_test(abs(y[:, None] - y), groups, covariates=covariates, permutations=99)
         assert found.statistic == pytest.approx(f) and found.degrees == degrees
+        after = np.column_stack([before, dummies])
+        squares = [((y - x @ np.linalg.lstsq(x, y, rcond=None)[0]) ** 2).sum() for x in (ones, before, after)]
+        assert found.explained == pytest.approx((squares[1] - squares[2]) / squares[0])
         points = koebe.point_test(np.column_stack([y, 3 * y + 1]), groups, covariates=covariates, permutations=99)
         assert points.statistic == pytest.approx([f, f]) and points.degrees == degrees
     f, degrees = f_of_least_squares(y, ones, np.column_stack([ones, age]))

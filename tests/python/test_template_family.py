@@ -68,6 +68,9 @@ def test_a_family_has_what_families_of_closed_surfaces_have():
     assert FOUND.points.shape == (4, len(VERTICES), 3) and np.array_equal(FOUND.triangles, SHAPES[0].triangles)
     assert np.allclose(FOUND.mean, FOUND.points.mean(axis=0)) and FOUND.spread.shape == (len(VERTICES),)
     assert np.isclose(FOUND.weights.sum(), 1.0) and FOUND.correspondences[0] is None and len(FOUND.maps) == 4
+    for row, found in zip(FOUND.points[1:], FOUND.correspondences[1:], strict=True):  # moved and turned only
+        away, before = (np.linalg.norm(points - points[0], axis=1) for points in (row, found.points))
+        assert np.allclose(away, before)
     distances = FOUND.point_distances
     assert np.allclose(distances, distances.T) and (distances[~np.eye(4, dtype=bool)] > 0.005).all()
     matrix = FOUND.matrix(HEIGHTS)
