@@ -1,4 +1,4 @@
-"""docs/labs.md and the notebooks tutorial.ipynb and atrium.ipynb: every block runs, one after the other, and gives what the page says."""
+"""docs/labs.md and the notebooks tutorial.ipynb and atrium.ipynb: every block runs, and gives what the page says."""
 
 import re
 import shutil
