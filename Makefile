@@ -12,6 +12,7 @@ LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
 # Whose meshes `koebe.uniformize` takes, what its pictures are drawn with, what spreads `koebe.batch`, and what runs the
 # notebook; beside scikit-learn and SciPy the wheel is tried. nilearn brings a cortex, pygeodesic its exact distances.
 LABS := pytest==9.2.0 numpy==2.4.6 scikit-learn==1.9.1 scipy==1.17.1 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 \
+        scikit-bio==0.7.4 statsmodels==0.15.0 pandas==3.1.1 \
         distributed==2026.8.0 nibabel==5.4.2 nbclient==0.11.0 ipykernel==7.4.0 \
         nilearn==0.14.1 pygeodesic==0.1.11
 # What the site is built with.

@@ -38,7 +38,7 @@ def read(name, side):
 def on_unit_sphere(result, points):
     """The surface on another sphere."""
     other = copy.copy(result)
-    other.points = points / np.linalg.norm(points, axis=1, keepdims=True)
+    vars(other)["points"] = points / np.linalg.norm(points, axis=1, keepdims=True)
     return other
 
 

@@ -52,6 +52,7 @@ def metadata(version: str) -> str:
         "License-File: LICENSE",
         "License-File: THIRD_PARTY.md",
         f"Requires-Python: {said['requires-python']}",
+        *(f"Project-URL: {name}, {url}" for name, url in said["urls"].items()),
         *(f"Classifier: {item}" for item in said["classifiers"]),
         *(f"Requires-Dist: {item}" for item in said["dependencies"]),
     ]
@@ -90,6 +91,7 @@ def members(compiled: dict[str, Path], tag: str, version: str) -> dict[str, byte
     sources = [*PACKAGE.rglob("*.py"), PACKAGE / "py.typed"]
     files = {f"koebe/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes() for path in sources}
     files |= {f"koebe/{path.name}": path.read_bytes() for path in OPTIONS.glob("*.json")}
+    files |= {f"koebe/examples/{path.name}": path.read_bytes() for path in (ROOT / "blend_samples").glob("*.obj")}
     files["koebe/_signatures.py"] = runpy.run_path(str(OPTIONS / "generate.py"))["signatures"]().encode()
     files |= {f"koebe/{name}": path.read_bytes() for name, path in compiled.items()}
     info = f"koebe-{version}.dist-info"

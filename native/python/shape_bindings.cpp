@@ -85,11 +85,12 @@ void bind_shapes(py::module_& m)
         return detached(
             [circles = circles_of(centers, radii), any_outer] { return canonical_order(circles, any_outer); });
     });
+    m.attr("ambiguous_margin") = ambiguous_margin;
     m.def("match_loops", [](const PlanarPoints& centers_a, const VectorXd& radii_a, const PlanarPoints& centers_b,
                             const VectorXd& radii_b, bool any_outer) {
         return detached([a = circles_of(centers_a, radii_a), b = circles_of(centers_b, radii_b), any_outer] {
             LoopMatch match = match_loops(a, b, any_outer);
-            return std::make_tuple(std::move(match.order_a), std::move(match.order_b), match.distance);
+            return std::make_tuple(std::move(match.order_a), std::move(match.order_b), match.distance, match.margin);
         });
     });
     m.def("conformal_separations", [](const PlanarPoints& centers, const VectorXd& radii) {
@@ -119,11 +120,12 @@ void bind_shapes(py::module_& m)
         .def_readonly("worst", &DomainAlignment::worst)
         .def_readonly("misses", &DomainAlignment::misses)
         .def_readonly("converged", &DomainAlignment::converged)
+        .def_readonly("margin", &DomainAlignment::margin)
         .def("__call__", [](const DomainAlignment& d, Points points) { return planar(d.map(complex(points))); })
         .def(py::pickle(
             [](const DomainAlignment& d) {
                 return py::make_tuple(d.map.a, d.map.turn, d.match, d.residual, d.largest, d.worst, d.misses,
-                                      d.iterations, d.converged);
+                                      d.iterations, d.converged, d.margin);
             },
             [](const py::tuple& state) {
                 return DomainAlignment{{state[0].cast<Complex>(), state[1].cast<Complex>()},
@@ -133,7 +135,8 @@ void bind_shapes(py::module_& m)
                                        state[5].cast<int>(),
                                        state[6].cast<std::vector<double>>(),
                                        state[7].cast<int>(),
-                                       state[8].cast<bool>()};
+                                       state[8].cast<bool>(),
+                                       state[9].cast<double>()};
             }));
     py::class_<SurfacePoint>(m, "SurfacePoint")
         .def("place", [](const SurfacePoint& point, const PlanarPoints& uv, const Triangles& triangles) {

@@ -34,9 +34,10 @@ def script(name):
 
 
 # CMakeLists.txt sets it, and pip's package takes it from there by the pattern in pyproject.toml. The changelog's first
-# heading says it too. Files for Blender get it when they are packed.
+# heading and the citation say it too. Files for Blender get it when they are packed.
 VERSIONS = {
     "CMakeLists.txt": re.search(r"regex = '''(.*)'''", (ROOT / "pyproject.toml").read_text(encoding="utf-8"))[1],
+    "CITATION.cff": r"(?m)^version: (\S+)$",
     "CHANGELOG.md": r"(?m)^## (\S+), (?:not released yet|\d{4}-\d\d-\d\d)$",
 }
 

@@ -59,7 +59,8 @@ def test_the_examples_of_a_docstring_run(name, monkeypatch):
     monkeypatch.chdir(ROOT)
     (found,) = doctest.DocTestFinder(recurse=False).find(getattr(koebe, name), name, module=False, globs={})
     assert found.examples, "no example"
-    package = {"plot": "matplotlib", **dict.fromkeys(("read_field", "read_region", "write_field"), "nibabel")}.get(name)
+    packages = {"plot": "matplotlib", "dispersion_test": "skbio"}
+    package = {**packages, **dict.fromkeys(("read_field", "read_region", "write_field"), "nibabel")}.get(name)
     if package and not importlib.util.find_spec(package):
         pytest.skip(f"{package} is not here")
     said = []

@@ -199,6 +199,26 @@ def test_meshes_of_nilearn_and_vtk_are_surfaces():
         assert np.array_equal(result.uv, plain.uv) and isinstance(result.to_mesh(), pyvista.PolyData)
 
 
+def test_meshes_of_open3d_and_mne_are_surfaces():
+    """Open3D's have `vertices` and `triangles`, as vectors that NumPy reads; MNE's are dicts."""
+    plain = koebe.uniformize(VERTICES, TRIANGLES)
+
+    class Vectors:
+        def __init__(self, values):
+            self.values = values
+
+        def __array__(self, *_, **__):
+            return self.values
+
+    open3d = SimpleNamespace(vertices=Vectors(VERTICES), triangles=Vectors(TRIANGLES.astype(np.int32)))
+    mne = {"rr": VERTICES, "tris": TRIANGLES, "nn": None}
+    for mesh in (open3d, mne, plain):
+        assert np.array_equal(koebe.uniformize(mesh).uv, plain.uv)
+    for wrong in ({"rr": VERTICES}, {"rr": VERTICES, "tris": TRIANGLES + 10_000}):
+        with pytest.raises(koebe.InputError):
+            koebe.uniformize(wrong)
+
+
 def test_strips_are_triangles_and_carry_their_data(tmp_path):
     grid = np.arange(6 * 7).reshape(6, 7)
     strips = [np.stack([grid[k], grid[k + 1]], axis=1).ravel() for k in range(5)]

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,8 @@ KOEBE = """
 import koebe
 square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.4, 0.5, 0.2]], dtype=float)
 map = koebe.uniformize(square, [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+face = koebe.uniformize(koebe.example("face"))
+assert len(face.loops) == 4 and face.flipped == 0
 assert map.flipped == 0 and Path(koebe.__file__).is_relative_to(folder)
 """
 OTHERS = """
@@ -39,6 +42,15 @@ def installed(tmp_path_factory):
     subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target", folder,
                     wheel], check=True)  # fmt: skip
     return folder
+
+
+def test_the_examples_take_little_room_in_the_wheel(installed):
+    version = subprocess.check_output([ROOT / "scripts/version.sh"], text=True).strip()
+    tag = "cp{}{}".format(*sys.version_info)
+    (wheel,) = (ROOT / "dist").glob(f"koebe-{version}-{tag}-{tag}-*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        sizes = [entry.compress_size for entry in archive.infolist() if "/examples/" in entry.filename]
+    assert len(sizes) == len(list((installed / "koebe/examples").iterdir())) == 2 and sum(sizes) < 200_000
 
 
 @pytest.mark.parametrize("order", [(KOEBE, OTHERS), (OTHERS, KOEBE), (OTHERS, KOEBE, OTHERS)],

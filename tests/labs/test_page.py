@@ -1,4 +1,4 @@
-"""docs/labs.md and docs/tutorial.ipynb: every block runs, one after the other, and gives what the page says."""
+"""docs/labs.md and the notebooks tutorial.ipynb and atrium.ipynb: every block runs, and gives what the page says."""
 
 import re
 import shutil
@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     page = (ROOT / "docs" / "labs.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
-    assert len(blocks) == 14
+    assert len(blocks) == 15
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
         shutil.copy(ROOT / "blend_samples" / name, tmp_path / "blend_samples")
@@ -37,17 +37,21 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert names["places"].fitted and names["moved"].shape == (names["neutral"].vertex_count,)
     held, tip = names["held"], names["tip"]
     assert held.flipped == 0 and np.allclose(held.points[tip], names["surprised"].surface[0][tip], atol=1e-9)
+    found = names["found"]
+    assert found.points.shape == (2, names["neutral"].vertex_count, 3) and names["images"].shape == (2, 128, 128)
+    assert np.array_equal(names["matrix"][0], names["depth"][0]) and found.margins[1] > 0.3
     assert (names["bars"] > 0).all() and names["both"].distance_errors[0, 1] > 0
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1,y_2,r_2,x_3,y_3,r_3\nneutral,0.")
     assert names["cortex"].flipped == 0 and names["cortex"].angle_error_deg["mean"] < 6.5
     assert np.array_equal(names["results"][1].uv, names["surprised"].uv)
 
 
-def test_the_notebook_runs_and_keeps_no_output(tmp_path, monkeypatch):
+def run(name, tmp_path, monkeypatch):
+    """The notebook of docs/, executed, and how many pictures it shows."""
     import nbclient
     import nbformat
 
-    notebook = nbformat.read(ROOT / "docs" / "tutorial.ipynb", as_version=4)
+    notebook = nbformat.read(ROOT / "docs" / name, as_version=4)
     assert not any(cell.get("outputs") for cell in notebook.cells)
     (tmp_path / "blend_samples").mkdir()
     for name in ("face.obj", "surprised.obj"):
@@ -57,5 +61,17 @@ def test_the_notebook_runs_and_keeps_no_output(tmp_path, monkeypatch):
     where = {"metadata": {"path": str(tmp_path)}}
     nbclient.NotebookClient(notebook, timeout=300, kernel_name="python3", resources=where).execute()
     shown = [output for cell in notebook.cells for output in cell.get("outputs", [])]
-    assert sum("image/png" in output.get("data", {}) for output in shown) == 3
+    return notebook, sum("image/png" in output.get("data", {}) for output in shown)
+
+
+def test_the_tutorial_runs_and_keeps_no_output(tmp_path, monkeypatch):
+    assert run("tutorial.ipynb", tmp_path, monkeypatch)[1] == 3
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1")
+
+
+def test_the_study_of_atria_finds_the_bulge_that_it_made(tmp_path, monkeypatch):
+    notebook, pictures = run("atrium.ipynb", tmp_path, monkeypatch)
+    assert pictures == 3
+    said = notebook.cells[-2].outputs[0]["data"]["text/plain"]
+    *place, p = (float(number) for number in re.findall(r"-?\d+\.\d+", said))
+    assert np.linalg.norm(np.array(place) - (0, 8, 19)) < 8 and p <= 0.05  # mm, on the roof

@@ -35,6 +35,27 @@ def test_another_field_is_an_error():
         koebe.plot(RESULT, field="area")
 
 
+def test_values_of_ones_own_colour_the_picture():
+    heights = RESULT.vertices[:, 2]
+    pictures = [koebe.plot(RESULT, field=values) for values in (heights, heights[RESULT.triangles].mean(axis=1))]
+    colours = [figure.axes[1].collections[0].get_facecolor() for figure in pictures]
+    assert np.array_equal(*colours) and len(np.unique(colours[0], axis=0)) > 100 and len(pictures[0].axes) == 3
+    for wrong in (heights[:5], np.array(["a"] * len(heights)), None):
+        with pytest.raises(koebe.InputError, match="numbers at the vertices"):
+            koebe.plot(RESULT, field=wrong)
+
+
+def test_a_family_is_drawn_as_its_mean_over_its_template():
+    stretched = koebe.uniformize(RESULT.vertices * [1.0, 1.2, 1.0], RESULT.triangles)
+    found = koebe.family([RESULT, stretched])
+    space, plane = koebe.plot(found, field=found.spread).axes[:2]
+    assert np.allclose([patch.radius for patch in plane.patches], found.maps[0].radii)
+    assert np.allclose(space.get_ylim(), [found.mean[:, 1].min(), found.mean[:, 1].max()])
+    ball = koebe.fill_holes(VERTICES, TRIANGLES)[:2]
+    closed = koebe.family([ball, ball])
+    assert len(koebe.plot(closed).axes) == 2
+
+
 def test_matplotlib_is_loaded_by_no_one_else():
     import subprocess
 

@@ -104,6 +104,24 @@ TEST(LoopMatching, distance_is_symmetric_and_that_of_the_modules_in_its_orders)
     }
 }
 
+TEST(LoopMatching, has_the_margin_to_the_next_best_match)
+{
+    // Twice two equal holes, turned by half: two matches fit alike, until one hole is larger.
+    std::vector<Circle> circles{{}, {{0.5, 0.2}, 0.1}, {{-0.5, -0.2}, 0.1}, {{0.1, -0.5}, 0.15}, {{-0.1, 0.5}, 0.15}};
+    EXPECT_LT(match_loops(circles, disturbed(circles, 1e-9)).margin, 0.5);
+    circles[1].radius = 0.2;
+    EXPECT_GT(match_loops(circles, disturbed(circles, 1e-3)).margin, 0.9);
+    EXPECT_EQ(match_loops({{}, {{0.2, 0.1}, 0.3}}, {{}, {{0.0, 0.0}, 0.3}}).margin, 1.0);
+    // More loops than all matches are tried for: a ring of equal holes can be turned.
+    std::vector<Circle> ring{{}};
+    for (int k = 0; k < 9; ++k) ring.push_back({std::polar(0.6, 2.0 * std::numbers::pi * k / 9), 0.1});
+    const LoopMatch turned = match_loops(ring, ring);
+    EXPECT_LT(turned.distance, 1e-9);
+    EXPECT_FALSE(turned.exhaustive);
+    EXPECT_LT(turned.margin, 0.3);
+    EXPECT_GT(match_loops(random_domain(9, 1), disturbed(random_domain(9, 1), 1e-3)).margin, 0.8);
+}
+
 TEST(LoopMatching, tells_a_shape_from_its_mirror_image)
 {
     EXPECT_GT(match_loops(five_circles(), mirrored(five_circles())).distance, 0.02);

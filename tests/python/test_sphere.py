@@ -409,7 +409,7 @@ def test_a_point_that_is_off_is_seen():
     vertices, triangles = icosphere(6)
     sphere = koebe.sphere_map(vertices, triangles)
     assert_sphere(sphere, triangles)
-    sphere.points = sphere.points.copy()
+    vars(sphere)["points"] = sphere.points.copy()
     a, b, c = sphere.points[triangles[7]]
     far = 3 * (b + c) / 2 - 2 * a  # beyond the opposite side
     sphere.points[triangles[7, 0]] = far / np.linalg.norm(far)

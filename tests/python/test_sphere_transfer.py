@@ -46,7 +46,7 @@ def depth(directions):
 
 def moved(result, matrix):
     other = copy.copy(result)
-    other.points = alignment.applied(matrix, result.points)
+    vars(other)["points"] = alignment.applied(matrix, result.points)
     return other
 
 

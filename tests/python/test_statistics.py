@@ -136,3 +136,98 @@ def test_a_family_is_tested_and_a_planted_effect_is_found():
 def test_what_is_no_table_of_distances_is_told_so(distances, groups, says):
     with pytest.raises(koebe.InputError, match=says):
         koebe.permutation_test(distances, groups)
+
+
+def design(seed=3, count=24):
+    """Three groups, an age that differs between them, and numbers that depend on both."""
+    random = np.random.default_rng(seed)
+    groups = np.repeat(["a", "b", "c"], count // 3)
+    age = random.normal(size=count) + 1.5 * (groups == "b")
+    return groups, age, age + 0.7 * (groups == "c") + random.normal(size=count)
+
+
+def f_of_least_squares(y, before, after):
+    """F of the columns that the second design has more, by residuals of least squares."""
+    rest = [((y - x @ np.linalg.lstsq(x, y, rcond=None)[0]) ** 2).sum() for x in (before, after)]
+    degrees = after.shape[1] - before.shape[1], len(y) - after.shape[1]
+    return (rest[0] - rest[1]) / degrees[0] / (rest[1] / degrees[1]), degrees
+
+
+def test_distances_of_numbers_give_the_f_of_the_linear_model():
+    groups, age, y = design()
+    ones, dummies = np.ones((24, 1)), (groups[:, None] == ["b", "c"]).astype(float)
+    for covariates, before in ((None, ones), (1e6 * age + 2000, np.column_stack([ones, age]))):
+        f, degrees = f_of_least_squares(y, before, np.column_stack([before, dummies]))
+        found = koebe.permutation_test(abs(y[:, None] - y), groups, covariates=covariates, permutations=99)
+        assert found.statistic == pytest.approx(f) and found.degrees == degrees
+        after = np.column_stack([before, dummies])
+        squares = [((y - x @ np.linalg.lstsq(x, y, rcond=None)[0]) ** 2).sum() for x in (ones, before, after)]
+        assert found.explained == pytest.approx((squares[1] - squares[2]) / squares[0])
+        points = koebe.point_test(np.column_stack([y, 3 * y + 1]), groups, covariates=covariates, permutations=99)
+        assert points.statistic == pytest.approx([f, f]) and points.degrees == degrees
+    f, degrees = f_of_least_squares(y, ones, np.column_stack([ones, age]))
+    found = koebe.permutation_test(abs(y[:, None] - y), age, numeric=True, permutations=99)
+    assert found.statistic == pytest.approx(f) and found.degrees == degrees == (1, 22)
+    assert found.explained == pytest.approx(np.corrcoef(y, age)[0, 1] ** 2)
+    assert found.omega_squared < found.explained
+
+
+def test_a_covariate_that_makes_the_groups_differ_is_taken_out():
+    """Groups differ by age alone: without the covariate the test finds it, with it p is even."""
+    with_age, without = [], []
+    for seed in range(60):
+        random = np.random.default_rng(seed)
+        groups = np.repeat([0, 1], 8)
+        age = random.normal(size=16) + 2.0 * groups
+        y = np.column_stack([age, random.normal(size=(16, 2))]) + 0.3 * random.normal(size=(16, 3))
+        distances = distances_of(y)
+        without.append(koebe.permutation_test(distances, groups, permutations=199).p)
+        with_age.append(koebe.permutation_test(distances, groups, covariates=age, permutations=199).p)
+    assert np.mean(np.array(without) <= 0.05) > 0.7
+    assert np.mean(np.array(with_age) <= 0.05) < 0.15 and 0.35 < np.mean(with_age) < 0.65
+
+
+def test_permutations_stay_in_their_strata():
+    """Pairs that differ by a site's effect, far larger than the groups': only within pairs the groups' shows."""
+    random = np.random.default_rng(4)
+    sites, groups = np.repeat(np.arange(12), 2), np.tile([0, 1], 12)
+    y = np.column_stack([10.0 * random.normal(size=12)[sites] + groups, 0 * sites]) + 0.3 * random.normal(size=(24, 2))
+    assert koebe.permutation_test(distances_of(y), groups, permutations=499).p > 0.2
+    assert koebe.permutation_test(distances_of(y), groups, strata=sites, permutations=499).p < 0.02
+    assert koebe.point_test(y, groups, strata=sites, permutations=499).p[0] < 0.02
+    with pytest.raises(koebe.InputError, match="each stratum has one"):
+        koebe.permutation_test(distances_of(y), groups, strata=np.arange(24))
+
+
+def test_the_largest_f_of_all_points_holds_the_family():
+    random, groups = np.random.default_rng(5), np.repeat([0, 1], 7)
+    false = 0
+    for _ in range(60):
+        matrix = random.normal(size=(14, 40))
+        found = koebe.point_test(matrix, groups, permutations=99)
+        assert (found.p_family >= found.p).all() and (found.p >= 0.01).all()
+        false += bool((found.p_family <= 0.05).any())
+    assert false <= 8  # 3 expected
+    matrix[:, 3] = np.nan
+    matrix[:, 4] = 7.0
+    found = koebe.point_test(matrix, groups, permutations=99)
+    assert np.isnan(found.p[[3, 4]]).all() and np.isfinite(found.statistic).sum() == 38
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ({"covariates": np.arange(5)}, "covariates must be"),
+        ({"covariates": ["a"] * 6}, "columns of 0 and 1"),
+        ({"covariates": [0, 0, 0, 1, 1, 1]}, "say all that the groups say"),
+        ({"covariates": np.arange(6)[:, None] ** np.arange(1, 5)}, "too few shapes"),
+        ({"strata": [0, 1]}, "strata must be"),
+        ({"numeric": True, "groups": [0, 1, 2, np.nan, 1, 2]}, "finite numbers"),
+    ],
+)
+def test_what_is_no_design_is_told_so(options, says):
+    options = {"groups": [0, 0, 0, 1, 1, 1], **options}
+    for act in (koebe.permutation_test, koebe.point_test):
+        values = distances_of(np.random.default_rng(1).normal(size=(6, 2)))
+        with pytest.raises(koebe.InputError, match=says):
+            act(values, **options)

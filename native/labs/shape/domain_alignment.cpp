@@ -119,6 +119,7 @@ DomainAlignment align_domains(const std::vector<Circle>& source, const std::vect
     // The corresponding loops, as given or by the least distance of the modules.
     if (match.empty()) {
         const LoopMatch found = match_loops(source, target, false, context);
+        result.margin = found.margin;
         match.resize(source.size());
         for (std::size_t i = 0; i < source.size(); ++i) match[found.order_a[i]] = found.order_b[i];
     } else {

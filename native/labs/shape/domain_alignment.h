@@ -18,6 +18,7 @@ struct DomainAlignment {
     std::vector<double> misses;  ///< this root for each loop of the source; 0 for the outer loop
     int iterations = 0;
     bool converged = true;
+    double margin = 1.0;  ///< of the match, as in LoopMatch; 1 if it was given, or found by landmarks
 };
 
 /// The automorphism of the unit disk that takes the target's circles nearest to the source's, by least squares of

@@ -63,16 +63,58 @@ LoopMatch in_common_order(const View& a, const View& b, const std::vector<int>& 
     return match;
 }
 
-LoopMatch try_all(const View& a, const View& b)
+/// b's loop for each of a's.
+std::vector<int> loops_of_b(const LoopMatch& match)
+{
+    std::vector<int> result(match.order_a.size());
+    for (std::size_t i = 0; i < result.size(); ++i) result[match.order_a[i]] = match.order_b[i];
+    return result;
+}
+
+/// The best correspondence of those that were tried, and the distance of the next best one.
+struct Best {
+    LoopMatch match;
+    double next = std::numeric_limits<double>::infinity();
+
+    Best() { match.distance = next; }
+
+    void offer(LoopMatch other)
+    {
+        // The same correspondence, seen from another outer loop, has another distance, but is no other one.
+        if (match.order_a.size() != other.order_a.size() || loops_of_b(match) != loops_of_b(other))
+            next = std::min(next, std::max(match.distance, other.distance));
+        if (other.distance < match.distance) match = std::move(other);
+    }
+
+    /// Also what was second best there.
+    void offer(Best other)
+    {
+        const double second = other.next;
+        offer(std::move(other.match));
+        next = std::min(next, std::max(match.distance, second));
+    }
+
+    Best swapped() &&
+    {
+        std::swap(match.order_a, match.order_b);
+        return std::move(*this);
+    }
+
+    /// The match, with its margin. Equal shapes differ by rounding only.
+    LoopMatch found()
+    {
+        if (next < std::numeric_limits<double>::infinity())
+            match.margin = next <= no_distance ? 0.0 : 1.0 - match.distance / next;
+        return std::move(match);
+    }
+};
+
+void try_all(const View& a, const View& b, Best& best)
 {
     std::vector<int> partner = b.inner;
     std::ranges::sort(partner);
-    LoopMatch best = in_common_order(a, b, a.inner, partner);
-    while (std::next_permutation(partner.begin(), partner.end())) {
-        LoopMatch next = in_common_order(a, b, a.inner, partner);
-        if (next.distance < best.distance) best = std::move(next);
-    }
-    return best;
+    do best.offer(in_common_order(a, b, a.inner, partner));
+    while (std::next_permutation(partner.begin(), partner.end()));
 }
 
 constexpr Eigen::Index fixed = 3;  // number of loops that fix the position
@@ -150,37 +192,33 @@ std::vector<Start> starts(const View& a, const View& b, const ExecutionContext& 
     return result;
 }
 
-LoopMatch search(const View& a, const View& b, const ExecutionContext& context)
+Best search(const View& a, const View& b, const ExecutionContext& context)
 {
-    LoopMatch best;
-    best.distance = std::numeric_limits<double>::infinity();
+    Best best;
+    const bool many = a.inner.size() >= many_loops;
     for (const Start& start : starts(a, b, context)) {
-        if (a.inner.size() >= many_loops && std::sqrt(start.least_cost) >= best.distance) break;
+        if (many && std::sqrt(start.least_cost) >= best.match.distance) break;
         LoopMatch match = reassigned(a, b, start.match, context);
         for (int i = 0; i < most_refinements && match.distance > no_distance; ++i) {
             LoopMatch next = reassigned(a, b, match, context);
             if (!(next.distance < match.distance)) break;
             match = std::move(next);
         }
-        if (match.distance < best.distance) best = std::move(match);
-        if (best.distance <= no_distance) break;
+        match.exhaustive = false;
+        best.offer(std::move(match));
+        if (many && best.match.distance <= no_distance) break;
     }
-    best.exhaustive = false;
     return best;
 }
 
-LoopMatch match_views(const View& a, const View& b, const ExecutionContext& context)
+/// Offers the best correspondence of the views, and the next best one.
+void match_views(const View& a, const View& b, const ExecutionContext& context, Best& best)
 {
     context.checkpoint();
-    if (a.inner.size() <= exhaustive_loops) return try_all(a, b);
-    LoopMatch match = search(a, b, context);
-    if (match.distance <= no_distance) return match;
-    LoopMatch other = search(b, a, context);
-    if (other.distance < match.distance) {
-        std::swap(other.order_a, other.order_b);
-        return other;
-    }
-    return match;
+    if (a.inner.size() <= exhaustive_loops) return try_all(a, b, best);
+    best.offer(search(a, b, context));
+    if (best.match.distance <= no_distance) return;
+    best.offer(search(b, a, context).swapped());
 }
 
 /// The loops of `circles` that may correspond to the other domain's outer loop, best first: their separations from the
@@ -214,14 +252,12 @@ LoopMatch match_loops(const std::vector<Circle>& a, const std::vector<Circle>& b
         throw InputError("the surfaces have " + std::to_string(a.size()) + " and " + std::to_string(b.size()) +
                          " loops: their modules cannot be compared");
     const View first_a(a, 0), first_b(b, 0);
-    LoopMatch best = match_views(first_a, first_b, context);
-    if (!any_outer) return best;
-    const auto try_also = [&](LoopMatch next) {
-        if (next.distance < best.distance) best = std::move(next);
-    };
-    for (const int k : likely_outer(first_a, b, context)) try_also(match_views(first_a, View(b, k), context));
-    for (const int k : likely_outer(first_b, a, context)) try_also(match_views(View(a, k), first_b, context));
-    return best;
+    Best best;
+    match_views(first_a, first_b, context, best);
+    if (!any_outer) return best.found();
+    for (const int k : likely_outer(first_a, b, context)) match_views(first_a, View(b, k), context, best);
+    for (const int k : likely_outer(first_b, a, context)) match_views(View(a, k), first_b, context, best);
+    return best.found();
 }
 
 }  // namespace koebe

@@ -8,6 +8,7 @@
 #include "core/tolerances.h"
 #include "quality/distortion.h"
 #include "shape/conformal_module.h"
+#include "shape/loop_matching.h"
 #include "surface/harmonic_map.h"
 #include "transfer/compact_domain.h"
 #include "transfer/landmark_alignment.h"
@@ -172,6 +173,15 @@ Warning not_fitted(const DomainAlignment& alignment, const std::vector<Circle>& 
     return warning;
 }
 
+/// The warning that the loops may correspond otherwise.
+Warning ambiguous_match(double margin)
+{
+    return {WarningKind::ambiguous_match,
+            formatted("the loops may be matched wrongly: another match fits nearly as well (margin %.2g). Give the "
+                      "match, or landmarks",
+                      margin)};
+}
+
 /// Measures the distortion of the bending from the aligned domain, in the triangles in which it is linear.
 void judge(Correspondence& result, const Triangles& linear, const CutMesh& mesh, const PlanarPoints& before,
            const PlanarPoints& uv)
@@ -221,6 +231,7 @@ Correspondence correspond(const MappedSurface& source, const MappedSurface& targ
     const std::vector<Circle> others = circles_of(target.loops);
     result.alignment = options.match.empty() ? align_by_landmarks(circles, others, places.now, places.wanted, context)
                                              : align_domains(circles, others, options.match, context);
+    if (result.alignment.margin < ambiguous_margin) result.warnings.push_back(ambiguous_match(result.alignment.margin));
     const AlignedDomain aligned =
         lay_by_landmarks(target.triangles, target.uv, circles, places.now, places.wanted, result.alignment.map);
     result.uv = aligned.uv;

@@ -28,7 +28,7 @@ struct Correspondence {
     Beltrami beltrami;              ///< of the bending from the aligned domain, else 0; counts faces cut at landmarks
     std::size_t folded = 0;         ///< faces that the bending has turned over
     PlacesInTriangles places;       ///< (V_a) places of the source's vertices in the target's triangles
-    std::vector<Warning> warnings;  ///< not_fitted
+    std::vector<Warning> warnings;  ///< ambiguous_match, not_fitted
     Vertices points;                ///< (V_a, 3) the same places in space: a target point per source vertex
 };
 

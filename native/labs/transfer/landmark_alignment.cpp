@@ -154,6 +154,7 @@ DomainAlignment align_by_landmarks(const std::vector<Circle>& source, const std:
     constexpr std::size_t most_loops = 6;  // 120 matches
     DomainAlignment best = align_domains(source, target, {}, context);
     if (now.size() == 0 || source.size() < 3 || source.size() > most_loops) return best;
+    best.margin = 1.0;  // landmarks decide
     const auto squares = [&](const DomainAlignment& alignment) {
         return (alignment.map(now) - wanted).squaredNorm() / static_cast<double>(now.size()) +
                alignment.residual * alignment.residual;

@@ -5,6 +5,7 @@ Domains". Arrays in, UVs and a report out; nothing here knows Blender.
 """
 
 from ._batch import batch
+from ._example import example
 from ._fields import disk_to_uv, uv_to_disk
 from ._koebe import CancelToken, __version__
 from ._load import load
@@ -75,6 +76,7 @@ __all__ = [
     "disk_map",
     "disk_to_uv",
     "distortion",
+    "example",
     "fill_holes",
     "fit_circle",
     "from_image",
@@ -114,8 +116,10 @@ if hasattr(_koebe, "LiftOptions"):
 
 if hasattr(_koebe, "conformal_module"):
     from .labs.certified import CertifiedModuli, certified_moduli
+    from .labs.corresponding import PointFamily
     from .labs.family import Family, family
     from .labs.fit import FitResult, fit_circles
+    from .labs.noise import noise_error, vertex_noise
     from .labs.shapes import (
         DomainAlignment,
         LoopMatch,
@@ -131,7 +135,7 @@ if hasattr(_koebe, "conformal_module"):
     )
     from .labs.sphere_family import SphereFamily
     from .labs.sphere_transfer import SphereCorrespondence
-    from .labs.statistics import PermutationTest, noise_error, permutation_test, vertex_noise
+    from .labs.statistics import PermutationTest, PointTest, dispersion_test, permutation_test, point_test
     from .labs.teichmueller import TeichmuellerMap, teichmueller
     from .labs.transfer import Correspondence, transfer
 
@@ -143,6 +147,8 @@ if hasattr(_koebe, "conformal_module"):
         "FitResult",
         "LoopMatch",
         "PermutationTest",
+        "PointFamily",
+        "PointTest",
         "SphereCorrespondence",
         "SphereFamily",
         "TeichmuellerMap",
@@ -150,6 +156,7 @@ if hasattr(_koebe, "conformal_module"):
         "canonical_order",
         "certified_moduli",
         "conformal_module",
+        "dispersion_test",
         "family",
         "fit_circles",
         "match_loops",
@@ -158,6 +165,7 @@ if hasattr(_koebe, "conformal_module"):
         "module_names",
         "noise_error",
         "permutation_test",
+        "point_test",
         "separation_distance",
         "separations",
         "teichmueller",

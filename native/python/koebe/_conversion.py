@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ._option_table import INTERRUPTED, NOT_CONVERGED, REFUSED, WRONG_USAGE
+from ._report_entries import Loop
 from .errors import Cancelled, InputError, KoebeError, OptionError
 from .io.corner_mesh import mesh_with_corner_uv
 from .io.export import CUT_TEXT, export, has_one_place_a_vertex, obj_of
@@ -20,7 +21,7 @@ from .io.formats import GIFTI, MESHIO, NATIVE, PYVISTA, is_foreign_surface, is_f
 from .io.meshes import SPHERE
 from .io.vertex_fields import read_region
 from .maps.input import surface_of
-from .maps.result import Loop, MapReport, Source
+from .maps.result import MapReport, Source
 
 _WRITE_NO_MESH = ("module", "compare", "batch", "sequence", "flatten")
 _MAKE_CUTS = ("parts", "ring", "torus", "schottky")
@@ -176,12 +177,12 @@ class _Conversion:
         if output:
             result = self._result(*_read_obj(temporary[output]))
             if points is not None:
-                result.points = result._source.outside_nan(points)  # type: ignore[attr-defined]
+                result.points = result._source.outside_nan(points)
             export(result, output)
         if sphere:
             assert points is not None
             result = _Map(self._sources[0], np.zeros((0, 3, 2)), False)
-            result.points = points  # type: ignore[attr-defined]
+            result.points = points
             export(result, sphere)
 
     def _result(self, vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray) -> _Map:

@@ -1,5 +1,5 @@
-"""The compiled module."""
+"""The native module, loaded after NumPy: NumPy may bring an OpenBLAS of its own, which shall come first."""
 
-import numpy  # noqa: F401  (may bring an OpenBLAS of its own, which shall come first)
+import numpy  # noqa: F401
 
-from . import _koebe  # noqa: F401
+from . import _koebe as _koebe

@@ -21,13 +21,14 @@ _DRAWN_FACES = 80000  # about, in squares
 _CLOSED = 1e-3  # mean normal of a surface that is closed, up to holes
 
 
-def plot(result: MapReport | LiftResult, *, field: str = "checker", ax: Any = None) -> Any:
+def plot(result: Any, *, field: Any = "checker", ax: Any = None) -> Any:
     """A matplotlib Figure with the surface in space and its map beside it, in the same colours.
 
     result  of any map: its circle domain, or its UVs. Of `flatten`: the sheets side by side. Of `lift`: the surface
-            with the pattern; of a solid, which has no UVs, the outside, the inside and the walls
+            with the pattern; of a solid, which has no UVs, the outside, the inside and the walls. Of `family`: the mean
+            surface, and the map of the reference
     field   'checker': squares of the map, 24 across, brought to the surface; a conformal map keeps their angles;
-            'log_scale'; 'angle_error', degrees
+            'log_scale'; 'angle_error', degrees; or values (V,) at the vertices, (F,) at the triangles, in any unit
     ax      your own axes: plane ones for the map, 3D ones for the surface, or a pair of both. None: a new figure
     Needs matplotlib (the extra `plot`). A notebook shows the figure; elsewhere call its savefig or show.
 
@@ -36,8 +37,10 @@ def plot(result: MapReport | LiftResult, *, field: str = "checker", ax: Any = No
     >>> len(figure.axes)
     2
     """
-    choice_of(field, "field", _FIELDS)
-    if not isinstance(result, (MapReport, LiftResult)):
+    named = isinstance(field, str)
+    if named:
+        choice_of(field, "field", _FIELDS)
+    if not hasattr(result, "_layout"):
         raise TypeError(f"plot takes a result of a map, such as uniformize, parts or lift, not {type(result).__name__}")
     import matplotlib.pyplot as plt
 
@@ -47,11 +50,14 @@ def plot(result: MapReport | LiftResult, *, field: str = "checker", ax: Any = No
     if not len(triangles):
         raise InputError("the result has no faces to draw")
     if isinstance(result, LiftResult) and not len(result.uv):
-        if field != "checker":
-            raise InputError(f"a solid has no UVs, and so no {field}")
+        if not named or field != "checker":
+            raise InputError(f"a solid has no UVs, and so no {field if named else 'fields'}")
         colors, scale, images = np.array(_PATCHES)[result.patch], None, np.zeros((0, 3, 2))
     else:
-        values = None if field == "checker" else _values(field, vertices, triangles, images)
+        if named:
+            values = None if field == "checker" else _values(field, vertices, triangles, images)
+        else:
+            values = _given_values(field, vertices, triangles, drawn)
         if values is None:  # squares do not end at edges: coarse faces are drawn in pieces
             pieces = max(1, int(np.sqrt(_DRAWN_FACES / len(triangles))))
             corners, images = _in_pieces(corners, pieces), _in_pieces(images, pieces)
@@ -65,9 +71,9 @@ def plot(result: MapReport | LiftResult, *, field: str = "checker", ax: Any = No
     if space is not None:
         _draw_surface(space, corners, colors, _in_front_of(vertices, triangles))
     if plane is not None:
-        _draw_map(plane, images, colors, result, plt)
+        _draw_map(plane, images, colors, getattr(result, "_base", result), plt)
     if scale is not None:
-        figure.colorbar(scale, ax=space if plane is None else plane, shrink=0.7, label=_FIELDS[field])
+        figure.colorbar(scale, ax=space if plane is None else plane, shrink=0.7, label=_FIELDS[field] if named else "")
     return figure
 
 
@@ -138,6 +144,17 @@ def _values(field: str, vertices: np.ndarray, triangles: np.ndarray, images: np.
         return log_scale_of_corners(vertices, triangles, images)[triangles].mean(axis=1)
     own = np.arange(3 * len(triangles)).reshape(-1, 3)  # each corner by itself
     return face_angle_error_deg(vertices[triangles].reshape(-1, 3), own, images.reshape(-1, 2))
+
+
+def _given_values(field: Any, vertices: np.ndarray, triangles: np.ndarray, drawn: np.ndarray) -> np.ndarray:
+    """(F,) values of the drawn triangles, from values at the vertices or at all triangles. Raises InputError."""
+    values = np.asarray(field)
+    if values.dtype.kind not in "fiub" or values.shape not in ((len(vertices),), (len(drawn),)):
+        raise InputError(
+            f"the field must be ({len(vertices)},) numbers at the vertices or ({len(drawn)},) at the triangles, "
+            f"not {values.shape} {values.dtype}"
+        )
+    return values[triangles].mean(axis=1) if len(values) == len(vertices) else values[drawn].astype(np.float64)
 
 
 def _colors(values: np.ndarray | None, squares: np.ndarray, plt: Any) -> tuple[np.ndarray, Any]:

@@ -114,8 +114,10 @@ int run_compare(const CompareRequest& request)
     }
     // Write the report; the line goes to stdout unless the report does.
     if (request.with_json) {
-        nlohmann::ordered_json report{
-            {"distance", distance}, {"a", module_json(a, match.order_a)}, {"b", module_json(b, match.order_b)}};
+        nlohmann::ordered_json report{{"distance", distance},
+                                      {"margin", match.margin},
+                                      {"a", module_json(a, match.order_a)},
+                                      {"b", module_json(b, match.order_b)}};
         if (request.teichmueller) report["teichmueller"] = extremal;
         if (to_file) {
             AtomicFile file(request.json);

@@ -139,7 +139,7 @@ def _as(result: Any, kind: str) -> Any:
         mesh = package_of("pyvista").PolyData.from_regular_faces(vertices, triangles)
     other = copy.copy(result)
     number = np.arange(len(triangles), dtype=np.int32)
-    other._source = replace(source, mesh=mesh, polygons=read_mesh(mesh), polygon=number)
+    other._set(_source=replace(source, mesh=mesh, polygons=read_mesh(mesh), polygon=number))
     return other
 
 

@@ -1,5 +1,6 @@
 """Converts meshes of other packages to arrays and back: PyVista, VTK, trimesh, meshio, nibabel's GIfTI. The meshes are
-recognized by their classes, so that no package is imported here. Any other object with points and faces can be read.
+recognized by their classes, so that no package is imported here. Any other object with points and faces can be read:
+nilearn's, Open3D's, BrainSpace's, MNE's.
 
 Each holds vertices and cells, some of which are faces. Other cells (points, lines) are kept and carry no values.
 """
@@ -7,6 +8,7 @@ Each holds vertices and cells, some of which are faces. Other cells (points, lin
 import copy
 import importlib
 import importlib.util
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -258,16 +260,20 @@ def kind_of(thing: Any) -> str | None:
     has_vtk = hasattr(thing, "VTKObject") or ("vtkmodules", "vtkPolyData") in names  # BrainSpace wraps VTK's objects
     if has_vtk and importlib.util.find_spec("pyvista"):
         return "vtk"
-    return "points" if _points_name(thing) and not isinstance(thing, type) else None
+    return "points" if _points_and_faces(thing) else None
 
 
-def _points_name(thing: Any) -> str:
-    """The attribute with the points of any object that also has faces, or empty. BrainSpace's meshes have both, too."""
-    if hasattr(thing, "Points") and hasattr(thing, "GetPolys2D"):
-        return "Points"
-    if not hasattr(thing, "faces"):
-        return ""
-    return next((name for name in ("vertices", "points", "coordinates") if hasattr(thing, name)), "")
+def _points_and_faces(thing: Any) -> tuple[str, str] | None:
+    """The names of the points and the faces of any object that has both: as attributes, or as MNE's dicts have them."""
+    if isinstance(thing, type):
+        return None
+    if isinstance(thing, Mapping):
+        return ("rr", "tris") if "rr" in thing and "tris" in thing else None
+    if hasattr(thing, "Points") and hasattr(thing, "GetPolys2D"):  # BrainSpace's
+        return "Points", "GetPolys2D"
+    points = next((name for name in ("vertices", "points", "coordinates") if hasattr(thing, name)), None)
+    faces = next((name for name in ("faces", "triangles") if hasattr(thing, name)), None)
+    return None if points is None or faces is None else (points, faces)
 
 
 def _from_trimesh(mesh: Any) -> Polygons:
@@ -332,15 +338,17 @@ def _from_meshio(mesh: Any) -> Polygons:
 
 
 def _from_points(mesh: Any) -> Polygons:
-    name = _points_name(mesh)
-    faces = mesh.GetPolys2D() if name == "Points" else mesh.faces
+    name, of_faces = _points_and_faces(mesh) or ("vertices", "faces")
+    points, faces = (mesh[one] if isinstance(mesh, Mapping) else getattr(mesh, one) for one in (name, of_faces))
+    if of_faces == "GetPolys2D":
+        faces = faces()
     if not isinstance(faces, (list, tuple)):
         faces = np.asarray(faces)
         if faces.ndim != 2 and faces.dtype != object:
             raise InputError(f"faces must be (F, n) whole numbers, or a list of polygons, not {faces.shape}")
-    if np.ma.is_masked(getattr(mesh, name)) or np.ma.is_masked(faces):
+    if np.ma.is_masked(points) or np.ma.is_masked(faces):
         raise InputError(f"{name} and faces must not be masked")
-    return _polygons(getattr(mesh, name), [faces], [np.arange(len(faces))], len(faces))
+    return _polygons(points, [faces], [np.arange(len(faces))], len(faces))
 
 
 def _from_gifti(image: Any) -> Polygons:

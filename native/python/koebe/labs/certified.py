@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from .._arrays import as_indices
+from .._comparable import Comparable
 from .._native import _koebe
 from .._options import takes
 from .._report_entries import Warning
@@ -14,7 +15,7 @@ from ..errors import InputError
 from ..maps.domain_map import prepared
 
 
-class CertifiedModuli:
+class CertifiedModuli(Comparable):
     """Enclosures of numbers of a polyhedral surface: the exact number is not below the first, nor above the second.
 
     capacities      (N, 2) float64: the least Dirichlet energy of a function on the surface that is 0 on some loops and

@@ -75,7 +75,7 @@ class FitResult(UniformizeResult):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         self._set_arrays(mu=native.mu)
-        self.names = [loop["name"] for loop in report["loops"][1:] if "name" in loop]
+        self._set(names=[loop["name"] for loop in report["loops"][1:] if "name" in loop])
         self.ranks = np.array([loop["rank"] for loop in report["loops"]], dtype=np.int32)
 
     def _arrays(self) -> dict[str, Any]:
@@ -138,7 +138,7 @@ def fit_circles(
     if centers is None or radii is None:
         raise TypeError("fit_circles needs the centers and the radii of the circles: fit_circles(mesh, centers, radii)")
     source = surface_of(mesh, triangles, mask=given.pop("mask"), weld=said["weld"])
-    places, sizes = _holes(centers, radii)
+    places, sizes = holes_of(centers, radii)
     count = len(sizes)
     ranks = [] if loops is None else as_indices(loops, "loops", max(len(source.triangles), 1), "loops").tolist()
     if loops is not None and len(ranks) != count:
@@ -158,7 +158,7 @@ def _are_triangles(given: Any) -> bool:
     return array.ndim == 2 and array.shape[1] == 3 and array.dtype.kind in "iu"
 
 
-def _holes(centers: Any, radii: Any) -> tuple[np.ndarray, np.ndarray]:
+def holes_of(centers: Any, radii: Any) -> tuple[np.ndarray, np.ndarray]:
     """The circles without the unit circle."""
     sizes = as_numbers(radii, "radii")
     if not len(sizes):

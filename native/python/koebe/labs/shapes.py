@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._arrays import as_circles, as_indices, as_numbers, as_points
+from .._comparable import Comparable
 from .._native import _koebe
 from .._option_table import rows
 from .._options import choice_of, filled, flag, whole
@@ -175,17 +176,23 @@ def module_names(loop_count: int) -> list[str]:
     return _koebe.module_names(whole(loop_count, "loop_count", least=0))
 
 
-class LoopMatch(NamedTuple):
+class _Orders(NamedTuple):
+    order_a: np.ndarray
+    order_b: np.ndarray
+    distance: float
+
+
+class LoopMatch(_Orders):
     """The correspondence of the loops of a and b with the least distance of their modules.
 
     order_a, order_b    (L,) int32: corresponding loops stand at the same place, the outer ones first
     distance            of the modules in these orders
     match               (L,) int32, b's loop for each of a's: the form of `match` in all functions
+    margin              1 - distance / the distance of the next best correspondence: 0 if two fit alike, 1 if there is
+                        no other. Below 0.3 the loops may be matched wrongly
     """
 
-    order_a: np.ndarray
-    order_b: np.ndarray
-    distance: float
+    margin: float = 1.0
 
     @property
     def match(self) -> np.ndarray:
@@ -197,8 +204,9 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False, rims: Rims = "smooth
     """The correspondence of the loops of two domains with the least distance of their modules.
 
     Returns a LoopMatch: an order of a's loops and one of b's in which corresponding loops stand at the same place,
-    outer ones first, and the distance of the modules in these orders; `match` is b's loop for each of a's. It is
-    symmetric, and 0 only for equal shapes. any_outer: the outer loop of one may correspond to a hole of the other.
+    outer ones first, and the distance of the modules in these orders; `match` is b's loop for each of a's, and `margin`
+    says how sure it is. The distance is symmetric, and 0 only for equal shapes. any_outer: the outer loop of one may
+    correspond to a hole of the other.
     rims: as in conformal_module. Raises InputError for different numbers of loops.
 
     >>> import koebe
@@ -210,8 +218,10 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False, rims: Rims = "smooth
     [0, 1, 2, 3]
     """
     a, b = with_rims(a, rims), with_rims(b, rims)
-    order_a, order_b, distance = _koebe.match_loops(*as_circles(a), *as_circles(b), flag(any_outer, "any_outer"))
-    return LoopMatch(np.array(order_a, dtype=np.int32), np.array(order_b, dtype=np.int32), distance)
+    found = _koebe.match_loops(*as_circles(a), *as_circles(b), flag(any_outer, "any_outer"))
+    match = LoopMatch(np.array(found[0], dtype=np.int32), np.array(found[1], dtype=np.int32), found[2])
+    match.margin = found[3]
+    return match
 
 
 def module_distance(a: Any, b: Any, *, rims: Rims = "smooth") -> float:
@@ -275,7 +285,7 @@ def mapped_surface(result: UniformizeResult, shown: bool = False) -> "_koebe.Map
     return _koebe.MappedSurface(*result.surface, np.nan_to_num(domain.uv), loops, off, *circles, [True] * len(loops))
 
 
-class DomainAlignment:
+class DomainAlignment(Comparable):
     """An automorphism of the unit disk that lays one circle domain over another: z -> turn (z - a) / (1 - conj(a) z).
 
     match       the target's loop for each of the source's; of transfer(a, b), b's loop for each of a's
@@ -284,6 +294,7 @@ class DomainAlignment:
     misses      (L,) of each loop, in lengths of the disk: root of the squared differences of centre and radius
     misses_in_radii    the same in radii of the source's loop: a small miss in the disk may be large for a small hole
     converged   whether the last step could not make the residual smaller
+    margin      of the match, as in LoopMatch; 1 if it was given, or found by landmarks
     """
 
     def __init__(self, native: "_koebe.DomainAlignment", radii: np.ndarray, match: list[int] | None = None) -> None:
@@ -297,6 +308,7 @@ class DomainAlignment:
         self.misses = np.array(native.misses)
         self.misses_in_radii = self.misses / radii
         self.converged: bool = native.converged
+        self.margin: float = native.margin
 
     def __repr__(self) -> str:
         return f"<koebe.DomainAlignment residual {self.residual:.3g}, holes miss by up to {self.largest:.3g}>"

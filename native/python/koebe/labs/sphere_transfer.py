@@ -9,6 +9,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from .._comparable import Comparable
 from .._native import _koebe
 from .._options import flag
 from .._progress import Run, Watched
@@ -16,7 +17,7 @@ from .._report_entries import Warning
 from ..errors import InputError, OptionError
 from ..io.files import whole_file
 from ..maps.carry import carried, landmark_pairs
-from ..maps.result import Beltrami
+from ..maps.result import Beltrami, MapReport
 from ..maps.sphere import SphereMap
 from .sphere_alignment import applied, by_fields, by_landmarks, correlation, nearest_rotation
 
@@ -50,8 +51,8 @@ class Bending(TypedDict):
     settled: bool
 
 
-@dataclass(frozen=True)
-class SphereCorrespondence:
+@dataclass(frozen=True, eq=False)
+class SphereCorrespondence(Comparable):
     """A point of closed surface a for each vertex of closed surface b.
 
     faces       (V_b,) int32 triangle of a that holds the point
@@ -279,8 +280,9 @@ def _similarity(located: _Located, sphere: np.ndarray, b: SphereMap, fields: tup
     return float(correlation(located.values(fields[0], sphere[used]), fields[1][used], vertex_areas(b)[used]))
 
 
-def vertex_areas(result: SphereMap) -> np.ndarray:
-    """(V,) twice the area of the faces around each vertex."""
-    a, b, c = result.vertices[result.triangles].transpose(1, 0, 2)
+def vertex_areas(result: MapReport) -> np.ndarray:
+    """(V,) areas of the faces around each vertex, relative to each other."""
+    points = result.vertices / np.abs(result.vertices).max(initial=np.finfo(float).tiny)
+    a, b, c = points[result.triangles].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     return np.bincount(result.triangles.ravel(), np.repeat(area, 3), minlength=result.vertex_count)

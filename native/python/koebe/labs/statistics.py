@@ -1,135 +1,22 @@
-"""How sure a shape's numbers are under noise, and whether two groups of shapes differ."""
+"""Whether groups of shapes differ: by their distances, in their spread, and point by point."""
 
+import importlib
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from .._arrays import as_points
-from .._native import _koebe
-from .._options import whole
-from .._progress import Progress, Run
-from ..errors import InputError, KoebeError, OptionError, SolverError
-from ..maps.input import surface_of
-from ..maps.result import Source, UniformizeResult
-from ..maps.surface import Surface
+from .._comparable import Comparable
+from .._options import flag, whole
+from ..errors import InputError
 from .family import Family
-from .shapes import chosen_order, conformal_module
 from .sphere_family import SphereFamily
 
-_MEDIAN = 0.6744897501960817  # of |x| for a normal x with the standard deviation 1
-_PROBES = 64  # random vectors for the length of the filter's rows: an error of 1 / sqrt(2 * 64) = 9 % in each
-_LEAST_VERTICES = 20
-
-
-def vertex_noise(vertices: Any, triangles: Any = None, *, mask: Any = None) -> float:
-    """An estimate of the noise in the positions of a surface's vertices: the standard deviation of each coordinate.
-
-    vertices, triangles, mask    as for `uniformize`
-    The mean of the neighbours is taken from each position, twice: of a smooth surface little is left, of noise most.
-    Of that the part along the normal counts, by its median, at vertices at least three edges away from a rim. It is in
-    the unit of the vertices. It says too much where the surface bends within an edge (sharp edges, a coarse mesh), and
-    too little where noise is alike at neighbours (a smoothed scan). Raises InputError for fewer than 20 such vertices.
-
-    >>> import koebe
-    >>> points, faces = koebe.uniformize("blend_samples/face.obj").surface
-    >>> import numpy as np
-    >>> noisy = points + 0.02 * np.random.default_rng(1).normal(size=points.shape)
-    >>> 0.017 < koebe.vertex_noise(noisy, faces) < 0.025
-    True
-    """
-    source = surface_of(vertices, triangles, mask=mask)
-    return _noise_of(source)
-
-
-def _noise_of(source: Source) -> float:
-    count = len(source.vertices)
-    edges = np.sort(source.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    edges, times = np.unique(edges, axis=0, return_counts=True)
-    ends = np.concatenate([edges, edges[:, ::-1]])
-    degree = np.maximum(np.bincount(ends[:, 0], minlength=count), 1)
-
-    def filtered(values: np.ndarray) -> np.ndarray:
-        sums = np.stack([np.bincount(ends[:, 0], column[ends[:, 1]], minlength=count) for column in values.T], axis=1)
-        return values - sums / degree[:, None]
-
-    near = ~source.used
-    near[edges[times == 1]] = True
-    for _ in range(2):
-        near[ends[near[ends[:, 1]], 0]] = True
-    if (~near).sum() < _LEAST_VERTICES:
-        raise InputError(f"the noise needs {_LEAST_VERTICES} vertices away from rims, and there are {(~near).sum()}")
-    a, b, c = (source.vertices[source.triangles[:, k]] for k in range(3))
-    cross = np.cross(b - a, c - a)
-    normal = np.stack(
-        [np.bincount(source.triangles.ravel(), np.repeat(column, 3), minlength=count) for column in cross.T], axis=1
-    )
-    probes = np.random.default_rng(0).normal(size=(count, _PROBES))
-    rows = np.sqrt((filtered(filtered(probes)) ** 2).mean(axis=1))
-    rest = np.einsum("vk,vk->v", filtered(filtered(source.vertices)), normal)
-    known = ~near & (length := np.linalg.norm(normal, axis=1)).astype(bool)
-    return float(np.median(np.abs(rest[known]) / (length[known] * rows[known])) / _MEDIAN)
-
-
-def noise_error(
-    result: UniformizeResult,
-    *,
-    noise: float | None = None,
-    order: Sequence[int] | str | None = None,
-    samples: int = 24,
-    seed: int = 0,
-    progress: Progress | None = None,
-    cancel: "_koebe.CancelToken | None" = None,
-) -> np.ndarray:
-    """Error bars of conformal_module(result, order=order), lengths in the unit disk: the effect of noise in a scan.
-
-    noise     standard deviation of each coordinate of a vertex, in the surface's unit; None: vertex_noise of it
-    samples   surfaces with further noise that are mapped: each takes about half the time of a map
-    seed      of the random numbers: the same seed gives the same bars
-    progress, cancel    as for `uniformize`
-    A parametric bootstrap: the surface gets as much noise again, and a bar is the mean change of its number plus twice
-    its standard deviation, as sizes. It holds for independent noise of up to a tenth of an edge. It says nothing about
-    the coarseness of the mesh: that is module_error; add the squares of both. docs/shapes.md has figures, and says
-    where the bars fail. Raises InputError, Cancelled, and SolverError if fewer than half of the noisy surfaces can be
-    mapped.
-
-    >>> import koebe
-    >>> result = koebe.uniformize("blend_samples/face.obj")
-    >>> bars = koebe.noise_error(result, noise=0.01, samples=4)
-    >>> bool((bars > 0).all() and (bars < 0.05).all())
-    True
-    """
-    if not isinstance(result, UniformizeResult):
-        raise TypeError(f"noise_error takes a result of uniformize, not {type(result).__name__}")
-    count, chosen = whole(samples, "samples", least=2), chosen_order(result, order)
-    module = conformal_module(result, order=chosen.tolist())
-    sigma = vertex_noise(*result.surface) if noise is None else float(noise)
-    if not (math.isfinite(sigma) and sigma >= 0.0):
-        raise OptionError(f"noise must be a finite number from 0, not {noise!r}")
-    random = np.random.default_rng(whole(seed, "seed", least=0))
-    surface = Surface(*result.surface, outer=int(result.loops[0][0]))
-    firsts, changes = [int(loop[0]) for loop in result.loops], []
-    run = Run(progress, cancel)
-    for number in range(count):
-        run.at(number / count, "map")
-        try:
-            with np.errstate(over="ignore"):
-                moved = result.vertices + sigma * random.normal(size=result.vertices.shape)
-            noisy = surface.uniformize(moved, cancel=run.cancel)
-            place = [next(k for k, loop in enumerate(noisy.loops) if first in loop) for first in firsts]
-            there = _koebe.conformal_module(noisy.centers, noisy.radii, np.array(place, np.int32)[chosen])
-        except KoebeError:  # too much noise for this surface
-            surface = Surface(*result.surface, outer=firsts[0])
-            continue
-        changes.append(there - module)
-    run.at(1.0, "finish")
-    if 2 * len(changes) < count or len(changes) < 2:
-        raise SolverError(f"with this noise {count - len(changes)} of {count} surfaces cannot be mapped")
-    moves = np.array(changes)
-    return np.abs(moves.mean(axis=0)) + 2.0 * moves.std(axis=0, ddof=1)
+_AT_ONCE = 4_000_000  # numbers of a piece of the permuted designs
 
 
 @dataclass(frozen=True)
@@ -137,10 +24,13 @@ class PermutationTest:
     """Whether groups of shapes differ.
 
     p            the probability of a difference like this or a greater one if the groups were drawn from one population
-    statistic    Anderson's pseudo-F: the mean square between the groups over the mean square within
-    explained    share of the sum of squared distances that lies between the groups, from 0 to 1
+    statistic    Anderson's pseudo-F: the mean square between the groups over the mean square within. Of
+                 dispersion_test F of the distances from the groups' centres
+    explained    R^2: share of the sum of squares that lies between the groups, from 0 to 1
+    omega_squared    the same without the share that chance explains; of covariates' rest (partial). May be below 0
     permutations the groups that were compared with the given ones
     exact        whether they are all that there are
+    degrees      of freedom: of the groups, and of the rest
     """
 
     p: float
@@ -148,6 +38,8 @@ class PermutationTest:
     explained: float
     permutations: int
     exact: bool
+    omega_squared: float = math.nan
+    degrees: tuple[int, int] = (0, 0)
 
     def __repr__(self) -> str:
         kind = "all" if self.exact else "random"
@@ -155,17 +47,76 @@ class PermutationTest:
             f"<koebe.PermutationTest p {self.p:.3g}, F {self.statistic:.3g}, {self.permutations} {kind} permutations>"
         )
 
+    def to_dataframe(self) -> Any:
+        """A row with the figures, as a pandas DataFrame (the extra `statistics`)."""
+        return library("pandas").DataFrame([{**vars(self), "degrees": f"{self.degrees[0]}, {self.degrees[1]}"}])
 
-def permutation_test(distances: Any, groups: Any, *, permutations: int = 9999, seed: int = 0) -> PermutationTest:
+
+@dataclass(frozen=True, eq=False)
+class PointTest(Comparable):
+    """Where groups differ: figures of each point, NaN where a value is missing or all are equal.
+
+    statistic    (V,) F of the linear model with the groups over the one without
+    explained    (V,) partial R^2: share of the sum of squares, without the covariates', that the groups explain
+    p            (V,) of each point by itself, by permutations
+    p_family     (V,) the same, corrected for all points: by the largest F of each permutation [Westfall & Young 1993]
+    permutations    that were drawn
+    degrees      of freedom: of the groups, and of the rest
+    """
+
+    statistic: np.ndarray
+    explained: np.ndarray
+    p: np.ndarray
+    p_family: np.ndarray
+    permutations: int
+    degrees: tuple[int, int]
+
+    def __repr__(self) -> str:
+        return (
+            f"<koebe.PointTest {len(self.p)} points, {int((self.p_family <= 0.05).sum())} with p_family <= 0.05, "
+            f"{self.permutations} permutations>"
+        )
+
+    @property
+    def q(self) -> np.ndarray:
+        """(V,) p corrected to control the false discovery rate [Benjamini & Hochberg 1995], by SciPy."""
+        known = np.isfinite(self.p)
+        found = np.full(len(self.p), np.nan)
+        if known.any():
+            found[known] = library("scipy.stats").false_discovery_control(self.p[known])
+        return found
+
+    def to_dataframe(self) -> Any:
+        """A row for each point, as a pandas DataFrame (the extra `statistics`)."""
+        names = ("statistic", "explained", "p", "p_family")
+        return library("pandas").DataFrame({**{name: getattr(self, name) for name in names}, "q": self.q})
+
+
+def permutation_test(
+    distances: Any,
+    groups: Any,
+    *,
+    covariates: Any = None,
+    strata: Any = None,
+    numeric: bool = False,
+    permutations: int = 9999,
+    seed: int = 0,
+) -> PermutationTest:
     """Test whether two or more groups of shapes differ, by their distances alone (PERMANOVA) [Anderson 2001].
 
     distances     (N, N) symmetric, such as the distances of a `family`, or of separation_distance for all pairs; or the
                   Family or SphereFamily itself
     groups        (N,) the group of each shape: any labels
-    permutations  of the labels, at random; if there are no more than these, all are taken
+    covariates    (N,) or (N, k) numbers whose effect is taken out first [McArdle & Anderson 2001]: the rest is permuted
+                  [Freedman & Lane 1983]
+    strata        (N,) labels of blocks, such as sites or pairs: permutations stay within them
+    numeric       True: `groups` are numbers (N,) or (N, k), whose linear effect is tested
+    permutations  of the labels, at random; if two groups have no more than these, and there are neither covariates nor
+                  strata, all are taken
     seed          of the random numbers: the same seed gives the same p
-    The false-positive rate at level p is at most p, whatever the distances. Groups with one mean but unlike spread are
-    called different, too, if their sizes differ. docs/shapes.md has the power on a made population. Raises InputError.
+    Without covariates the false-positive rate at level p is at most p, whatever the distances; with them nearly so.
+    Groups with one mean but unlike spread are called different, too, if their sizes differ: see dispersion_test.
+    docs/shapes.md has the power on a made population. Raises InputError.
 
     >>> import koebe, numpy as np
     >>> places = np.concatenate([np.arange(6.0), 4 + np.arange(6.0)])
@@ -173,51 +124,243 @@ def permutation_test(distances: Any, groups: Any, *, permutations: int = 9999, s
     >>> found.p < 0.05, found.exact
     (True, True)
     """
-    matrix = distances.distances if isinstance(distances, (Family, SphereFamily)) else distances
+    squares = _distances(distances) ** 2
+    count = len(squares)
+    design = _Design(count, groups, covariates, strata, numeric)
+    # Gower's matrix of inner products about the mean, and what the covariates leave of it.
+    rest = design.without_covariates(design.without_covariates(-0.5 * squares).T)
+    total, whole_sum = float(np.trace(rest)), squares.sum() / (2.0 * count)
+    if total <= 1e-12 * whole_sum or whole_sum == 0.0:
+        raise InputError("all shapes are equal" if whole_sum == 0.0 else "the covariates explain all distances")
+
+    def shares(basis: np.ndarray) -> np.ndarray:
+        """Of bases (n, N, k) the sums of squares in them."""
+        flat = basis.transpose(1, 0, 2).reshape(count, -1)
+        return np.einsum("is,is->s", flat, rest @ flat).reshape(len(basis), -1).sum(axis=1)
+
+    def share(order: np.ndarray) -> np.ndarray:
+        """What the groups explain of what the covariates do not, for permutations (n, N)."""
+        of_covariates = shares(design.before[order]) if design.before.shape[1] > 1 else 0.0
+        return shares(design.effect[order]) / (total - of_covariates)
+
+    tries, exact = design.tries(whole(permutations, "permutations", least=1), seed)
+    given = float(share(np.arange(count)[None])[0])
+    found = np.concatenate([share(part) for part in tries])
+    as_far = int((found >= given - 1e-12).sum())
+    p = as_far / len(found) if exact else (1 + as_far) / (1 + len(found))
+    between, within = given * total / design.degrees[0], (1.0 - given) * total / design.degrees[1]
+    statistic = between / within if within > 1e-15 * total else math.inf
+    omega = design.degrees[0] * (between - within) / (total + within)
+    return PermutationTest(p, statistic, given * total / whole_sum, len(found), exact, omega, design.degrees)
+
+
+def dispersion_test(distances: Any, groups: Any, *, permutations: int = 9999, seed: int = 0) -> PermutationTest:
+    """Test whether groups of shapes are unlike in their spread (PERMDISP) [Anderson 2006], by scikit-bio.
+
+    distances, groups    as in permutation_test, which may find groups different by their spread alone
+    permutations, seed   of the residuals, at random
+    The statistic is F of the distances from each group's spatial median. Needs scikit-bio (the extra `statistics`).
+    Raises InputError.
+
+    >>> import koebe, numpy as np
+    >>> places = np.concatenate([np.linspace(0, 1, 8), np.linspace(0, 9, 8)])
+    >>> koebe.dispersion_test(abs(places[:, None] - places), [0] * 8 + [1] * 8, permutations=199).p < 0.05
+    True
+    """
+    matrix = _distances(distances)
+    design = _Design(len(matrix), groups, None, None, False)
+    skbio = library("skbio.stats.distance", "scikit-bio")
+    count = whole(permutations, "permutations", least=1)
+    labels = [str(label) for label in np.unique(np.asarray(groups), return_inverse=True)[1]]
+    said = skbio.permdisp(
+        skbio.DistanceMatrix(0.5 * (matrix + matrix.T)), labels, permutations=count,
+        seed=np.random.default_rng(whole(seed, "seed", least=0)),
+    )  # fmt: skip
+    statistic, (k, n) = float(said["test statistic"]), design.degrees
+    explained = k * statistic / (k * statistic + n)
+    omega = k * (statistic - 1.0) / (k * statistic + n + 1.0)
+    return PermutationTest(float(said["p-value"]), statistic, explained, count, False, omega, design.degrees)
+
+
+def point_test(
+    matrix: Any,
+    groups: Any,
+    *,
+    covariates: Any = None,
+    strata: Any = None,
+    numeric: bool = False,
+    permutations: int = 999,
+    seed: int = 0,
+) -> PointTest:
+    """Test at each point whether a field differs between groups, corrected for the number of points.
+
+    matrix    (N, V) subjects x points, such as PointFamily.matrix. Columns with a NaN have no test
+    groups, covariates, strata, numeric, seed    as in permutation_test
+    permutations    at random, the same for all points
+    A linear model at each point: F of the groups beside the covariates. Tests of clusters and TFCE are MNE's: its
+    functions take the matrix, and PointFamily.adjacency. Raises InputError.
+
+    >>> import koebe, numpy as np
+    >>> matrix = np.random.default_rng(1).normal(size=(12, 50))
+    >>> matrix[6:, 7] += 5.0
+    >>> found = koebe.point_test(matrix, [0] * 6 + [1] * 6)
+    >>> np.flatnonzero(found.p_family <= 0.05).tolist()
+    [7]
+    """
+    values = np.array(matrix, np.float64)
+    if values.ndim != 2 or not len(values):
+        raise InputError(f"the matrix must be (N, V), subjects x points, not {values.shape}")
+    design = _Design(len(values), groups, covariates, strata, numeric)
+    known = np.asarray(np.isfinite(values).all(axis=0))
+    rest = design.without_covariates(values[:, known])
+    total = (rest**2).sum(axis=0)
+    varies = total > 1e-12 * (values[:, known] ** 2).sum(axis=0)
+    known[known], rest, total = varies, rest[:, varies], total[varies]
+    ratio = design.degrees[1] / design.degrees[0]
+
+    def statistics(order: np.ndarray) -> np.ndarray:
+        """(points,) F for a permutation (N,)."""
+        between = ((design.effect[order].T @ rest) ** 2).sum(axis=0)
+        of_covariates = ((design.before[order].T @ rest) ** 2).sum(axis=0)
+        within = np.maximum(total - of_covariates - between, 1e-15 * total)
+        return ratio * between / within
+
+    given = statistics(np.arange(len(values)))
+    least = given * (1.0 - 1e-9)
+    as_far, as_far_anywhere = np.ones(len(given)), np.ones(len(given))
+    tries, _ = design.tries(whole(permutations, "permutations", least=1), seed, every=False)
+    for part in tries:
+        for order in part:
+            found = statistics(order)
+            as_far += found >= least
+            as_far_anywhere += found.max(initial=0.0) >= least
+    explained = given / (given + ratio)
+
+    def placed(column: np.ndarray) -> np.ndarray:
+        """(V,) with NaN where there is no test."""
+        row = np.full(len(known), np.nan)
+        row[known] = column
+        return row
+
+    p, p_family = as_far / (1 + permutations), as_far_anywhere / (1 + permutations)
+    return PointTest(placed(given), placed(explained), placed(p), placed(p_family), permutations, design.degrees)
+
+
+class _Design:
+    """The linear model of groups and covariates.
+
+    before    (N, k) orthonormal basis of the mean and the covariates
+    effect    (N, q) orthonormal basis of what the groups add
+    degrees   of freedom: q, and those of the rest
+    """
+
+    def __init__(self, count: int, groups: Any, covariates: Any, strata: Any, numeric: bool) -> None:
+        self.member: np.ndarray | None = None
+        if flag(numeric, "numeric"):
+            columns = _columns(groups, "groups", count)
+        else:
+            labels = _labels(groups, "groups", count)
+            _, self.member, sizes = np.unique(labels, return_inverse=True, return_counts=True)
+            if len(sizes) < 2 or sizes.min() < 2:
+                raise InputError("there must be two groups at least, of two shapes each")
+            columns = np.eye(len(sizes))[self.member]
+        mean = np.ones((count, 1))
+        others = [] if covariates is None else [_columns(covariates, "covariates", count)]
+        self.before = _basis(_scaled(np.column_stack([mean, *others])))
+        self.effect = _basis(self.without_covariates(_scaled(columns)))
+        self.plain = covariates is None and strata is None
+        blocks = np.zeros(count) if strata is None else _labels(strata, "strata", count)
+        self.strata = np.unique(blocks, return_inverse=True)[1]
+        self.degrees = self.effect.shape[1], count - self.before.shape[1] - self.effect.shape[1]
+        if self.degrees[0] < 1:
+            raise InputError("the covariates say all that the groups say")
+        if self.degrees[1] < 1:
+            raise InputError(f"there are too few shapes ({count}) for so many groups and covariates")
+
+    def without_covariates(self, values: np.ndarray) -> np.ndarray:
+        """Columns (N, k) without their part in `before`."""
+        return values - self.before @ (self.before.T @ values)
+
+    def tries(self, permutations: int, seed: int, every: bool = True) -> tuple[Iterator[np.ndarray], bool]:
+        """Permutations (n, N): all different ones of two groups if there are few, or random ones within the strata."""
+        count = len(self.strata)
+        if every and self.plain and self.member is not None and self.degrees[0] == 1:
+            first = np.flatnonzero(self.member == 0)
+            if math.comb(count, len(first)) <= permutations:
+                return _all_of_two(self.member, first), True
+        random = np.random.default_rng(whole(seed, "seed", least=0))
+        blocks = [np.flatnonzero(self.strata == one) for one in range(int(self.strata.max()) + 1)]
+        if all(len(block) == 1 for block in blocks):
+            raise InputError("each stratum has one shape: nothing can be permuted")
+
+        def random_ones(size: int) -> np.ndarray:
+            order = np.tile(np.arange(count), (size, 1))
+            for block in blocks:
+                order[:, block] = random.permuted(order[:, block], axis=1)
+            return order
+
+        piece = max(1, _AT_ONCE // (count * (self.before.shape[1] + self.effect.shape[1])))
+        sizes = [min(piece, permutations - begin) for begin in range(0, permutations, piece)]
+        return map(random_ones, sizes), False
+
+
+def _all_of_two(member: np.ndarray, first: np.ndarray) -> Iterator[np.ndarray]:
+    """For each choice of the first group's members one permutation that makes it, (n, N) in pieces."""
+    count, second = len(member), np.flatnonzero(member == 1)
+    choices = itertools.combinations(range(count), len(first))
+    while piece := list(itertools.islice(choices, 1000)):
+        order = np.empty((len(piece), count), np.int64)
+        for row, chosen in zip(order, piece, strict=True):
+            inside = np.zeros(count, bool)
+            inside[list(chosen)] = True
+            row[inside], row[~inside] = first, second
+        yield order
+
+
+def _distances(given: Any) -> np.ndarray:
+    """(N, N) of a family, or as given. Raises InputError."""
+    matrix = given.distances if isinstance(given, (Family, SphereFamily)) else given
     matrix = as_points(matrix, "distances", len(np.asarray(matrix)))
-    count = len(matrix)
     if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0) or matrix.diagonal().any() or (matrix < 0.0).any():
         raise InputError("the distances must be a symmetric matrix without negative numbers, 0 on the diagonal")
-    labels = np.asarray(groups)
+    return matrix
+
+
+def _labels(given: Any, name: str, count: int) -> np.ndarray:
+    labels = np.asarray(given)
     if labels.shape != (count,):
-        raise InputError(f"the groups must be ({count},) labels, one for each shape, not {labels.shape}")
-    _, member, sizes = np.unique(labels, return_inverse=True, return_counts=True)
-    if len(sizes) < 2 or sizes.min() < 2:
-        raise InputError("there must be two groups at least, of two shapes each")
-    squares = matrix**2
-    total = squares.sum() / (2.0 * count)
-    if total == 0.0:
-        raise InputError("all shapes are equal")
-    tries, exact = _tries(member, sizes, whole(permutations, "permutations", least=1), seed)
-    given = float(_within(squares, member[None], sizes)[0])
-    found = np.concatenate([_within(squares, part, sizes) for part in tries])
-    as_far = int((found <= given + 1e-12 * total).sum())
-    p = as_far / len(found) if exact else (1 + as_far) / (1 + len(found))
-    between, rest = (total - given) / (len(sizes) - 1), given / (count - len(sizes))
-    statistic = between / rest if rest > 0.0 else math.inf
-    return PermutationTest(p, statistic, 1.0 - given / total, len(found), exact)
+        raise InputError(f"the {name} must be ({count},) labels, one for each shape, not {labels.shape}")
+    return labels
 
 
-def _tries(member: np.ndarray, sizes: np.ndarray, permutations: int, seed: int) -> tuple[list[np.ndarray], bool]:
-    """Tables (n, N) of the members' groups: all of two groups if there are few, or random ones."""
-    count, first = len(member), int(sizes[0])
-    if len(sizes) == 2 and math.comb(count, first) <= permutations:
-        table = np.ones((math.comb(count, first), count), np.int64)
-        for row, chosen in enumerate(itertools.combinations(range(count), first)):
-            table[row, list(chosen)] = 0
-        return [table], True
-    random = np.random.default_rng(whole(seed, "seed", least=0))
-    return [random.permuted(np.tile(member, (size, 1)), axis=1) for size in _pieces(permutations, 1000)], False
+def _columns(given: Any, name: str, count: int) -> np.ndarray:
+    """(N, k) finite numbers. Raises InputError."""
+    try:
+        table = np.array(given, np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"the {name} must be numbers; of labels make columns of 0 and 1") from None
+    table = table.reshape(-1, 1) if table.ndim == 1 else table
+    if table.ndim != 2 or len(table) != count or not np.isfinite(table).all():
+        raise InputError(f"the {name} must be ({count},) or ({count}, k) finite numbers, not {np.shape(given)}")
+    return table
 
 
-def _pieces(count: int, most: int) -> list[int]:
-    return [min(most, count - first) for first in range(0, count, most)]
+def _scaled(columns: np.ndarray) -> np.ndarray:
+    """Columns (N, k) of length 1, or 0."""
+    lengths = np.linalg.norm(columns, axis=0)
+    return columns / np.where(lengths > 0.0, lengths, 1.0)
 
 
-def _within(squares: np.ndarray, members: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """(n,) sums of squares within the groups."""
-    sums = np.zeros(len(members))
-    for group, size in enumerate(sizes):
-        inside = (members == group).astype(np.float64)
-        sums += ((inside @ squares) * inside).sum(axis=1) / (2.0 * size)
-    return sums
+def _basis(columns: np.ndarray) -> np.ndarray:
+    """(N, k) orthonormal basis of the span of columns whose length was 1."""
+    u, values, _ = np.linalg.svd(columns, full_matrices=False)
+    return u[:, values > 1e-10]
+
+
+def library(name: str, package: str = "") -> Any:
+    """A module of the extra `statistics`. Raises ImportError with what to install."""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        needed = package or name.partition(".")[0]
+        raise ImportError(f'this needs {needed}: pip install "koebe[statistics]"') from None

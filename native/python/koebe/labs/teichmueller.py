@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from .._arrays import as_circles, as_indices
+from .._comparable import Comparable
 from .._native import _koebe
 from .._options import callback, token
 from ..errors import InputError
@@ -18,8 +19,8 @@ from .shapes import mapped_surface
 from .transfer import places
 
 
-@dataclass(frozen=True)
-class TeichmuellerMap:
+@dataclass(frozen=True, eq=False)
+class TeichmuellerMap(Comparable):
     """The extremal map of a to b: of all one-to-one maps the one whose largest |mu| is least.
 
     K           its dilatation, at least 1. 1: a conformal map takes a to b. Without landmarks it depends on the two

@@ -10,6 +10,7 @@ from typing import Any, overload
 import numpy as np
 
 from .._arrays import as_indices, as_numbers
+from .._comparable import Comparable
 from .._native import _koebe
 from .._options import callback, flag, token, vertex
 from .._progress import Progress, Run, Watched
@@ -24,8 +25,8 @@ from .shapes import DomainAlignment, mapped_surface
 from .sphere_transfer import STIFFNESS, SphereCorrespondence, SphereOptions, sphere_transfer
 
 
-@dataclass(frozen=True)
-class Correspondence:
+@dataclass(frozen=True, eq=False)
+class Correspondence(Comparable):
     """A point of surface a for each vertex of surface b.
 
     faces       (V_b,) int32 triangle of a that holds the point
@@ -39,7 +40,8 @@ class Correspondence:
                 and the map is linear in the pieces
     beltrami    |mu| of the bending of a's aligned domain, mean and max over the faces, dimensionless: 0 without bending
     flipped     faces that the bending has turned over: 0
-    warnings    list of Warning: 'not_fitted' if fit=True and the holes could not be bent onto each other
+    warnings    list of Warning: 'ambiguous_match' if the loops may be matched wrongly (alignment.margin), 'not_fitted'
+                if fit=True and the holes could not be bent onto each other
     """
 
     faces: np.ndarray
@@ -137,8 +139,8 @@ def transfer(
     stiffness  of this bending, above 0: its elastic energy over half the mean square difference of the fields, which
                have mean 0 and standard deviation 1
     progress, cancel    as for `uniformize`
-    Holes that could not be bent onto each other give a koebe.Warning, too. Without a hole, or with one, landmarks also
-    choose the automorphism of the disk: the one that brings them nearest.
+    Holes that could not be bent onto each other, and loops that may be matched wrongly, give a koebe.Warning, too.
+    Without a hole, or with one, landmarks also choose the automorphism of the disk: the one that brings them nearest.
     Two results of sphere_map, of closed surfaces, correspond through the sphere: as the spheres are, or with landmarks
     or fields after a rotation of b's. Without bend=True landmarks need not meet: `misses_deg` says how near they are. A
     point (x, y, z) stands for the nearest vertex. Without a field it returns a SphereCorrespondence.
@@ -172,7 +174,7 @@ def transfer(
     if flag(extremal, "extremal") and not pairs:
         raise InputError("extremal needs landmarks")
     on_a, on_b = (places(result, [pair[side] for pair in pairs]) for side, result in enumerate((a, b)))
-    same = _on_one_template(a, b)
+    same = on_one_template(a, b)
     if same and match is None:
         partners = list(range(len(a.loops)))
     surfaces = mapped_surface(b, same), mapped_surface(a, same)
@@ -196,7 +198,7 @@ def _forget(found: dict[str, Any], vertices: np.ndarray) -> None:
         found[name][vertices] = nothing
 
 
-def _on_one_template(a: UniformizeResult, b: UniformizeResult) -> bool:
+def on_one_template(a: Any, b: Any) -> bool:
     """Whether both are fits with the same circles."""
     if not (isinstance(a, FitResult) and isinstance(b, FitResult)) or len(a.radii) != len(b.radii):
         return False

@@ -6,14 +6,15 @@ from typing import Any
 
 import numpy as np
 
+from .._comparable import Comparable
 from .._native import _koebe
 from .._options import callback, token
 from .input import polygons_of, surface_of
 from .result import Source
 
 
-@dataclass(frozen=True)
-class SurfacePiece:
+@dataclass(frozen=True, eq=False)
+class SurfacePiece(Comparable):
     """A connected, oriented, manifold surface of genus 0 with at least one boundary loop, as `uniformize` needs it.
 
     vertices        (V', 3) float64, the input's positions
@@ -30,8 +31,8 @@ class SurfacePiece:
     turned: np.ndarray
 
 
-@dataclass(frozen=True)
-class SurfaceCut:
+@dataclass(frozen=True, eq=False)
+class SurfaceCut(Comparable):
     """A cut.
 
     kind       'crowded_edge', 'orientation', 'bow_tie', 'handle' or 'opening', as in CutResult
@@ -55,8 +56,8 @@ class LeftOutFace:
     degenerate: bool
 
 
-@dataclass(frozen=True)
-class OpenedSurface:
+@dataclass(frozen=True, eq=False)
+class OpenedSurface(Comparable):
     """The result of `open_surface`: pieces by lowest face, cuts, faces left out (ascending), the number of handles."""
 
     pieces: list[SurfacePiece]

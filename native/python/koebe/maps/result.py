@@ -13,6 +13,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from .._arrays import as_loops
+from .._comparable import Comparable
 from .._fields import face_angle_error_deg, log_scale
 from .._native import _koebe
 from .._report_entries import Loop, Warning
@@ -200,8 +201,9 @@ def figures_of(report: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in report.items() if name not in ("input", "vertices", "faces", "cut")}
 
 
-class MapReport(Saved):
-    """The report of every map, for any domain.
+class MapReport(Saved, Comparable):
+    """The report of every map, for any domain. It does not change, and is equal to another one of the same surface, map
+    and report; times and memory do not count.
 
     converged        False: the map is not finished, and a warning tells why
     angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say, in 64 bits
@@ -244,16 +246,36 @@ class MapReport(Saved):
         """@param native has the arrays: the library's result, or the content of a file"""
         self._report = report = source.with_input_warnings(report)
         self._source = source
-        vars(self).update(figures_of(report))
-        self.loops = [Loop(loop) for loop in report.get("loops", ())]
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
-        self.flipped_faces = np.array(native.flipped_faces, dtype=np.int32)
+        self._set(**figures_of(report))
+        self._set(
+            loops=[Loop(loop) for loop in report.get("loops", ())],
+            warnings=[Warning(warning) for warning in report["warnings"]],
+            flipped_faces=np.array(native.flipped_faces, dtype=np.int32),
+        )
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in vars(self):
+            raise AttributeError(f"{name} of a {type(self).__name__} cannot change")
+        super().__setattr__(name, value)
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"{name} of a {type(self).__name__} cannot change")
+
+    def __hash__(self) -> int:
+        return hash((type(self), self._report.get("input_sha256")))
+
+    def _compared(self) -> dict[str, Any]:
+        return {**self._report, **self._arrays(), "of_vertices": self.vertices, "of_triangles": self.triangles}
+
+    def _set(self, **values: Any) -> None:
+        """Take values as attributes while the result is made, in the place of earlier ones."""
+        vars(self).update(values)
 
     def _set_arrays(self, **arrays: np.ndarray) -> None:
         """Take read-only arrays as attributes."""
         for name, array in arrays.items():
             array.flags.writeable = False
-            setattr(self, name, array)
+            self._set(**{name: array})
 
     def _arrays(self) -> dict[str, Any]:
         return {"uv": self.uv, "flipped_faces": self.flipped_faces}
@@ -339,8 +361,8 @@ class MapReport(Saved):
         import_module("..io.export", __package__).export(self, path)
 
 
-@dataclass(frozen=True)
-class ConformalDomain:
+@dataclass(frozen=True, eq=False)
+class ConformalDomain(Comparable):
     """The circle domain of the surface itself. Shapes are compared by it, whatever map the result shows.
 
     centers, radii   (L, 2) and (L,) circles in the unit disk, in the order of the result's loops
@@ -411,7 +433,7 @@ class UniformizeResult(MapReport):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         loops, conformal_uv = report["loops"], getattr(native, "conformal_uv", None)
-        self.options = report.get("options", {})
+        self._set(options=report.get("options", {}))
         self._set_arrays(uv=source.outside_nan(native.uv))
         self.centers = np.array([loop["center"] for loop in loops])
         self.radii = np.array([loop["radius"] for loop in loops])

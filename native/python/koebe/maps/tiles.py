@@ -37,7 +37,7 @@ class TileMap(DomainMap):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         self._set_arrays(periods=np.array(report["periods"]))
-        self.modulus = complex(*report["modulus"])
+        self._set(modulus=complex(*report["modulus"]))
 
     def _counts(self) -> list[str]:
         return [*super()._counts(), f"modulus {self.modulus:.4g}"]

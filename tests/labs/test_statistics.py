@@ -1,0 +1,69 @@
+"""Statistics beside scikit-bio, statsmodels and pandas."""
+
+import koebe
+import numpy as np
+import pandas
+import pytest
+from scipy import stats
+from skbio.stats.distance import DistanceMatrix, permanova, permdisp
+from statsmodels.formula.api import ols
+from statsmodels.stats.anova import anova_lm
+from statsmodels.stats.multitest import multipletests
+
+# The example that scikit-bio's documentation prints: F is 4.4.
+PRINTED = np.array([[0, 1, 1, 4], [1, 0, 3, 2], [1, 3, 0, 3], [4, 2, 3, 0]], float)
+RANDOM = np.random.default_rng(7)
+GROUPS = np.repeat(["a", "b", "c"], 10)
+AGE = RANDOM.normal(size=30) + (GROUPS == "b")
+POINTS = RANDOM.normal(size=(30, 5)) * np.where(GROUPS == "c", 2.5, 1.0)[:, None] + AGE[:, None]
+DISTANCES = np.linalg.norm(POINTS[:, None] - POINTS, axis=2)
+
+
+def test_permanova_has_the_figures_of_scikit_bio():
+    for matrix, groups in ((PRINTED, ["1", "1", "2", "2"]), (DISTANCES, GROUPS)):
+        said = permanova(DistanceMatrix(matrix), list(groups), permutations=999, seed=1)
+        found = koebe.permutation_test(matrix, groups, permutations=999)
+        assert found.statistic == pytest.approx(said["test statistic"])
+        assert found.p == pytest.approx(said["p-value"], abs=0.35 if len(matrix) == 4 else 0.03)
+
+
+def test_dispersion_is_that_of_scikit_bio():
+    said = permdisp(DistanceMatrix(DISTANCES), list(GROUPS), permutations=199, seed=np.random.default_rng(0))
+    found = koebe.dispersion_test(DISTANCES, GROUPS, permutations=199)
+    assert found.statistic == pytest.approx(said["test statistic"]) and found.p == said["p-value"] < 0.05
+    assert found.degrees == (2, 27) and 0.0 < found.omega_squared < found.explained < 1.0
+    even = koebe.dispersion_test(np.abs(AGE[:, None] - AGE), np.tile([0, 1], 15), permutations=199)
+    assert even.p > 0.05
+
+
+def test_points_have_the_anova_of_statsmodels_and_its_corrections():
+    frame = pandas.DataFrame({"y": POINTS[:, 0], "age": AGE, "group": GROUPS})
+    table = anova_lm(ols("y ~ age + C(group)", frame).fit(), typ=2)
+    found = koebe.point_test(POINTS, GROUPS, covariates=AGE, permutations=499)
+    assert found.statistic[0] == pytest.approx(table.loc["C(group)", "F"])
+    squares = table.loc[["C(group)", "Residual"], "sum_sq"]
+    assert found.explained[0] == pytest.approx(squares.iloc[0] / squares.sum())
+    assert found.p[0] == pytest.approx(table.loc["C(group)", "PR(>F)"], abs=0.06)
+    assert found.q == pytest.approx(multipletests(found.p, method="fdr_bh")[1])
+    plain = koebe.point_test(POINTS, GROUPS, permutations=99)
+    expected = [stats.f_oneway(*(column[one == GROUPS] for one in "abc")).statistic for column in POINTS.T]
+    assert plain.statistic == pytest.approx(expected)
+
+
+def test_tables_are_dataframes():
+    face, other = (koebe.uniformize(koebe.example(name)) for name in ("face", "surprised"))
+    found = koebe.family([face, other], labels=["face", "surprised"])
+    frame = found.to_dataframe()
+    assert list(frame.index) == found.labels and list(frame.columns) == found.columns
+    assert np.array_equal(frame.to_numpy(), found.modules)
+    points = koebe.point_test(POINTS, GROUPS, permutations=19).to_dataframe()
+    assert list(points.columns) == ["statistic", "explained", "p", "p_family", "q"] and len(points) == 5
+    row = koebe.permutation_test(DISTANCES, GROUPS, permutations=19).to_dataframe()
+    assert len(row) == 1 and row["degrees"][0] == "2, 27"
+
+
+def test_clusters_of_points_are_neighbours_on_the_reference():
+    face, other = (koebe.uniformize(koebe.example(name)) for name in ("face", "surprised"))
+    edges = koebe.family([face, other]).adjacency()
+    assert (edges != edges.T).nnz == 0 and edges.diagonal().sum() == 0
+    assert edges.nnz == 2 * (face.vertex_count + face.face_count - 2 + len(face.loops))  # Euler: E = V + F - 2 + loops
