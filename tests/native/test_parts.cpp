@@ -581,7 +581,7 @@ TEST(Parts, darts_make_texels_more_even_and_cuts_grow_by_them_at_least)
         const double slits = result.slit_length - without.slit_length;  // these join loops
         const double cut = without.cut_length + slits + result.dart_length;
         if (result.parts.size() == without.parts.size())
-            EXPECT_NEAR(result.cut_length, cut, 1e-9);
+            EXPECT_NEAR(result.cut_length, cut, 1e-3 * cut);  // borders are straight between the ends of darts
         else  // parts were cut for room too
             EXPECT_GT(result.cut_length, cut);
         EXPECT_GT(result.cut_length, cuts);

@@ -142,7 +142,7 @@ struct ThroughPrice {
 /// Of cuts that make room in parts that are relaxed. @param piece price of one more part, as a length
 inline ThroughPrice room_price(double darts, double piece)
 {
-    return {dart_price(darts), tuning::little_price * piece * dart_price(darts)};
+    return {dart_price(darts), tuning::room_island * piece * dart_price(darts)};
 }
 
 /// Of cuts that make room between planar regions. Along a rolled face a cut costs ten times as much: a cone stays one

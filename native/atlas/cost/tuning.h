@@ -61,8 +61,10 @@ inline constexpr double small_part_worth = 4.0;
 inline constexpr double symmetric_factor = 2.0;
 /// overflow | or that much more: texels that are 3 % off everywhere, which nobody sees | chosen
 inline constexpr double symmetric_more = 0.03;
-/// prices | most that hiding a border may cost; one more island that makes room | 29 models: parts.md#packing
+/// prices | most that hiding a border may cost | chosen
 inline constexpr double little_price = 0.1;
+/// prices | one more island that makes room | 29 models: parts.md#packing
+inline constexpr double room_island = 0.033;
 
 // Cuts. Lengths are in roots of the area.
 /// factor | on a cut where `show` is 1, or which runs along a rim | cuts in front of a ball 7.4 -> 3.4 radii

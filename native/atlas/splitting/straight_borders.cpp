@@ -58,7 +58,7 @@ private:
             gain += old[k]->map.overflow - moved[k]->map.overflow;
             lost += moved[k]->map.lost_area - old[k]->map.lost_area;
         }
-        if (lost > 0.0 || gain < -tuning::little_price * options_.part_price) return false;
+        if (lost > 0.0 || gain < 0.0) return false;
         parts_[left] = moved[0];
         parts_[right] = moved[1];
         for (const int k : {0, 1})

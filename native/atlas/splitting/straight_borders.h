@@ -7,8 +7,8 @@
 
 namespace koebe {
 
-/// Straightens the borders between parts, as straight_paths.h does. They stay as they were if a part would be lost, get
-/// other loops, lose area, or if the cost would rise by more than a small share of a part's price.
+/// Straightens borders between two parts, one after the other (straight_paths.h). A border stays as it was if the parts
+/// and its length, with turns, would cost more, or if a part would lose area or get other loops.
 /// @param parts each has a map of its own
 void straighten_borders(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                         ExecutionContext& context, SplitEffort& effort);

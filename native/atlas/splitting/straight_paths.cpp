@@ -4,6 +4,7 @@
 #include "cost/costs.h"
 #include "mesh/nearest_first.h"
 #include "mesh/topology.h"
+#include "splitting/coarse_surface.h"
 
 #include <Eigen/Geometry>
 
@@ -34,7 +35,7 @@ public:
           from_start_(static_cast<Index>(twin_.size())),
           last_(twin_.size(), no_twin),
           is_cut_(twin_.size(), 0),
-          passes_(boundary_counts(whole.surface))
+          passes_(fixed_places(whole.surface))
     {
         for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h)
             price_.push_back(whole.lengths[h] *
@@ -48,9 +49,9 @@ public:
         const double before = length_of(path);
         const Path old = path;
         note(path, -1);
-        const Index start = origin(triangles_, path.front());
-        const bool closes = start == target(triangles_, path.back());
-        if (closes && passes_[start] == 0) {
+        const bool closes = origin(triangles_, path.front()) == target(triangles_, path.back());
+        const auto is_free = [&](Index h) { return passes_[origin(triangles_, h)] == 0; };
+        if (closes && std::ranges::all_of(path, is_free)) {
             for (const double from : {0.0, 0.5, 0.25})
                 if (path.size() >= least_closed) {
                     const auto first = static_cast<std::size_t>(from * static_cast<double>(path.size()));
@@ -60,7 +61,7 @@ public:
             for (std::size_t first = 0; first < path.size();) {
                 std::size_t end = first + 1;
                 const std::size_t most = closes ? (path.size() + 1) / 2 : path.size();
-                while (end < path.size() && end - first < most && passes_[origin(triangles_, path[end])] == 0) ++end;
+                while (end < path.size() && end - first < most && is_free(path[end])) ++end;
                 first += straighten_range(path, first, end, false);
             }
         }
@@ -78,12 +79,16 @@ public:
     }
 
 private:
-    static std::vector<int> boundary_counts(const Surface& surface)
+    /// Paths end on the boundary and go through hubs, but none is moved there.
+    static std::vector<int> fixed_places(const Surface& surface)
     {
-        std::vector<int> counts(static_cast<std::size_t>(surface.vertex_count), 0);
+        std::vector<int> faces(static_cast<std::size_t>(surface.vertex_count), 0);
+        for (const Index v : surface.triangles.reshaped<Eigen::RowMajor>()) ++faces[v];
+        std::vector<int> fixed;
+        for (const int count : faces) fixed.push_back(count > hub_faces);
         for (const VertexLoop& loop : surface.loops)
-            for (const Index v : loop) counts[v] = 1;
-        return counts;
+            for (const Index v : loop) fixed[v] = 1;
+        return fixed;
     }
 
     /// The direction of each half-edge at its origin: the angle from the first one, counter-clockwise, so that all
@@ -98,17 +103,12 @@ private:
         }
         leaving_ = std::move(leaving);
         for (const Index first : leaving_) {
-            if (first == no_twin) continue;
             double sum = 0.0;
             for_ring(first, [&](Index h) {
                 direction_[h] = sum;
                 sum += angle_at_origin(h);
-                return true;
             });
-            for_ring(first, [&](Index h) {
-                direction_[h] *= 2.0 * std::numbers::pi / sum;
-                return true;
-            });
+            for_ring(first, [&](Index h) { direction_[h] *= 2.0 * std::numbers::pi / sum; });
         }
     }
 
@@ -121,14 +121,15 @@ private:
         return std::max(std::atan2(a.cross(b).norm(), a.dot(b)), 1e-9);
     }
 
-    /// Visits half-edges that leave a vertex, counter-clockwise, while it is told to.
+    /// Visits the half-edges that leave a vertex, counter-clockwise from one of them; on the boundary from the first
+    /// one.
     template <class Visit>
     void for_ring(Index first, const Visit& visit) const
     {
-        for (Index h = first;;) {
-            if (!visit(h)) return;
+        for (Index h = first; h != no_twin;) {
+            visit(h);
             h = twin_[previous_halfedge(h)];
-            if (h == no_twin || h == first) return;
+            if (h == first) return;
         }
     }
 
@@ -191,63 +192,64 @@ private:
         return own;
     }
 
-    /// A better path with the same ends; empty: there is none. @param before, after half-edges with which it is
-    /// continued; no_twin: it is not
-    Path improved(const Path& path, Index before, Index after)
+    /// Measures how far vertices lie from a path, up to the width of its band. @return that width
+    double measure_band(const Path& path)
     {
         const Index start = origin(triangles_, path.front()), end = target(triangles_, path.back());
         double length = 0.0;
         for (const Index h : path) length += whole_.lengths[h];
         const double width = std::max(std::min(tuning::straight_band, band_share * length),
                                       band_edges * length / static_cast<double>(path.size()));
-        // How far vertices lie from the path.
         from_path_.reset();
         from_path_.reach(start, 0.0);
         for (const Index h : path) from_path_.reach(target(triangles_, h), 0.0);
         for (Index v = from_path_.take(); v >= 0; v = from_path_.take()) {
             if (v != start && v != end && passes_[v] > 0) continue;
-            for_leaving(v, [&](Index h) {
+            for_ring(leaving_[v], [&](Index h) {
                 const Index w = target(triangles_, h);
                 const double distance = from_path_.distance()[v] + whole_.lengths[h];
                 if (distance <= width && passes_[w] == 0) from_path_.reach(w, distance);
             });
         }
-        // The cheapest sequence of half-edges.
+        return width;
+    }
+
+    /// A better path with the same ends, by the costs of half-edges one after the other; empty: there is none.
+    /// @param before, after half-edges with which it is continued; no_twin: it is not
+    Path improved(const Path& path, Index before, Index after)
+    {
+        const Index start = origin(triangles_, path.front()), end = target(triangles_, path.back());
+        const double width = measure_band(path);
         from_start_.reset();
-        for (const Index h : sector(path.front()))
-            if (may_cut(h) && !is_cut_[h] && (target(triangles_, h) == end || is_inside(target(triangles_, h)))) {
-                last_[h] = no_twin;
-                from_start_.reach(h, edge_cost(h, width) + (before == no_twin ? 0.0 : turn_cost(before, h)));
-            }
-        std::vector<Index> ends;
-        for (const Index h : sector(twin_[path.back()])) ends.push_back(h);
+        const auto step = [&](Index from, Index h, double cost) {  // from_start_ reaches h
+            const Index v = target(triangles_, h);
+            if (v == start || is_cut_[h] || !may_cut(h) || (v != end && !is_inside(v))) return;
+            if (from_start_.reach(h, cost + edge_cost(h, width))) last_[h] = from;
+        };
+        for (const Index h : sector(path.front())) step(no_twin, h, before == no_twin ? 0.0 : turn_cost(before, h));
+        const std::vector<Index> ends = sector(twin_[path.back()]);
         double best = worth_moving * cost_of(path, before, after, width);
         Index found = no_twin;
         for (Index h = from_start_.take(); h >= 0 && from_start_.distance()[h] < best; h = from_start_.take()) {
-            const Index v = target(triangles_, h);
-            if (v == end) {
-                const double cost = from_start_.distance()[h] + (after == no_twin ? 0.0 : turn_cost(h, after));
-                if (cost < best && std::ranges::find(ends, twin_[h]) != ends.end()) {
-                    best = cost;
-                    found = h;
-                }
+            const double cost = from_start_.distance()[h];
+            if (target(triangles_, h) != end) {
+                for_ring(leaving_[target(triangles_, h)], [&](Index k) {
+                    if (k != twin_[h]) step(h, k, cost + turn_cost(h, k));
+                });
                 continue;
             }
-            for_leaving(v, [&](Index k) {
-                const Index w = target(triangles_, k);
-                if (k == twin_[h] || w == start || is_cut_[k] || !may_cut(k) || (w != end && !is_inside(w))) return;
-                if (from_start_.reach(k, from_start_.distance()[h] + edge_cost(k, width) + turn_cost(h, k)))
-                    last_[k] = h;
-            });
+            const double turned = cost + (after == no_twin ? 0.0 : turn_cost(h, after));
+            if (turned >= best || std::ranges::find(ends, twin_[h]) == ends.end()) continue;
+            best = turned;
+            found = h;
         }
-        if (found == no_twin) return {};
         Path better;
         for (Index h = found; h != no_twin; h = last_[h]) better.push_back(h);
         std::ranges::reverse(better);
         return meets_itself(better) ? Path{} : better;
     }
 
-    bool is_inside(Index v) const { return passes_[v] == 0 && std::isfinite(from_path_.distance()[v]); }
+    bool is_inside(Index v) const { return std::isfinite(from_path_.distance()[v]); }
 
     bool meets_itself(const Path& path) const
     {
@@ -255,16 +257,6 @@ private:
         for (const Index h : path) ends.push_back(target(triangles_, h));
         std::ranges::sort(ends);
         return std::ranges::adjacent_find(ends) != ends.end();
-    }
-
-    template <class Visit>
-    void for_leaving(Index v, const Visit& visit) const
-    {
-        if (leaving_[v] == no_twin) return;
-        for_ring(leaving_[v], [&](Index h) {
-            visit(h);
-            return true;
-        });
     }
 
     /// Straightens the edges of a path from `first` to before `end`. @param is_round whether the path goes on from its
@@ -297,7 +289,7 @@ private:
     NearestFirst from_start_;        // (3F) costs
     std::vector<Index> last_;        // (3F) the half-edge before
     std::vector<char> is_cut_;       // (3F)
-    std::vector<int> passes_;        // (V) how many edges of paths end there, and the boundary
+    std::vector<int> passes_;        // (V) how many edges of paths end there; one more where paths are not moved
 };
 
 std::vector<Path> chains_of(const Surface& surface, const std::vector<char>& is_cut)
