@@ -6,7 +6,7 @@
     --report FILE      the figures, as JSON
     --blend FILE       the file with the UVs
     --evenness X       the panel's slider, 0 to 1 (0.5)
-    --darts D          the panel's darts, 0 to 1 (0.2)
+    --darts D          the panel's darts, 0 to 1 (by default the panel's)
     --important X,Y,Z,R    weight 1 at this place, shares of the model's box, and less up to R of its longest side away
     --density D        texel density in pixels per unit on a texture of 2,048 pixels
     --stack            parts that are copies or mirror images lie on each other
@@ -45,7 +45,7 @@ def parse():
     parser.add_argument("--report", type=Path)
     parser.add_argument("--blend", type=Path)
     parser.add_argument("--evenness", type=float, default=0.5)
-    parser.add_argument("--darts", type=float, default=0.2)
+    parser.add_argument("--darts", type=float)
     parser.add_argument("--important", type=lambda text: tuple(map(float, text.split(","))))
     parser.add_argument("--density", type=float)
     parser.add_argument("--stack", action="store_true")
@@ -71,7 +71,9 @@ def weigh(obj, place):
 def unwrapped(obj, options):
     """Map the object; returns the result and each face's part."""
     module = guide_picture.addon_module
-    chosen = {"evenness": options.evenness, "darts": options.darts, "stack_mirrored": options.stack}
+    chosen = {"evenness": options.evenness, "stack_mirrored": options.stack}
+    if options.darts is not None:
+        chosen["darts"] = options.darts
     if options.important:
         chosen["importance"] = weigh(obj, options.important)
     if options.density:

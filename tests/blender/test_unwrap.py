@@ -73,6 +73,10 @@ def test_automatic_takes_the_shape_that_serves_and_says_why(sample, shape, addon
     assert re.search(REASONS.get(sample, "its texels are even, 1 : [1-3]"), entry.note)
     figures = addon("maps.verdicts").figures(entry)
     assert [one for one in figures if one.name != "Coverage" and one.advice] == []
+    if shape == "Parts":  # few faces must not take the square from the others
+        uv = scenes.polygon_areas(obj)
+        density = uv / [face.area for face in obj.data.polygons]
+        assert uv[density > 9.0 * np.median(density)].sum() < 0.05 * uv.sum()
 
 
 @pytest.mark.alike

@@ -582,7 +582,7 @@ TEST(Parts, darts_make_texels_more_even_and_cuts_grow_by_them_at_least)
         const double cut = without.cut_length + slits + result.dart_length;
         if (result.parts.size() == without.parts.size())
             EXPECT_NEAR(result.cut_length, cut, 1e-3 * cut);  // borders are straight between the ends of darts
-        else  // parts were cut for room too
+        else                                                  // parts were cut for room too
             EXPECT_GT(result.cut_length, cut);
         EXPECT_GT(result.cut_length, cuts);
         EXPECT_LT(result.density_ratio_5_95, without.density_ratio_5_95);

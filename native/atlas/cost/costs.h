@@ -62,6 +62,9 @@ struct CutPrices {
 /// @param area of the piece; that of the mesh is 1
 CutPrices prices_of_piece(double area, double price);
 
+/// The most that a part may cost if it is not cut in two: max(part_price, hopeless area)
+inline double most_uncut(double area, double part_price) { return std::max(part_price, tuning::hopeless * area); }
+
 /// What a child will have cost after later splits: half of what lies above two prices is left, about.
 /// c for c <= 2 p, else 2 p + later_share (c - 2 p)
 double expected_cost(double cost, double part_price);

@@ -21,7 +21,7 @@ constexpr double longest_detour = 3.0;  // length of a path over the length of i
 class PathFinder {
 public:
     PathFinder(const Proxy& proxy, const CoarseNet& net)
-        : fine_(proxy.fine.whole), coarse_(proxy.surface), vertex_(proxy.coarse.vertex), net_(net)
+        : fine_(proxy.fine.whole), coarse_(proxy.surface), vertex_(proxy.coarse.vertex)
     {
         mesh_ = seamed(fine_.vertices, fine_.surface, fine_.polygon, fine_.shown);
         taken_ = boundary_mask(fine_.surface);
@@ -248,7 +248,6 @@ private:
     const CutSurface& fine_;
     const Surface& coarse_;
     const std::vector<Index>& vertex_;  // (V) coarse: the fine vertex
-    const CoarseNet& net_;
     SeamedMesh mesh_;
     std::vector<char> taken_, firm_,
         on_path_;                  // (V) fine: on the boundary or a chain, the same but inside chains, on a path

@@ -61,6 +61,12 @@ double cost_apart(const Part& a, const Part& b, double border, const SplitOption
     return a.map.overflow + b.map.overflow + options.of(1.0, border);
 }
 
+/// The most that both parts may cost as one: less than apart, and not so much that any cut in two is better.
+double most_as_one(const Part& a, const Part& b, double border, const SplitOptions& options)
+{
+    return std::min(cost_apart(a, b, border, options), most_uncut(a.mesh.area + b.mesh.area, options.part_price));
+}
+
 /// Both parts as one, if that is better. For parts of the two halves of a closed surface: they have no common origin.
 PartPointer merged_halves(const CutSurface& whole, const Part& a, const Part& b, double saved,
                           ExecutionContext& context, SplitEffort& effort)
@@ -75,7 +81,7 @@ PartPointer merged_halves(const CutSurface& whole, const Part& a, const Part& b,
 PartPointer merged(const CutSurface& whole, const SplitOptions& options, const Part& a, const Part& b, double border,
                    ExecutionContext& context, SplitEffort& effort)
 {
-    const double saved = cost_apart(a, b, border, options);
+    const double saved = most_as_one(a, b, border, options);
     const auto origin = common_origin(a, b);
     if (!origin) return merged_halves(whole, a, b, saved, context, effort);
     std::vector<Index> piece(origin->mesh.faces.size(), -1);
@@ -188,6 +194,7 @@ void merge_small_parts(const CutSurface& whole, const SplitOptions& options, std
             PartPointer both = joined(whole, a, b, common_origin(a, b));
             if (!both) continue;
             map_anew(whole, *both, context, effort);
+            if (both->map.overflow > most_uncut(both->mesh.area, options.part_price)) continue;
             const double gain = cost_apart(a, b, length, options) - both->map.overflow;
             if (both->map.lost_area > a.map.lost_area + b.map.lost_area || gain <= best_gain) continue;
             best_gain = gain;

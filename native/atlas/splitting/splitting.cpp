@@ -209,7 +209,7 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
             return step;
         }
     }
-    if (part->map.overflow > std::max(options.part_price, tuning::hopeless * part->mesh.area) && !is_late)
+    if (part->map.overflow > most_uncut(part->mesh.area, options.part_price) && !is_late)
         step.open = halved(whole, part, threads, context, step.effort);
     if (!step.open.empty()) return step;
     part->settled = true;
