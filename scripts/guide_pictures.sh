@@ -39,8 +39,7 @@ drawn)
     draw vase guide_picture.py "$images/guide_vase.jpg"
     draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
     draw mug parts_picture.py --output "$images/guide_parts_mug.jpg" --size 1000x500
-    draw character parts_picture.py --output "$images/parts_mirror_before.jpg" --size 1000x500 --darts 0 --one-off
-    draw character parts_picture.py --output "$images/parts_mirror_after.jpg" --size 1000x500
+    draw character parts_picture.py --output "$images/parts_character.jpg" --size 1000x500
     draw closed_head parts_picture.py --output "$images/importance_before.jpg" --size 1000x500 --samples 8
     draw closed_head parts_picture.py --output "$images/importance_after.jpg" --size 1000x500 --samples 8 \
         --important 0.5,0.0,0.45,0.35

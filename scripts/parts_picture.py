@@ -10,7 +10,6 @@
     --important X,Y,Z,R    weight 1 at this place, shares of the model's box, and less up to R of its longest side away
     --density D        texel density in pixels per unit on a texture of 2,048 pixels
     --stack            parts that are copies or mirror images lie on each other
-    --one-off          first move one vertex by a thousandth of the model's size: then it is not its own mirror image
     --size 1600x800    width and height in pixels; OUT may be a .jpg
     --samples N        Cycles samples per pixel (32)
 
@@ -49,7 +48,6 @@ def parse():
     parser.add_argument("--important", type=lambda text: tuple(map(float, text.split(","))))
     parser.add_argument("--density", type=float)
     parser.add_argument("--stack", action="store_true")
-    parser.add_argument("--one-off", action="store_true")
     parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(1600, 800))
     parser.add_argument("--samples", type=int, default=32)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
@@ -128,8 +126,6 @@ def draw(obj, part, options):
 def main():
     options = parse()
     obj = next(obj for obj in bpy.context.scene.objects if obj.type == "MESH")
-    if options.one_off:
-        obj.data.vertices[0].co.z += 1e-3 * max(obj.dimensions)
     result, part = unwrapped(obj, options)
     if options.report:
         options.report.write_text(json.dumps(figures(result), indent=1) + "\n", encoding="utf-8")
