@@ -348,7 +348,7 @@ def test_parts_that_lose_too_much_are_not_done(koebe, monkeypatch):
 
     def losing(*arguments, **options):
         result = parts(*arguments, **options)
-        result.lost_area, result.flipped_faces = 0.5, np.arange(6, dtype=np.int32)
+        result._set(lost_area=0.5, flipped_faces=np.arange(6, dtype=np.int32))
         return result
 
     monkeypatch.setattr(koebe, "parts", losing)

@@ -12,7 +12,7 @@ from tori import torus_arrays
 
 MODELS = {
     "DISK": ("uniformize", scenes.add_panel),
-    "PARTS": ("parts", scenes.add_panel),
+    "PARTS": ("parts", lambda: add_bump(0.8)),
     "RING": ("ring", add_tube),
     "TORUS": ("torus", lambda: scenes.add_object("Torus", *torus_arrays(16, 12))),
     "SPHERE": ("sphere", scenes.add_panel),
