@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -133,12 +132,14 @@ private:
         }
     }
 
+    /// Edges of the boundary, and edges inside polygons, belong to no path.
     bool may_cut(Index h) const
     {
         const Index t = twin_[h];
         return t != no_twin && (whole_.polygon.empty() || whole_.polygon[face_of(h)] != whole_.polygon[face_of(t)]);
     }
 
+    /// turn_cost |angle - pi| / (pi / 2) times the mean price of both edges, with the angle from one to the other.
     double turn_cost(Index arriving, Index leaving) const
     {
         const double full = 2.0 * std::numbers::pi;
@@ -148,6 +149,7 @@ private:
                (price_[arriving] + price_[leaving]);
     }
 
+    /// price (1 + (distance / width)^2), with the distance of the edge's middle from the path.
     double edge_cost(Index h, double width) const
     {
         const double off =
@@ -164,6 +166,7 @@ private:
         return sum;
     }
 
+    /// The sum that `improved` makes least.
     double cost_of(const Path& path, Index before, Index after, double width) const
     {
         double sum = 0.0;
@@ -221,12 +224,14 @@ private:
         const Index start = origin(triangles_, path.front()), end = target(triangles_, path.back());
         const double width = measure_band(path);
         from_start_.reset();
+        // The nodes of the search are half-edges, not vertices: so a turn has a cost.
         const auto step = [&](Index from, Index h, double cost) {  // from_start_ reaches h
             const Index v = target(triangles_, h);
             if (v == start || is_cut_[h] || !may_cut(h) || (v != end && !is_inside(v))) return;
             if (from_start_.reach(h, cost + edge_cost(h, width))) last_[h] = from;
         };
         for (const Index h : sector(path.front())) step(no_twin, h, before == no_twin ? 0.0 : turn_cost(before, h));
+        // It arrives from the same side of the other cuts, and ends once none can be cheaper.
         const std::vector<Index> ends = sector(twin_[path.back()]);
         double best = worth_moving * cost_of(path, before, after, width);
         Index found = no_twin;
