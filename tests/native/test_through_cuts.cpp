@@ -152,7 +152,7 @@ TEST(ThroughCuts, what_is_true_to_size_is_neither_moved_nor_cut_however_thin_its
     const PlanarPoints before = part.points;
     relax(part);
     EXPECT_EQ(part.points, before);
-    EXPECT_TRUE(promising_through_cuts(part, even, {1e-12, 1e-12}).empty());
+    EXPECT_TRUE(promising_through_cuts(part, even, {1e-12, 1e-12}, {}).empty());
     EXPECT_TRUE(promising_darts(part, forces_in(part, even), even, 1e-12, {}).empty());
 }
 
@@ -166,14 +166,25 @@ TEST(ThroughCuts, what_costs_more_than_it_releases_is_not_cut)
     EXPECT_EQ(parts[0].flat.slit, 0.0);
 }
 
+TEST(ThroughCuts, cuts_that_are_opened_together_split_nothing_and_refused_ones_do_not_come_back)
+{
+    FlatPart part = ring_part(32, 8, [](double) { return 0.5; });
+    relax(part);
+    const std::vector<ThroughCut> first = promising_through_cuts(part, even, {5e-4, {}}, {});
+    ASSERT_EQ(first.size(), 1U);  // of 32 that are as good: two would split the panel
+    const std::vector<ThroughCut> second = promising_through_cuts(part, even, {5e-4, {}}, {first[0].ends});
+    ASSERT_EQ(second.size(), 1U);
+    EXPECT_GT((second[0].ends.from - first[0].ends.from).norm(), tuning::cut_reach * second[0].length);
+}
+
 TEST(ThroughCuts, pieces_are_the_part_and_without_a_price_of_pieces_nothing_is_split)
 {
     FlatPart part = ring_part(24, 24, [](double h) { return 0.3 + 0.25 * std::sin(2.0 * pi * h); });
     relax(part);
     EXPECT_EQ(cut(part, {1e-5, {}}).size(), 1U);
-    EXPECT_FALSE(promising_through_cuts(part, even, {1e-5, 1e-5}).empty());
+    EXPECT_FALSE(promising_through_cuts(part, even, {1e-5, 1e-5}, {}).empty());
     for (const ThroughPrice& price : {ThroughPrice{1e-5, {}}, ThroughPrice{1e-5, 1e-5}})
-        for (const ThroughCut& promising : promising_through_cuts(part, even, price))
+        for (const ThroughCut& promising : promising_through_cuts(part, even, price, {}))
             EXPECT_LT(promising.cost, promising.forecast);
     const std::vector<HeldPart> parts = cut(part, {1e-5, 1e-5});
     ASSERT_GT(parts.size(), 1U);

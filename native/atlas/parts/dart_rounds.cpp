@@ -88,7 +88,9 @@ private:
         Trial& trial = trials_[k];
         if (trial.darts.empty()) return;
         HeldPart part = parts_[k];
-        const std::vector<int> nearest = nearest_dart(part.flat, trial.darts, tuning::cut_reach);
+        std::vector<std::vector<Index>> cuts;
+        for (const Dart& dart : trial.darts) cuts.push_back(dart.vertices);
+        const std::vector<int> nearest = nearest_cut(part.flat, cuts, tuning::cut_reach);
         const auto source = open_darts(part.flat, trial.darts);
         if (!source) return;
         FlatPart& flat = part.flat;

@@ -226,14 +226,14 @@ bool draw_apart(FlatPart& flat, const std::vector<char>& moves)
     return false;
 }
 
-std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach)
+std::vector<int> nearest_cut(const FlatPart& flat, const std::vector<std::vector<Index>>& cuts, double reach)
 {
     SeamedMesh mesh = seamed(flat);
     std::ranges::fill(mesh.whole, 0);
     std::vector<Index> sources;
     std::vector<int> label(static_cast<std::size_t>(flat.surface.vertex_count), -1);
-    for (std::size_t k = 0; k < darts.size(); ++k)
-        for (const Index v : darts[k].vertices) {
+    for (std::size_t k = 0; k < cuts.size(); ++k)
+        for (const Index v : cuts[k]) {
             sources.push_back(v);
             label[v] = static_cast<int>(k);
         }

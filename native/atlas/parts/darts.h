@@ -39,8 +39,8 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
 /// overlaps, and nothing changes
 bool draw_apart(FlatPart& flat, const std::vector<char>& moves);
 
-/// For each face the dart nearest to it on the surface; -1 if no dart is within reach. @param reach (darts) the
-/// distance up to which each dart counts
-std::vector<int> nearest_dart(const FlatPart& flat, const std::vector<Dart>& darts, double reach);
+/// For each face the cut nearest to it on the surface; -1 if no cut is within reach. @param cuts (cuts) vertices of
+/// each
+std::vector<int> nearest_cut(const FlatPart& flat, const std::vector<std::vector<Index>>& cuts, double reach);
 
 }  // namespace koebe

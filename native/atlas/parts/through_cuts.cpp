@@ -4,6 +4,7 @@
 #include "cost/costs.h"
 #include "cut/edge_graph.h"
 #include "even/even_map.h"
+#include "mesh/connected_pieces.h"
 #include "part_maps/part_mesh.h"
 #include "parts/darts.h"
 #include "parts/tension.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,7 +20,7 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t most_cuts = 2;
+constexpr std::size_t most_cuts = 6;
 
 /// Sums along the shortest way from a vertex to the boundary, without the vertex itself.
 struct WayOut {
@@ -44,9 +46,10 @@ public:
     {
         measure_loops();
         measure_ways();
+        measure_strain();
     }
 
-    std::vector<ThroughCut> best() const
+    std::vector<ThroughCut> best(const std::vector<CutEnds>& refused) const
     {
         const Index count = static_cast<Index>(flat_.surface.triangles.size());
         std::vector<std::pair<double, Index>> found;  // surplus, half-edge in the middle
@@ -56,17 +59,26 @@ public:
                 found.emplace_back(surplus, h);
         std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
         std::vector<ThroughCut> cuts;
+        Taken taken{std::vector<int>(enclosed_.size()), std::vector<char>(strain_.size(), 0)};
+        std::iota(taken.joined.begin(), taken.joined.end(), 0);
         for (const auto& [surplus, h] : found) {
             ThroughCut cut = path(h);
             cut.forecast = surplus + cut.cost;
-            if (std::ranges::any_of(cuts, [&](const ThroughCut& other) { return are_near(cut, other); })) continue;
+            if (std::ranges::any_of(refused, [&](const CutEnds& ends) { return is_near(cut, ends); })) continue;
+            if (!fits(cut, h, cuts, taken)) continue;
             cuts.push_back(std::move(cut));
-            if (cuts.size() == most_cuts) break;
+            if (cuts.size() == most_cuts || is_split(cuts.front())) break;
         }
         return cuts;
     }
 
 private:
+    /// What the cuts take that are opened together.
+    struct Taken {
+        std::vector<int> joined;     ///< (loops) the same number for loops that they make one
+        std::vector<char> strained;  ///< (regions) 1 where one of them runs
+    };
+
     double swept(Index v, Index w) const
     {
         return flat_.points(v, 0) * flat_.points(w, 1) - flat_.points(v, 1) * flat_.points(w, 0);
@@ -106,6 +118,27 @@ private:
         }
     }
 
+    /// The regions of faces with much energy, and the energy of each.
+    void measure_strain()
+    {
+        const VectorXd areas = face_areas(flat_.vertices, flat_.surface.triangles);
+        std::vector<int> is_strained(static_cast<std::size_t>(areas.size()));
+        for (Eigen::Index f = 0; f < areas.size(); ++f)
+            is_strained[f] = forces_.energy[f] > tuning::strained * areas[f] ? 1 : 0;
+        Index count = 0;
+        region_ = connected_pieces(flat_.surface.twin, is_strained, count);
+        strain_.assign(static_cast<std::size_t>(count), 0.0);
+        for (std::size_t f = 0; f < region_.size(); ++f)
+            if (is_strained[f] != 0) strain_[region_[f]] += forces_.energy[static_cast<Eigen::Index>(f)];
+    }
+
+    /// The more strained of the regions on both sides of an edge.
+    Index region_at(Index h) const
+    {
+        const Index left = region_[face_of(h)], right = region_[face_of(flat_.surface.twin[h])];
+        return strain_[right] > strain_[left] ? right : left;
+    }
+
     /// The next vertex on the way to the boundary; -1 there.
     Index next(Index v) const { return outside_[v] ? -1 : tree_.parent[v]; }
 
@@ -121,7 +154,8 @@ private:
         const Complex force = from.force + at_a + at_b + to.force;
         const double moment = from.moment + tree_.distance[a] * at_a.imag() + length * (to.force + at_b).imag() -
                               to.moment - tree_.distance[b] * at_b.imag() - 0.5 * length * force.imag();
-        const double released = tuning::released_share * beam_energy(force, moment, length, even_);
+        const double released =
+            std::max(tuning::released_share * beam_energy(force, moment, length, even_), strain_[region_at(h)]);
         return std::min(released, forces_.energy.sum()) - price_.of(length, splits(from.end, to.end));
     }
 
@@ -153,17 +187,40 @@ private:
         cut.halfedges.push_back(h);
         walk(target(flat_.surface.triangles, h));
         for (const Index e : cut.halfedges) cut.length += mesh_.length[e];
-        cut.cost = price_.of(cut.length, splits(cut.vertices.front(), cut.vertices.back()));
+        cut.cost = price_.of(cut.length, is_split(cut));
+        cut.ends = {flat_.vertices.row(cut.vertices.front()), flat_.vertices.row(cut.vertices.back())};
         return cut;
     }
 
-    bool are_near(const ThroughCut& one, const ThroughCut& other) const
+    bool is_split(const ThroughCut& cut) const { return splits(cut.vertices.front(), cut.vertices.back()); }
+
+    /// Whether a cut can be opened together with these cuts. Cuts between loops close no ring, or they would split the
+    /// part. Each strained region has one cut. @param h the edge through which it was found @param taken by the cuts;
+    /// if it fits, by this cut too
+    bool fits(const ThroughCut& cut, Index h, const std::vector<ThroughCut>& cuts, Taken& taken) const
     {
-        const auto between = [&](Index v, Index w) { return (flat_.vertices.row(v) - flat_.vertices.row(w)).norm(); };
-        const Index a = one.vertices.front(), b = one.vertices.back();
-        const Index c = other.vertices.front(), d = other.vertices.back();
-        return std::min(std::max(between(a, c), between(b, d)), std::max(between(a, d), between(b, c))) <
-               tuning::cut_reach * one.length;
+        const auto are_close = [&](Index v, Index w) {
+            return (flat_.vertices.row(v) - flat_.vertices.row(w)).norm() < tuning::dart_spacing;
+        };
+        for (const ThroughCut& other : cuts)
+            for (const Index v : cut.vertices)
+                if (std::ranges::any_of(other.vertices, [&](Index w) { return are_close(v, w); })) return false;
+        const Index region = region_at(h);
+        const bool is_strained = strain_[region] > 0.0;
+        if (is_strained && taken.strained[region]) return false;
+        const int from = taken.joined[loop_of_[cut.vertices.front()]], to = taken.joined[loop_of_[cut.vertices.back()]];
+        if (from == to && !(cuts.empty() && is_split(cut))) return false;
+        std::ranges::replace(taken.joined, from, to);
+        taken.strained[region] = is_strained;
+        return true;
+    }
+
+    static bool is_near(const ThroughCut& cut, const CutEnds& other)
+    {
+        const auto between = [](const auto& a, const auto& b) { return (a - b).norm(); };
+        const auto& [from, to] = cut.ends;
+        return std::min(std::max(between(from, other.from), between(to, other.to)),
+                        std::max(between(from, other.to), between(to, other.from))) < tuning::cut_reach * cut.length;
     }
 
     const FlatPart& flat_;
@@ -175,6 +232,8 @@ private:
     SeamedMesh mesh_;
     PathTree tree_;
     std::vector<WayOut> ways_;
+    std::vector<Index> region_;     // (F) strained faces that hang together, or others
+    std::vector<double> strain_;    // (regions) energy; 0 where faces are not strained
     std::vector<int> loop_of_;      // (V) -1 inside
     std::vector<double> arc_;       // (V) twice the area swept along the loop before the vertex,
     std::vector<double> enclosed_;  // and round each loop
@@ -279,10 +338,11 @@ std::optional<FlatPart> opened_piece(const FlatPart& flat, const std::vector<Ind
     return piece;
 }
 
-std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price)
+std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price,
+                                               const std::vector<CutEnds>& refused)
 {
     if (is_true_to_size(flat)) return {};
-    return ThroughSearch(flat, even, price).best();
+    return ThroughSearch(flat, even, price).best(refused);
 }
 
 std::vector<FlatPart> cut_through(const FlatPart& flat, const ThroughCut& cut)

@@ -9,6 +9,11 @@
 
 namespace koebe {
 
+/// Where a through cut begins and ends.
+struct CutEnds {
+    Eigen::RowVector3d from, to;
+};
+
 /// A path along edges. It joins two loops of a part, or splits the part in two.
 struct ThroughCut {
     std::vector<Index> vertices;   ///< from boundary to boundary
@@ -16,14 +21,18 @@ struct ThroughCut {
     double length = 0.0;           ///< in roots of the surface's area, more where the surface is shown
     double forecast = 0.0;         ///< of the energy that it releases
     double cost = 0.0;             ///< in energy
+    CutEnds ends;
 };
 
-/// A few through cuts that may pay, with ends apart, the most promising cut first. A cut releases at most about 2
-/// (|F|^2 + 12 M^2 / L^2) / Y, like a beam that breaks. F is the force between the two sides, summed along the path. M
-/// is the moment, about the middle of the path, of the force that pulls the sides apart. L is the length of the path,
-/// and Y is the stiffness as for darts (darts.h). The forecast is a quarter of this energy, as measured.
-/// @param flat a part relaxed for this E
-std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price);
+/// Through cuts that may pay and can be opened together, the most promising cut first: a few between loops, apart from
+/// each other, or one that splits the part. A cut releases at most about 2 (|F|^2 + 12 M^2 / L^2) / Y, like a beam that
+/// breaks. F is the force between the two sides, summed along the path. M is the moment, about the middle of the path,
+/// of the force that pulls the sides apart. L is the length of the path, and Y is the stiffness as for darts (darts.h).
+/// The forecast is a quarter of this energy, as measured. Where a narrow band is drawn out round the part, it is the
+/// energy of the whole band: one cut across releases all of it.
+/// @param flat a part relaxed for this E @param refused cuts that did not pay: no cut near them
+std::vector<ThroughCut> promising_through_cuts(const FlatPart& flat, double even, const ThroughPrice& price,
+                                               const std::vector<CutEnds>& refused);
 
 /// Cuts a part through. If the cut joins two loops, there is one piece: the sides of the cut are drawn a little apart.
 /// If the cut splits the part, there are two pieces.

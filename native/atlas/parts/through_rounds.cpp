@@ -4,10 +4,13 @@
 #include "cost/costs.h"
 #include "even/even_forces.h"
 #include "execution/side_by_side.h"
+#include "parts/darts.h"
 #include "parts/roomy_cuts.h"
 #include "parts/tension.h"
 
 #include <algorithm>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -16,7 +19,7 @@ namespace koebe {
 namespace {
 
 constexpr EvenEffort trial_effort{6, 2};
-constexpr double least_kept = 0.5;        // share of a forecast that the next trial may release
+constexpr int most_failures = 2;          // rounds in which no cut of a piece pays
 constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room, unless it is true to size
 
 /// A cut as vertices of the whole: cuts of other parts have numbers of their own.
@@ -64,7 +67,7 @@ class MirrorGroup {
 public:
     MirrorGroup(std::vector<HeldPart> parts, const ThroughPrice& price) : price_(price)
     {
-        for (HeldPart& part : parts) pieces_.push_back({std::move(part.flat), false});
+        for (HeldPart& part : parts) pieces_.push_back({std::move(part.flat)});
     }
 
     /// Cuts by what they release in parts that are relaxed for this E.
@@ -82,7 +85,9 @@ public:
 private:
     struct Piece {
         FlatPart flat;
-        bool settled = false;  ///< no cut pays
+        bool settled = false;          ///< no cut pays
+        std::vector<CutEnds> refused;  ///< cuts that did not pay,
+        int failures = 0;              ///< and rounds in which none did
     };
     struct Trial {
         std::vector<Piece> pieces;
@@ -102,28 +107,63 @@ private:
 
     static double energy(const FlatPart& flat, double even) { return forces_in(flat, even).energy.sum(); }
 
-    /// Makes the best cut of a piece, and its mirror image. @return whether a cut pays
+    /// Opens cuts of a piece together, and keeps those that pay. On a mirrored piece it is one cut, and its image.
+    /// @return whether to go on with this piece
     bool release_once(std::size_t k, double even, ExecutionContext& context)
     {
-        std::optional<Trial> best;
-        double kept = 1.0;  // share of a forecast that a trial released
-        for (const ThroughCut& cut : promising_through_cuts(pieces_[k].flat, even, price_)) {
-            if (kept * cut.forecast - cut.cost <= (best ? best->surplus : 0.0))
-                break;  // they come by falling forecasts
-            std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut));
-            if (!trial || !release(*trial, even, context)) continue;
-            kept = std::clamp((trial->surplus + cut.cost) / cut.forecast, least_kept, 1.0);
-            if (trial->surplus > (best ? best->surplus : 0.0)) best = std::move(trial);
+        std::vector<ThroughCut> cuts = promising_through_cuts(pieces_[k].flat, even, price_, pieces_[k].refused);
+        if (cuts.empty()) return false;
+        if (!pieces_[k].flat.image.empty()) cuts.resize(1);
+        while (!cuts.empty()) {
+            std::optional<Trial> trial = opened(k, cuts);
+            if (trial && !release(*trial, even, context)) trial.reset();
+            const std::vector<double> released =
+                trial ? released_by(k, cuts, *trial, even) : std::vector(cuts.size(), 0.0);
+            std::vector<ThroughCut> paying;
+            for (std::size_t i = 0; i < cuts.size(); ++i) {
+                if (released[i] > cuts[i].cost)
+                    paying.push_back(cuts[i]);
+                else
+                    pieces_[k].refused.push_back(cuts[i].ends);
+            }
+            if (paying.size() == cuts.size()) {
+                take(std::move(*trial));
+                return true;
+            }
+            cuts = std::move(paying);
         }
-        if (best) take(std::move(*best));
-        return best.has_value();
+        return ++pieces_[k].failures < most_failures;
+    }
+
+    /// The energy that each cut of a piece released: that of the faces nearest to it. A cut with an image has released
+    /// all, less what the image costs.
+    std::vector<double> released_by(std::size_t k, const std::vector<ThroughCut>& cuts, const Trial& trial,
+                                    double even) const
+    {
+        const FlatPart& before = pieces_[k].flat;
+        if (cuts.size() == 1) return {trial.surplus + cuts.front().cost};
+        std::vector<std::vector<Index>> paths;
+        for (const ThroughCut& cut : cuts) paths.push_back(cut.vertices);
+        const std::vector<int> nearest = nearest_cut(before, paths, std::numeric_limits<double>::infinity());
+        std::map<Index, int> cut_at;
+        for (std::size_t f = 0; f < nearest.size(); ++f) cut_at.emplace(before.faces[f], nearest[f]);
+        std::vector<double> released(cuts.size(), 0.0);
+        const auto add = [&](const FlatPart& flat, double sign) {
+            const VectorXd energies = forces_in(flat, even).energy;
+            for (std::size_t f = 0; f < flat.faces.size(); ++f)
+                released[cut_at.at(flat.faces[f])] += sign * energies[static_cast<Eigen::Index>(f)];
+        };
+        add(before, 1.0);
+        for (std::size_t i = 0; i < trial.pieces.size(); ++i)
+            if (trial.changed[i]) add(trial.pieces[i].flat, -1.0);
+        return released;
     }
 
     /// Makes the first cut that can be made, and its mirror image. @return whether there is one
     bool save_room_once(std::size_t k, double square)
     {
         for (const ThroughCut& cut : roomy_cuts(pieces_[k].flat, square, price_))
-            if (std::optional<Trial> trial = opened(named_cuts(pieces_[k].flat, cut)); trial && !has_crumbs(*trial)) {
+            if (std::optional<Trial> trial = opened(k, {cut}); trial && !has_crumbs(*trial)) {
                 take(std::move(*trial));
                 return true;
             }
@@ -159,25 +199,27 @@ private:
         return {std::move(named), std::move(image)};
     }
 
-    /// The pieces after these cuts, not relaxed yet; nothing if one of the cuts cannot be made.
-    std::optional<Trial> opened(const std::vector<NamedCut>& cuts) const
+    /// The pieces after these cuts of one of them and their images, not relaxed yet; nothing if one of the cuts cannot
+    /// be made.
+    std::optional<Trial> opened(std::size_t own, const std::vector<ThroughCut>& cuts) const
     {
+        std::vector<NamedCut> all;
+        for (const ThroughCut& cut : cuts)
+            std::ranges::move(named_cuts(pieces_[own].flat, cut), std::back_inserter(all));
         Trial trial{pieces_, std::vector<char>(pieces_.size(), 0)};
-        for (const NamedCut& named : cuts) {
+        for (const NamedCut& named : all) {
             std::vector<FlatPart> parts;
             for (std::size_t k = 0; k < trial.pieces.size() && parts.empty(); ++k) {
                 const auto cut = cut_in(trial.pieces[k].flat, named);
                 if (!cut) continue;
                 parts = cut_through(trial.pieces[k].flat, *cut);
                 if (parts.empty()) return {};
-                trial.pieces[k] = {std::move(parts.front()), false};
+                trial.pieces[k] = {std::move(parts.front()), false, trial.pieces[k].refused};
                 trial.changed[k] = 1;
+                if (parts.size() > 1) trial.pieces.push_back({std::move(parts.back()), false, trial.pieces[k].refused});
             }
             if (parts.empty()) return {};
-            if (parts.size() > 1) {
-                trial.pieces.push_back({std::move(parts.back()), false});
-                trial.changed.push_back(1);
-            }
+            trial.changed.resize(trial.pieces.size(), 1);
             trial.surplus -= named.cost;
         }
         return trial;

@@ -10,9 +10,9 @@
 
 namespace koebe {
 
-/// Cuts each part by its best through cut (through_cuts.h), relaxes the pieces, and goes on with them. A cut stays if
-/// it released more energy than it costs. On a surface that is its own mirror image cuts come in pairs: either both
-/// cuts are made, or neither. Parts with round loops are not cut.
+/// Cuts each part by its best through cuts (through_cuts.h), relaxes the pieces, and goes on with them. A cut stays if
+/// the faces nearest to it released more energy than it costs. On a surface that is its own mirror image cuts come in
+/// pairs: either both cuts are made, or neither. Parts with round loops are not cut.
 /// @param parts relaxed for this E; new parts come last
 /// @return whether any cut was made
 bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughPrice& price, int threads,
