@@ -35,6 +35,7 @@ def _parts() -> tuple[ModuleType, ...]:
         render_layer,
         select_from_report,
         sequence,
+        sew,
         symmetrize,
         texel_density,
         uniformize,
@@ -64,7 +65,7 @@ def _parts() -> tuple[ModuleType, ...]:
         option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
         density_report,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
-        compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, flat_copy, even_slider,
+        compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, sew, flat_copy, even_slider,
         render_layer, texel_density, lift, node_groups, hole_rings,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip

@@ -24,7 +24,7 @@ from ..state.option_properties import (
     option_names,
     settings_of,
 )
-from .panel_parts import ClosedPanel, draw_map_button
+from .panel_parts import ClosedPanel, draw_map_button, draw_sew
 
 
 class DiskPanel(ClosedPanel):
@@ -75,6 +75,7 @@ class PartsPanel(ClosedPanel):
         draw_weights(column, settings, "importance", context)
         for name in ("seams", "write_seams", "cut_at", "hard_angle", "cut_hard", "no_hard", "weld"):
             draw_option(column, settings, name, context)
+        draw_sew(column, settings)
 
 
 class DomainsPanel(ClosedPanel):

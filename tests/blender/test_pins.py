@@ -9,22 +9,6 @@ from test_rendered_layer import covered
 pytestmark = pytest.mark.alike
 
 
-def sheet(size=12, seams=()):
-    """A bent sheet of quadrilaterals. @param seams columns of vertices along which it is cut"""
-    side = np.linspace(-1, 1, size + 1)
-    x, y = np.meshgrid(side, side, indexing="ij")
-    vertices = np.stack([x, y, 0.3 * np.sin(2 * x) * y], axis=-1).reshape(-1, 3)
-    at = np.arange((size + 1) ** 2).reshape(size + 1, size + 1)
-    faces = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=-1).reshape(-1, 4)
-    obj = scenes.add_object("Sheet", vertices.tolist(), faces.tolist())
-    ends = np.array([edge.vertices[:] for edge in obj.data.edges])
-    for column in seams:
-        cut = (ends // (size + 1) == column).all(axis=1)
-        obj.data.edges.foreach_set("use_seam", cut | scenes.read(obj.data.edges, "use_seam", bool))
-    scenes.select(obj)
-    return obj
-
-
 def put(obj, places):
     """Pin vertices of the layer Koebe at these places. Corners (n,) that are pinned."""
     vertex = scenes.read(obj.data.loops, "vertex_index", np.int32)
@@ -45,7 +29,7 @@ def said():
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_pins_stay_to_the_last_bit_and_the_map_joins_them(shape, mode, count):
-    obj = sheet()
+    obj = scenes.add_sheet()
     assert bpy.ops.uv.koebe_parts(seams="only") == {"FINISHED"}
     places = {0: (0.1, 0.1), 168: (0.8, 0.7), 84: (0.6, 0.25), 12: (0.05, 0.7)}
     pinned = put(obj, dict(list(places.items())[:count]))
@@ -64,7 +48,7 @@ def test_pins_stay_to_the_last_bit_and_the_map_joins_them(shape, mode, count):
 
 
 def test_islands_without_pins_go_beside_those_with_pins():
-    obj = sheet(seams=(4, 8))
+    obj = scenes.add_sheet(seams=(4, 8))
     assert bpy.ops.uv.koebe_parts(seams="only") == {"FINISHED"}
     pinned = put(obj, {0: (0.3, 0.3), 12: (0.3, 0.7)})
     before = scenes.corner_uv(obj.data, "Koebe")
@@ -77,7 +61,7 @@ def test_islands_without_pins_go_beside_those_with_pins():
 
 
 def test_pins_that_no_map_can_have_are_named_and_nothing_changes():
-    obj = sheet()
+    obj = scenes.add_sheet()
     bpy.ops.uv.koebe_parts(seams="only")
     a, b, c, d = obj.data.polygons[40].vertices
     put(obj, {a: (0.2, 0.2), b: (0.2, 0.4), c: (0.4, 0.4), d: (0.4, 0.2)})  # the wrong way round
@@ -91,7 +75,7 @@ def test_pins_that_no_map_can_have_are_named_and_nothing_changes():
 
 
 def test_two_pins_of_one_vertex_need_a_cut():
-    obj = sheet(seams=(6,))
+    obj = scenes.add_sheet(seams=(6,))
     bpy.ops.uv.koebe_parts(seams="only")
     vertex = scenes.read(obj.data.loops, "vertex_index", np.int32)
     scenes.pin(obj.data, "Koebe", vertex == 80)
