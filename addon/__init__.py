@@ -27,6 +27,7 @@ def _parts() -> tuple[ModuleType, ...]:
         flat_copy,
         hole_rings,
         lift,
+        live,
         moebius,
         node_groups,
         option_presets,
@@ -65,7 +66,7 @@ def _parts() -> tuple[ModuleType, ...]:
         option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
         density_report,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
-        compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, sew, flat_copy, even_slider,
+        compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, sew, live, flat_copy, even_slider,
         render_layer, texel_density, lift, node_groups, hole_rings,
         distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
     )  # fmt: skip

@@ -184,22 +184,21 @@ def move_parts(koebe: ModuleType, outcome: PartsOutcome, choice: PartsChoice, ke
         return
     with failing_alone(koebe, [one]):
         uv, remark = one.uv.astype(np.float64), ""
-        free = np.ones(len(uv), dtype=bool)
+        kept = in_place(task, one.corners, uv) if keep else None
+        is_moved = kept is not None or task.pins is not None
+        uv, free = uv if kept is None else kept, np.ones(len(uv), dtype=bool)
         if task.pins is not None:
             joined = join_pins(koebe, task, one.corners, uv, one.result.even, cancel)
             uv, free, task = joined.uv, ~joined.held, joined.beside(task, one.corners)
-        corners = one.corners[free]
-        placed = in_place(task, corners, uv[free]) if keep else None
-        if placed is None and (choice.tiles != 1 or one.result.stacked):
+        if kept is None and (choice.tiles != 1 or one.result.stacked):
             remark = OVER * (task.rest is not None)
-        elif placed is None:
+        elif kept is None and free.any():
             own_size = choice.texels != "fill"
-            made = put_beside(koebe, task, corners, uv[free], choice.margin, choice.pixels, own_size, cancel)
-            placed, remark = (None, "") if made is None else (made.uv, made.remark)
+            made = put_beside(koebe, task, one.corners[free], uv[free], choice.margin, choice.pixels, own_size, cancel)
+            if made is not None:
+                uv[free], remark, is_moved = made.uv, made.remark, True
         outcome.remarks += [remark] * bool(remark)
-        if placed is not None:
-            uv[free] = placed
-        if placed is not None or task.pins is not None:
+        if is_moved:
             _take_place(one, task.surface, uv)
         if task.pins is not None:
             one.bent = _figures(koebe, one, task)

@@ -1,4 +1,4 @@
-"""Sew by hand: a cut is closed by a button."""
+"""Sew and Live by hand: a cut is closed by a button, and seams that are marked and cleared are followed at once."""
 
 SHEET = """
 for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
@@ -56,3 +56,36 @@ def test_a_cut_is_sewn_by_the_button(window):
     window.move(*window.middle("VIEW_3D"))
     window.key("ctrl+z")
     assert window.run(PLACES) > 10
+
+
+def test_live_follows_a_seam_and_undo_goes_back(window):
+    window.prepare(SHEET)
+    window.run(in_view(EDIT))
+    window.settle()
+    before = window.run(PLACES)
+    assert before > 10
+    window.scroll_down()
+    x, y = window.find_button("VIEW_3D", "koebe_sew")  # in the part that is open from the test before
+    window.click(x, y + 22)
+    window.settle()
+    assert window.ask("bpy.context.window_manager.koebe_live")
+    window.run(in_view("bpy.ops.mesh.mark_seam('EXEC_DEFAULT', True, clear=True)"))
+    for _ in range(100):
+        window.settle()
+        if window.run(PLACES) == 0:
+            break
+    assert window.run(PLACES) == 0
+    window.picture_of_uvs("82_live")
+    window.move(*window.middle("VIEW_3D"))
+    window.key("ctrl+z")  # the new map
+    window.settle()
+    assert window.run(PLACES) == before
+    window.key("ctrl+z")  # the seam
+    window.settle()
+    assert window.run(PLACES) == before
+    window.key("ctrl+shift+z", "ctrl+shift+z")
+    window.settle()
+    assert window.run(PLACES) == 0
+    window.run("bpy.context.window_manager.koebe_live = False")
+    handlers = "[f for h in (bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.undo_post) for f in h]"
+    assert not window.ask(f"any('operators.live' in f.__module__ for f in {handlers})")
