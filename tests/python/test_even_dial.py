@@ -211,11 +211,13 @@ def test_pins_that_no_map_can_have_are_refused():
         dial.pin(crossing)
     assert set(error.value.elements) <= set(ends) and error.value.elements
     for wrong, text in (
-        ({10**6: (0, 0)}, "no vertex"), ({1: (0, 0), 2: (0, 0)}, "at one place"), ({1: (0, float("nan"))}, "finite"),
+        ({10**6: (0, 0)}, "pins"), ({1: (0, 0), 2: (0, 0)}, "at one place"), ({1: (0, float("nan"))}, "NaN"),
+        ({1.5: (0, 0)}, "whole"), ({1: (0, 0, 0)}, "pins"), ({1: (0, 0), 2: (1,)}, "pins"),
     ):  # fmt: skip
         with pytest.raises(koebe.InputError, match=text):
             dial.pin(wrong)
     with pytest.raises(koebe.InputError, match="round loops"):
         koebe.EvenDial(vertices, triangles, uv=first.uv).pin(dict(zip(ends, first.uv[ends], strict=True)))
     assert np.array_equal(dial.uv, before)
+    assert np.allclose(dial.pin({}), before, rtol=0.0, atol=1e-14)
     dial.pin(dict(zip(ends, first.uv[ends], strict=True)))

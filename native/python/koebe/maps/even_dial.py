@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_indices, as_points
 from .._native import _koebe
 from .._option_table import rows
 from .._options import flag, number, token, whole
@@ -66,14 +67,14 @@ class EvenDial:
         that are in the way; or Cancelled. Then the map stays, and so do the pins of the last call.
         """
         value = number(even, rows("uniformize")["even"])
-        named = np.asarray(list(pins), dtype=object)
-        places = np.asarray([pins[vertex] for vertex in pins], dtype=np.float64).reshape(-1, 2)
-        lost = [v for v in named if not (0 <= v < len(self._used) and self._used[v])]
+        named = as_indices(list(pins), "pins", len(self._used), "vertices")
+        places = as_points(list(pins.values()) or np.zeros((0, 2)), "pins", 2)
+        lost = named[~self._used[named]].tolist()
         if lost:
-            raise InputError(f"a pin is no vertex of a face: {lost[0]}", [int(v) for v in lost], "vertices")
-        vertices = (np.cumsum(self._used) - 1)[named.astype(np.int64)]
+            raise InputError(f"a pin is no vertex of a face: {lost[0]}", lost, "vertices")
+        vertices = (np.cumsum(self._used) - 1)[named].tolist()
         try:
-            uv = self._native.pin([int(v) for v in vertices], places, value, token(cancel, "cancel"))
+            uv = self._native.pin(vertices, places, value, token(cancel, "cancel"))
         except KoebeError as error:
             if error.of == "vertices":
                 error.elements = [int(v) for v in np.flatnonzero(self._used)[np.asarray(error.elements, dtype=int)]]
