@@ -12,11 +12,14 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
+from ..maps.beside import new_overlaps
 from ..maps.errors import MapError
 from ..maps.outcomes import Progress, Task, share_of
 from ..maps.pins import join_pins
 from ..maps.surface import Surface, next_corners
+from ..maps.wording import counted
 
+SEWN_OVER = ". Islands lie over each other: Pack Only makes room"
 LEAST_EVEN = 0.1  # E around pins if the angles are kept
 
 
@@ -38,12 +41,14 @@ class SewTask:
     result: Any = None
     written: np.ndarray | None = None
     error: Exception | None = None
+    lies_over: bool = False
 
     @property
     def line(self) -> str:
         """What was done."""
-        new = int(self.result.island.max()) + 1
-        return f"{self.target.name}: {self.result.sewn} edges sewn, {self.result.joined} islands became {new}"
+        made, new = self.result, int(self.result.island.max()) + 1
+        said = f"{self.target.name}: {counted(made.sewn, 'edge')} sewn, {counted(made.joined, 'island')} became {new}"
+        return said + SEWN_OVER * self.lies_over
 
 
 class SewJob:
@@ -102,6 +107,7 @@ class SewJob:
             even = LEAST_EVEN if self._even is None else self._even
             uv[written] = join_pins(self.koebe, pinned, written, uv[written], even, self.cancel_token).uv
         task.uv, task.written, task.result = uv, written, made
+        task.lies_over = new_overlaps(self.koebe, task.surface, uv, written)
 
     def write(self, run: Transaction, task: SewTask) -> None:
         """Write an object's layer. Raises TransferError, also if it could not be sewn."""

@@ -17,6 +17,7 @@ from .uv_islands import uv_islands, vertex_uv
 
 SAME_SIZE = 0.995  # share of the wanted size that counts as all of it
 NO_ROOM = "no room beside the islands of the other faces: the new ones lie to the right of the UV square"
+PINNED_OVER = "islands with pins lie over each other, or over other islands"
 OVER = "it lies over the islands of the other faces"
 
 
@@ -131,3 +132,29 @@ def _largest_place(surface: Surface, island: Island, old_uv: np.ndarray) -> np.n
         return island.corners
     largest = max(old, key=lambda one: np.abs(signed_areas(vertex_uv(one, old_uv), one.triangles)).sum())
     return largest.corners
+
+
+def new_overlaps(koebe: ModuleType, surface: Surface, layer: np.ndarray, corners: np.ndarray) -> bool:
+    """Whether the new islands lie over each other, or over islands that stay.
+
+    layer    (C, 2) of all UVs; NaN where there is no island
+    corners  (m,) of the new islands
+
+    False, too, if islands that stay lie over each other, or an island over itself.
+    """
+    is_new = np.zeros(len(layer), dtype=bool)
+    is_new[corners] = True
+    area = both_areas(surface, layer.astype(np.float64))[1]
+    there = np.isfinite(area) & (area != 0.0)
+    others = there & ~is_new[surface.triangle_corners].all(axis=1)
+
+    def overlap(chosen: np.ndarray, together: bool) -> bool:
+        at = surface.triangle_corners[chosen]
+        faces = surface.triangle_face[chosen]
+        made = koebe.pack(
+            surface.positions, surface.corner_vertex[at], uv=layer[at].astype(np.float64),
+            polygon=np.zeros_like(faces) if together else faces, locked=np.ones(len(faces), dtype=bool),
+        )  # fmt: skip
+        return bool(made.overlaps)
+
+    return overlap(there, True) and not overlap(there, False) and not (others.any() and overlap(others, True))

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .beside import OVER, in_place, put_beside
+from .beside import OVER, PINNED_OVER, in_place, new_overlaps, put_beside
 from .errors import MapError
 from .islands import cut_into_islands, put_together
 from .mapping import failing_alone
@@ -202,6 +202,9 @@ def move_parts(koebe: ModuleType, outcome: PartsOutcome, choice: PartsChoice, ke
             _take_place(one, task.surface, uv)
         if task.pins is not None:
             one.bent = _figures(koebe, one, task)
+            layer = np.full((len(task.surface.corner_vertex), 2), np.nan) if task.rest is None else task.rest.copy()
+            layer[one.corners] = one.uv
+            outcome.remarks += [PINNED_OVER] * new_overlaps(koebe, task.surface, layer, one.corners)
             if one.bent["lost_area"] > choice.solver_arguments()["most_lost"]:
                 raise MapError(f"{lost_text(one.bent['lost_area'])}: the pins are too near each other")
 

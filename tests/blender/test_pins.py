@@ -60,6 +60,19 @@ def test_islands_without_pins_go_beside_those_with_pins():
     assert areas.max() < 1.3 * areas.min()  # one texel density
 
 
+def test_islands_that_are_pinned_over_each_other_are_told():
+    obj = scenes.add_sheet(seams=(6,))
+    bpy.ops.uv.koebe_parts(seams="only")
+    put(obj, {0: (0.2, 0.2), 12: (0.2, 0.7), 156: (0.5, 0.2), 168: (0.5, 0.7)})
+    assert bpy.ops.uv.koebe_parts(seams="only") == {"FINISHED"}
+    over = covered(obj, "Koebe", 300).max() > 1
+    assert over == ("islands with pins lie over each other" in said()[0])
+    assert over
+    put(obj, {0: (0.2, 0.2), 12: (0.2, 0.3), 156: (0.9, 0.9), 168: (0.9, 0.8)})
+    assert bpy.ops.uv.koebe_parts(seams="only") == {"FINISHED"}
+    assert covered(obj, "Koebe", 300).max() == 1 and said() == [""]
+
+
 def test_pins_that_no_map_can_have_are_named_and_nothing_changes():
     obj = scenes.add_sheet()
     bpy.ops.uv.koebe_parts(seams="only")
