@@ -144,6 +144,18 @@ def pinned_corners(obj: MeshObject, layer_name: str) -> np.ndarray:
         return compat.pins(mesh, mesh.uv_layers[layer_name])
 
 
+def selected_edge_corners(obj: MeshObject, layer_name: str, by_uv: bool, corner_edge: np.ndarray) -> np.ndarray:
+    """Which corners (C,) are at the start of selected edges, as in `read_surface`.
+
+    by_uv        edges that are selected in the UV layer, not those of the mesh
+    corner_edge  (C,) edge of each corner
+    """
+    with arrays(obj) as mesh:
+        if by_uv:
+            return compat.selected_uv(mesh, layer_name)[1]
+        return compat.read(mesh.edges, "select", bool)[corner_edge]
+
+
 def vertex_weights(obj: MeshObject, group: str) -> np.ndarray | None:
     """Weights (V,) in [0, 1] of a vertex group, 0 outside it, or None if the object has no such group.
 

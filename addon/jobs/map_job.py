@@ -147,14 +147,17 @@ class Job:
 
     def _check_pins(self, obj: MeshObject, surface: Surface) -> None:
         """Raise TransferError if pinned UVs would move: no map here can keep them."""
-        pins = mesh_reading.pinned_corners(obj, self.options.layer)
-        pins &= np.repeat(surface.selected, surface.face_size)
+        pins = self._pinned(obj, surface)
         if pins.any():
             count = counted(len(np.unique(surface.corner_vertex[pins])), "vertex", "vertices")
             raise TransferError(
-                f"{obj.name}: pinned UVs of {count} would move: in the UV Editor Shift P selects them and Alt P unpins "
-                "them. Or unwrap other faces, or to another UV layer"
+                f"{obj.name}: pinned UVs of {count} would move. Unwrap to Parts keeps them. Or in the UV Editor Shift "
+                "P selects them and Alt P unpins them"
             )
+
+    def _pinned(self, obj: MeshObject, surface: Surface) -> np.ndarray:
+        """Which corners (C,) of selected faces are pinned in the layer."""
+        return mesh_reading.pinned_corners(obj, self.options.layer) & np.repeat(surface.selected, surface.face_size)
 
     def _even_importance(self) -> None:
         """Subtract the least importance over all objects; without the group it is 0. Raises TransferError."""

@@ -5,6 +5,7 @@ import dataclasses
 from typing import Any
 
 import bpy
+import numpy as np
 
 from ..blender import map_writing, mesh_reading, seams
 from ..blender.errors import TransferError
@@ -37,7 +38,25 @@ class PartsJob(ChoiceJob):
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
         show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None
         like = self._density_of_layer(obj, surface) if self.choice.texels == "layer" else None
-        return dataclasses.replace(super()._task(obj, surface), show=show, like=like)
+        return dataclasses.replace(super()._task(obj, surface), show=show, like=like, pins=self._pins(obj, surface))
+
+    def _check_pins(self, obj: MeshObject, surface: Surface) -> None:
+        """Raise TransferError if pinned UVs would move. Otherwise parts join them."""
+        choice = self.choice
+        if (choice.tiles != 1 or choice.atlas or choice.stack or choice.stack_mirrored) and (
+            self._pinned(obj, surface).any()
+        ):
+            raise TransferError(
+                f"{obj.name}: pinned UVs cannot be kept on several tiles, in one atlas or with Overlap: "
+                "switch these off"
+            )
+
+    def _pins(self, obj: MeshObject, surface: Surface) -> np.ndarray | None:
+        """The pinned UVs (C, 2), NaN elsewhere, or None."""
+        pinned = self._pinned(obj, surface)
+        if not pinned.any():
+            return None
+        return np.where(pinned[:, None], mesh_reading.read_layer(obj, self.options.layer), np.nan)
 
     def _density_of_layer(self, obj: MeshObject, surface: Surface) -> float:
         """The mean density of the layer that the parts shall be like. Raises TransferError."""

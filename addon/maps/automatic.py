@@ -16,6 +16,7 @@ from .verdicts import EVEN, TRUE
 from .wording import counted, density_text
 
 PARTS_WORK = 3  # of cutting into parts, where the map to a disk is 1
+PINNED = "they keep the pinned UVs where they are"
 NO_HOLES = "there is no hole to make round"
 NO_DISK = {  # why a surface is no disk, by the kind of `koebe.TopologyError`
     "closed": "the surface is closed",
@@ -72,6 +73,10 @@ def map_automatically(
     The outcome says which was taken, and why. A disk that does not serve is taken if parts fail, or are worse.
     `koebe.Cancelled` goes on.
     """
+    if task.pins is not None:
+        parts = cut_into_parts(koebe, task, choice, progress, cancel)
+        parts.chosen = f"Automatic took Parts: {PINNED}"
+        return parts
     (disk,) = map_surfaces(koebe, [task], options, share_of(progress, 0, 1, PARTS_WORK + 1), cancel)
     reason = unserved(disk)
     if not reason:

@@ -10,11 +10,14 @@ import numpy as np
 from .distortion import both_areas
 from .outcomes import Task
 from .packing import fit_placement
+from .surface import Island, Surface
+from .triangles import signed_areas
 from .uv_density import mean_density
-from .uv_islands import uv_islands
+from .uv_islands import uv_islands, vertex_uv
 
 SAME_SIZE = 0.995  # share of the wanted size that counts as all of it
 NO_ROOM = "no room beside the islands of the other faces: the new ones lie to the right of the UV square"
+PINNED_OVER = "islands with pins lie over each other, or over other islands"
 OVER = "it lies over the islands of the other faces"
 
 
@@ -98,6 +101,8 @@ def _density(task: Task, layer: np.ndarray, chosen: np.ndarray) -> float:
 def in_place(task: Task, corners: np.ndarray, uv: np.ndarray) -> np.ndarray | None:
     """Each new island where its faces lay in the layer: the same middle, size and turn, as well as a similarity can.
 
+    If they lay in several islands, it goes where the largest of them was.
+
     corners, uv  (m,), (m, 2) of the new islands
 
     None if an island had no place.
@@ -110,9 +115,46 @@ def in_place(task: Task, corners: np.ndarray, uv: np.ndarray) -> np.ndarray | No
     is_new[corners] = True
     surface = dataclasses.replace(task.surface, selected=is_new[task.surface.face_start])
     for island in uv_islands(surface, layer):
-        at = island.corners
+        at = _largest_place(task.surface, island, task.old_uv)
         placement = fit_placement(layer[at], task.old_uv[at].astype(np.float64))
         if placement is None:
             return None
-        layer[at] = placement.apply(layer[at])
+        layer[island.corners] = placement.apply(layer[island.corners])
     return layer[corners]
+
+
+def _largest_place(surface: Surface, island: Island, old_uv: np.ndarray) -> np.ndarray:
+    """The corners of an island that lay in the largest of its old islands."""
+    inside = np.zeros(len(surface.face_size), dtype=bool)
+    inside[island.faces] = True
+    old = uv_islands(dataclasses.replace(surface, selected=inside), old_uv)
+    if len(old) < 2:
+        return island.corners
+    largest = max(old, key=lambda one: np.abs(signed_areas(vertex_uv(one, old_uv), one.triangles)).sum())
+    return largest.corners
+
+
+def new_overlaps(koebe: ModuleType, surface: Surface, layer: np.ndarray, corners: np.ndarray) -> bool:
+    """Whether the new islands lie over each other, or over islands that stay.
+
+    layer    (C, 2) of all UVs; NaN where there is no island
+    corners  (m,) of the new islands
+
+    False, too, if islands that stay lie over each other, or an island over itself.
+    """
+    is_new = np.zeros(len(layer), dtype=bool)
+    is_new[corners] = True
+    area = both_areas(surface, layer.astype(np.float64))[1]
+    there = np.isfinite(area) & (area != 0.0)
+    others = there & ~is_new[surface.triangle_corners].all(axis=1)
+
+    def overlap(chosen: np.ndarray, together: bool) -> bool:
+        at = surface.triangle_corners[chosen]
+        faces = surface.triangle_face[chosen]
+        made = koebe.pack(
+            surface.positions, surface.corner_vertex[at], uv=layer[at].astype(np.float64),
+            polygon=np.zeros_like(faces) if together else faces, locked=np.ones(len(faces), dtype=bool),
+        )  # fmt: skip
+        return bool(made.overlaps)
+
+    return overlap(there, True) and not overlap(there, False) and not (others.any() and overlap(others, True))

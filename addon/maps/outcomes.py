@@ -34,7 +34,8 @@ class Task:
     vertices for the disk's centre and its right end; `old_uv` (C, 2) are the UVs of the surface's corners for the
     placement "keep"; `mirrored`: its object's scale is negative.
     `importance` (V,) in [0, 1] weighs the sizes of faces. `show` (V,) in [0, 1]: cuts of parts keep away from 1.
-    `rest` (C, 2) are the UVs of the layer if faces that are not selected stay there.
+    `rest` (C, 2) are the UVs of the layer if faces that are not selected stay there. `pins` (C, 2) are the pinned UVs,
+    NaN at other corners; None without pins.
     `like` is the density that parts get: sides of the UV square per unit of length. `picked` (V,)
     bool are vertices that choose the rims of rings.
     """
@@ -51,6 +52,7 @@ class Task:
     like: float | None = None
     picked: np.ndarray | None = None
     rest: np.ndarray | None = None
+    pins: np.ndarray | None = None
 
 
 @dataclasses.dataclass

@@ -7,16 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from .beside import OVER, in_place, put_beside
+from .beside import OVER, PINNED_OVER, in_place, new_overlaps, put_beside
+from .errors import MapError
 from .islands import cut_into_islands, put_together
 from .mapping import failing_alone
 from .option_table import ROWS, solver_default
 from .options import PartsChoice
 from .outcomes import LATER, Outcome, Progress, Task
+from .pins import join_pins
 from .seams import cut_edges, inner_seams, tube_slits
-from .stored import LostAreaError
+from .stored import LostAreaError, judge_corners, lost_text
 from .surface import Numbers, Surface, next_corners
-from .triangles import signed_areas
+from .triangles import areas, density_ratio, signed_areas
 from .warning_words import of_solver
 from .wording import counted, density_text, in_mesh
 
@@ -51,6 +53,7 @@ class PartsIsland:
     cuts         (E,) bool, edges of the surface along which the UVs are cut
     coverage     share of the UV square, if the parts were moved after the solver packed them
     turned       triangles that rounding to 32 bits turned over then
+    bent         figures of the report if pins have bent parts: they are no more the result's
     """
 
     result: Any = None
@@ -61,6 +64,11 @@ class PartsIsland:
     cuts: np.ndarray = LATER
     coverage: float | None = None
     turned: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0, dtype=np.int32))
+    bent: dict[str, Any] = dataclasses.field(default_factory=dict)
+
+    def figure(self, name: str) -> Any:
+        """A figure of the report, by its name in the result."""
+        return self.bent.get(name, getattr(self.result, name))
 
     @property
     def flipped(self) -> int:
@@ -94,8 +102,8 @@ class PartsOutcome(Outcome):
         of_kind = ", ".join(counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
         words = [
             f"{counted(len(kinds), 'part')} ({of_kind})",
-            f"texel density 1 : {density_text(result.density_ratio_5_95)}",
-            f"angle error {result.angle_error_stored_deg['mean']:.2f}°",
+            f"texel density 1 : {density_text(self.mapped[0].figure('density_ratio_5_95'))}",
+            f"angle error {self.mapped[0].figure('angle_error_stored_deg')['mean']:.2f}°",
             counted(self.mapped[0].flipped, "flip"),
             f"{result.seconds:.2f} s",
         ]
@@ -113,7 +121,7 @@ class PartsOutcome(Outcome):
         entry = self._head(index, one, int(np.count_nonzero(self.task.surface.selected)))
         if one.result is None:
             return entry
-        result, numbers = one.result.to_dict(), one.numbers
+        result, numbers = {**one.result.to_dict(), **one.bent}, one.numbers
         for part in result["parts"]:
             part["faces"] = np.unique(numbers.triangle_face[part["faces"]]).tolist()
             part["loops"] = [numbers.source_vertex[np.asarray(loop, dtype=np.int64)].tolist() for loop in part["loops"]]
@@ -129,9 +137,10 @@ class PartsOutcome(Outcome):
     def _row(self, one: PartsIsland) -> dict[str, Any]:
         result = one.result
         return {
-            "parts": len(result.parts), "angle_error": result.angle_error_stored_deg["mean"],
+            "parts": len(result.parts), "angle_error": one.figure("angle_error_stored_deg")["mean"],
             "flipped": one.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds,
-            "density": result.density_ratio_5_95, "coverage": result.coverage if one.coverage is None else one.coverage,
+            "density": one.figure("density_ratio_5_95"),
+            "coverage": result.coverage if one.coverage is None else one.coverage,
             "cut_length": result.cut_length, "even": result.even,
             **({"cut_edges": np.flatnonzero(one.cuts).tolist()} if one.cuts.any() else {}),
         }  # fmt: skip
@@ -166,24 +175,38 @@ def cut_into_parts(
 def move_parts(koebe: ModuleType, outcome: PartsOutcome, choice: PartsChoice, keep: bool, cancel: Any = None) -> None:
     """Put new parts of selected faces where the old ones lay, with `keep`, or beside the islands of the other faces.
 
-    Parts on several tiles, and parts that lie on each other, stay where the solver put them. Any error is the
-    outcome's; `koebe.Cancelled` is raised.
+    Parts with pins follow their pins, and the others go beside them, too. Parts on several tiles, and parts that lie on
+    each other, stay where the solver put them. Any error is the outcome's; `koebe.Cancelled` is raised.
     """
     (one,) = outcome.islands
-    if one.error is not None or (outcome.task.rest is None and not keep):
+    task = outcome.task
+    if one.error is not None or (task.rest is None and task.pins is None and not keep):
         return
     with failing_alone(koebe, [one]):
-        task, uv, remark = outcome.task, one.uv.astype(np.float64), ""
-        placed = in_place(task, one.corners, uv) if keep else None
-        if placed is None and (choice.tiles != 1 or one.result.stacked):
+        uv, remark = one.uv.astype(np.float64), ""
+        kept = in_place(task, one.corners, uv) if keep else None
+        is_moved = kept is not None or task.pins is not None
+        uv, free = uv if kept is None else kept, np.ones(len(uv), dtype=bool)
+        if task.pins is not None:
+            joined = join_pins(koebe, task, one.corners, uv, one.result.even, cancel)
+            uv, free, task = joined.uv, ~joined.held, joined.beside(task, one.corners)
+        if kept is None and (choice.tiles != 1 or one.result.stacked):
             remark = OVER * (task.rest is not None)
-        elif placed is None:
+        elif kept is None and free.any():
             own_size = choice.texels != "fill"
-            made = put_beside(koebe, task, one.corners, uv, choice.margin, choice.pixels, own_size, cancel)
-            placed, remark = (None, "") if made is None else (made.uv, made.remark)
+            made = put_beside(koebe, task, one.corners[free], uv[free], choice.margin, choice.pixels, own_size, cancel)
+            if made is not None:
+                uv[free], remark, is_moved = made.uv, made.remark, True
         outcome.remarks += [remark] * bool(remark)
-        if placed is not None:
-            _take_place(one, task.surface, placed)
+        if is_moved:
+            _take_place(one, task.surface, uv)
+        if task.pins is not None:
+            one.bent = _figures(koebe, one, task)
+            layer = np.full((len(task.surface.corner_vertex), 2), np.nan) if task.rest is None else task.rest.copy()
+            layer[one.corners] = one.uv
+            outcome.remarks += [PINNED_OVER] * new_overlaps(koebe, task.surface, layer, one.corners)
+            if one.bent["lost_area"] > choice.solver_arguments()["most_lost"]:
+                raise MapError(f"{lost_text(one.bent['lost_area'])}: the pins are too near each other")
 
 
 def _take_place(one: PartsIsland, surface: Surface, uv: np.ndarray) -> None:
@@ -197,6 +220,19 @@ def _take_place(one: PartsIsland, surface: Surface, uv: np.ndarray) -> None:
         upright[one.result.part == stacked["part"]] = not stacked["mirrored"]
     one.turned = np.setdiff1d(np.flatnonzero(np.where(upright, area, -area) <= 0.0), one.result.flipped_faces)
     one.coverage = float(np.abs(area).sum())
+
+
+def _figures(koebe: ModuleType, one: PartsIsland, task: Task) -> dict[str, Any]:
+    """The figures of the UVs as they are now."""
+    layer = np.zeros((len(task.surface.corner_vertex), 2), dtype=np.float32)
+    layer[one.corners] = one.uv
+    corners = task.surface.triangle_corners[task.surface.selected[task.surface.triangle_face]]
+    triangles = task.surface.corner_vertex[corners]
+    uv, none = layer[corners], np.zeros(0, dtype=np.int64)
+    stored = judge_corners(koebe, task.surface.positions, triangles, uv, none)
+    ratio = density_ratio(areas(task.surface.positions, triangles), np.abs(signed_areas(layer, corners)))
+    known = one.result.to_dict()
+    return {**{name: value for name, value in stored.report.items() if name in known}, "density_ratio_5_95": ratio}
 
 
 def _weights(task: Task, source: np.ndarray) -> dict[str, np.ndarray]:

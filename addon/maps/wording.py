@@ -151,6 +151,13 @@ def counted(count: int, noun: str, plural: str | None = None) -> str:
     return f"{count} {noun if count == 1 else plural or noun + 's'}"
 
 
+def named_vertices(vertices: Sequence[int]) -> str:
+    """The numbers of the first vertices, and how many others there are."""
+    first = ", ".join(str(vertex) for vertex in vertices[:FEW])
+    more = f" and {len(vertices) - FEW} more" if len(vertices) > FEW else ""
+    return f"{'vertex' if len(vertices) == 1 else 'vertices'} {first}{more}"
+
+
 def few(reasons: Sequence[str], between: str = ". ") -> str:
     """The first reasons as one text, and the number of the others."""
     more = [f"And {len(reasons) - FEW} more"] if len(reasons) > FEW else []

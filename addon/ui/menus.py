@@ -39,7 +39,7 @@ from ..operators.texel_density import (
 from ..operators.unwrap import MAPS
 from ..state.lift_properties import copy_lift_options, lift_settings_of
 from ..state.option_properties import copy_options, settings_of
-from .panel_parts import BUTTONS, draw_pack, draw_unwrap
+from .panel_parts import BUTTONS, draw_pack, draw_sew, draw_unwrap
 
 
 class KOEBE_MT_unwrap(bpy.types.Menu):
@@ -60,6 +60,7 @@ class KOEBE_MT_unwrap(bpy.types.Menu):
         copy_options(settings, sequence, "sequence")
         layout.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
         draw_pack(layout, settings)
+        draw_sew(layout, settings)
         layout.separator()
         layout.menu("KOEBE_MT_tools")
 

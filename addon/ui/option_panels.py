@@ -11,6 +11,7 @@ from ..maps.option_table import ROWS
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.hole_rings import MESH_OT_koebe_loops_around_holes
+from ..operators.live import live
 from ..operators.option_presets import UV_OT_koebe_reset
 from ..operators.run_operator import draw_option, is_used
 from ..operators.sequence import UV_OT_koebe_sequence
@@ -24,7 +25,7 @@ from ..state.option_properties import (
     option_names,
     settings_of,
 )
-from .panel_parts import ClosedPanel, draw_map_button
+from .panel_parts import ClosedPanel, draw_map_button, draw_message, draw_sew
 
 
 class DiskPanel(ClosedPanel):
@@ -75,6 +76,17 @@ class PartsPanel(ClosedPanel):
         draw_weights(column, settings, "importance", context)
         for name in ("seams", "write_seams", "cut_at", "hard_angle", "cut_hard", "no_hard", "weld"):
             draw_option(column, settings, name, context)
+        draw_sew(column, settings)
+        draw_live(column, context)
+
+
+def draw_live(column: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """The switch of Live, and why it did not follow the last change."""
+    row = column.row()
+    row.use_property_split = False
+    row.prop(context.window_manager, "koebe_live", toggle=True, icon="FILE_REFRESH")
+    if live.message:
+        draw_message(column, live.message)
 
 
 class DomainsPanel(ClosedPanel):

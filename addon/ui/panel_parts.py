@@ -9,6 +9,7 @@ import bpy
 from ..maps.domains import DOMAINS
 from ..maps.stored import SERVES
 from ..operators.pack import UV_OT_koebe_pack
+from ..operators.sew import UV_OT_koebe_sew
 from ..operators.unwrap import SHAPE_OF, UV_OT_koebe_unwrap
 from ..state.option_properties import KoebeSettings, copy_options
 from .help import draw_help
@@ -67,6 +68,12 @@ def draw_pack(layout: bpy.types.UILayout, settings: KoebeSettings) -> None:
     button = layout.operator(UV_OT_koebe_pack.bl_idname, text="Pack Only", icon="PACKAGE")
     for name in ("margin", "pixels", "average_scale", "tiles", "seconds", "keep_places"):
         setattr(button, name, getattr(settings, name))
+
+
+def draw_sew(layout: bpy.types.UILayout, settings: KoebeSettings) -> None:
+    """The button that joins islands, with the panel's options."""
+    button = layout.operator(UV_OT_koebe_sew.bl_idname, text="Sew", icon="UV_EDGESEL")
+    button.keep_angles, button.even = settings.keep_angles, settings.even
 
 
 def draw_unwrap(layout: bpy.types.UILayout, settings: KoebeSettings, shape: str, text: str, icon: Any) -> Any:

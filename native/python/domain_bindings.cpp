@@ -5,6 +5,7 @@
 
 #include "parts/packed_layer.h"
 #include "parts/parts.h"
+#include "parts/sewing.h"
 #include "report/packed_json.h"
 #include "report/parts_json.h"
 #include "report/schottky_json.h"
@@ -16,6 +17,11 @@
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -33,6 +39,14 @@ void bind_domains(py::module_& m)
     });
     bind_options<PackedLayerOptions>(m, "PackOptions");
     bind_map<PackedLayerOptions, PackedLayer>(m, "pack", pack_layer);
+    m.def("sew", [](Positions vertices, Faces triangles, Points uv, const std::vector<std::array<Index, 2>>& edges,
+                    const std::vector<Index>& polygon, std::optional<double> even, const py::object& progress,
+                    const CancelToken& cancel) {
+        SewnLayer sewn = without_gil(progress, cancel, [&](ExecutionContext& context) {
+            return sew_islands(vertices, triangles, {uv, edges, polygon, even}, context);
+        });
+        return py::make_tuple(std::move(sewn.uv), array_of(sewn.island), sewn.joined, sewn.sewn);
+    });
 
     bind_options<TileOptions>(m, "TileOptions");
     bind_result<TileResult>(m, "TileResult");

@@ -7,10 +7,12 @@
 #include "pipeline/surface_solver.h"
 
 #include <pybind11/eigen.h>
+#include <pybind11/stl.h>
 
 #include <chrono>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -58,10 +60,18 @@ void bind_shared(py::module_& m)
         .def(py::init([](Positions vertices, Faces triangles, Points points, bool round) {
             return new Dial{EvenDial(vertices, triangles, points, round)};
         }))
-        .def("move", [](Dial& shared, double even, int steps, const CancelToken& cancel) {
+        .def("move",
+             [](Dial& shared, double even, int steps, const CancelToken& cancel) {
+                 return shared.call(py::none(), cancel, [&](ExecutionContext& context) {
+                     const bool moved = shared.object.move(even, steps, context);
+                     return std::make_pair(shared.object.points(), moved);
+                 });
+             })
+        .def("pin", [](Dial& shared, const std::vector<Index>& vertices, Points places, double even,
+                       const CancelToken& cancel) {
             return shared.call(py::none(), cancel, [&](ExecutionContext& context) {
-                const bool moved = shared.object.move(even, steps, context);
-                return std::make_pair(shared.object.points(), moved);
+                shared.object.pin({vertices, places}, even, context);
+                return shared.object.points();
             });
         });
 }

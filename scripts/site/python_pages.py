@@ -20,6 +20,7 @@ PAGES = {
         "uniformize": ["uniformize", "UniformizeResult", "ConformalDomain", "CutResult"],
         "parts": ["parts", "PartsResult"],
         "pack": ["pack", "PackResult"],
+        "sew": ["sew", "SewnUV"],
         "flatten": ["flatten", "FlattenResult"],
         "ring_map": ["ring_map", "torus_map", "TileMap"],
         "sphere_map": ["sphere_map", "SphereMap"],

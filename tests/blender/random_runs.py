@@ -245,7 +245,7 @@ class RandomRun:
                     "thickness": one([0.0, 0.0, 0.05]), "hide": one([True, False]),
                     "shape": one(["disk", "disk", "ring", "torus", "parts"]), "seams": one([True, False]),
                     "height": one([0.0, -0.05])}  # fmt: skip
-        if name in ("object.koebe_flat_copy", "uv.koebe_symmetrize", "uv.koebe_pack"):
+        if name in ("object.koebe_flat_copy", "uv.koebe_symmetrize", "uv.koebe_pack", "uv.koebe_sew"):
             return {"layer": layer}
         return {"loop": int(self._random.integers(4))} if name == "uv.koebe_select_loop" else {}
 
@@ -259,7 +259,7 @@ class RandomRun:
             "mesh.koebe_loops_around_holes", "node.koebe_add_groups",
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
             "uv.koebe_select_torn",
-            "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize", "uv.koebe_pack",
+            "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize", "uv.koebe_pack", "uv.koebe_sew",
         ])  # fmt: skip
         options, fault = self._options(name), None
         if self._random.random() < 0.5:

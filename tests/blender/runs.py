@@ -50,6 +50,16 @@ def mapped_alone():
     scenes.select(obj)
 
 
+def sewable():
+    """A sheet in two islands, in Edit Mode, with the edges of the cut selected."""
+    states.new_file()
+    obj, other = scenes.add_sheet(6, seams=(3,)), states.plain("Other")
+    scenes.select(obj)
+    bpy.ops.uv.koebe_parts(seams="only", checker=False)
+    states.consistent([obj, other])
+    scenes.select_seams(obj)
+
+
 def offending():
     """A report of the active object, which cannot be mapped, and of another one."""
     states.new_file()
@@ -266,6 +276,7 @@ RUNS = {
     "copy density": (carried, "uv.koebe_copy_density", {}),
     "pack": (mapped, "uv.koebe_pack", {}),
     "pack in Edit Mode": (mapped_in_edit_mode, "uv.koebe_pack", {"layer": "Koebe", "average_scale": True}),
+    "sew": (sewable, "uv.koebe_sew", {}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
     "lift": (panels_and_closed, "object.koebe_lift", {"size": 0.4}),
     "relief of what is worn": (mapped, "object.koebe_lift", {"size": 0.4, "way": "raise"}),

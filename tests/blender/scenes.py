@@ -68,6 +68,37 @@ def add_cube(name="Cube", closed=True):
     return add_object(name, vertices, faces if closed else faces[:5])
 
 
+def add_sheet(size=12, seams=()):
+    """A bent sheet of quadrilaterals, selected. @param seams columns of vertices along which it is cut"""
+    side = np.linspace(-1, 1, size + 1)
+    x, y = np.meshgrid(side, side, indexing="ij")
+    vertices = np.stack([x, y, 0.3 * np.sin(2 * x) * y], axis=-1).reshape(-1, 3)
+    at = np.arange((size + 1) ** 2).reshape(size + 1, size + 1)
+    faces = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=-1).reshape(-1, 4)
+    obj = add_object("Sheet", vertices.tolist(), faces.tolist())
+    ends = np.array([edge.vertices[:] for edge in obj.data.edges])
+    cut = np.zeros(len(ends), dtype=bool)
+    for column in seams:
+        cut |= (ends // (size + 1) == column).all(axis=1)
+    obj.data.edges.foreach_set("use_seam", cut)
+    select(obj)
+    return obj
+
+
+def select_seams(obj):
+    """Enter Edit Mode with the seams selected, and no other edge."""
+    select(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    mesh = bmesh.from_edit_mesh(obj.data)
+    for element in (*mesh.faces, *mesh.verts, *mesh.edges):
+        element.select_set(False)
+    for edge in mesh.edges:
+        edge.select_set(edge.seam)
+    mesh.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
 def select(*objects):
     """Select these objects only; the first one is active."""
     bpy.context.view_layer.update()  # a new object cannot be selected before

@@ -167,7 +167,7 @@ def pin_one(obj, layer="Koebe"):
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-@pytest.mark.parametrize("operator", ["unwrap", "uniformize", "parts", "ring", "sequence"])
+@pytest.mark.parametrize("operator", ["uniformize", "ring", "sequence"])
 def test_pinned_uvs_never_move(mode, operator):
     obj = scenes.add_panel()
     assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
@@ -175,7 +175,7 @@ def test_pinned_uvs_never_move(mode, operator):
     pin_one(obj)
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.object.mode_set(mode=mode)
-    with pytest.raises(RuntimeError, match="Panel: pinned UVs of 1 vertex would move: in the UV Editor Shift P"):
+    with pytest.raises(RuntimeError, match="Panel: pinned UVs of 1 vertex would move. Unwrap to Parts keeps them"):
         getattr(bpy.ops.uv, f"koebe_{operator}")()
     bpy.ops.object.mode_set(mode="OBJECT")
     assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), before)

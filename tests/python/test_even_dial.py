@@ -139,3 +139,85 @@ def test_a_step_for_an_earlier_place_does_not_end_the_drag(addon):
     drag.pull(60.0)
     drag.done(0.0)
     assert drag.next() == drag.even
+
+
+def upright(uv, triangles):
+    one, two = uv[triangles[:, 1]] - uv[triangles[:, 0]], uv[triangles[:, 2]] - uv[triangles[:, 0]]
+    return bool((one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] > 0).all())
+
+
+def outline_crossings(uv, triangles):
+    """How many pairs of boundary edges cross."""
+    ends = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    inside = {tuple(pair) for pair in ends[:, ::-1].tolist()}
+    rim = np.array([pair for pair in ends.tolist() if tuple(pair) not in inside])
+    z = uv @ [1, 1j]
+    a, b = z[rim[:, 0]], z[rim[:, 1]]
+
+    def side(p, q, r):
+        return np.sign((np.conj(q - p) * (r - p)).imag)
+
+    c, d = a[:, None], b[:, None]
+    return int(((side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)).sum())
+
+
+def test_one_pin_moves_and_two_pins_turn_and_scale():
+    vertices, triangles, first = panel(10)
+    z = first.uv @ [1, 1j]
+    dial = koebe.EvenDial(vertices, triangles, uv=first.uv)  # round loops stay round
+    for pins in ({7: (0.25, 2.0)}, {7: (0.25, 2.0), 30: (-0.5, 1.0)}):
+        uv = dial.pin(pins)
+        factor = (uv[30] - uv[7]) @ [1, 1j] / (z[30] - z[7])
+        assert np.allclose(uv @ [1, 1j], uv[7] @ [1, 1j] + factor * (z - z[7]), atol=1e-12)
+        assert all(tuple(uv[vertex]) == place for vertex, place in pins.items())
+        assert len(pins) > 1 or factor == pytest.approx(1.0)
+    moved = settled(dial, 0.6)
+    assert tuple(moved[7]) == (0.25, 2.0) and tuple(moved[30]) == (-0.5, 1.0)
+    assert spread(vertices, triangles, moved) < spread(vertices, triangles, first.uv)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_pins_bend_the_map_and_it_stays_one_to_one(seed):
+    rng = np.random.default_rng(seed)
+    vertices, triangles, first = panel(10)
+    dial = koebe.EvenDial(vertices, triangles, uv=first.uv, round=False)
+    chosen = rng.choice(np.unique(triangles), rng.integers(3, 7), replace=False).tolist()
+    places = 0.5 * first.uv[chosen] + rng.normal(scale=10.0 ** rng.uniform(-3, -0.5), size=(len(chosen), 2))
+    before = dial.uv
+    try:
+        uv = dial.pin(dict(zip(chosen, places, strict=True)), even=0.4)
+    except koebe.SolverError as error:
+        assert "pins" in str(error) and set(error.elements) <= set(chosen) and error.elements
+        assert np.array_equal(dial.uv, before)
+        return
+    for now in (uv, dial.move(0.4, steps=3)):
+        assert np.array_equal(now[chosen], places)
+        assert upright(now, triangles) and outline_crossings(now, triangles) == 0
+
+
+def test_pins_that_no_map_can_have_are_refused():
+    vertices, triangles, first = panel(8)
+    dial = koebe.EvenDial(vertices, triangles, uv=first.uv, round=False)
+    before = dial.uv
+    a, b, c = triangles[20].tolist()
+    places = dict(zip((a, b, c), first.uv[[a, c, b]], strict=True))
+    with pytest.raises(koebe.InputError, match="turn faces over") as turned:
+        dial.pin(places)
+    assert sorted(turned.value.elements) == sorted((a, b, c))
+    # Two edges with pinned ends that cross.
+    ends = triangles[3, :2].tolist() + triangles[-3, :2].tolist()
+    crossing = dict(zip(ends, [(0.0, 0.0), (1.0, 1.0), (0.0, 1.0), (1.0, 0.0)], strict=True))
+    with pytest.raises(koebe.SolverError, match="no one-to-one map was found") as error:
+        dial.pin(crossing)
+    assert set(error.value.elements) <= set(ends) and error.value.elements
+    for wrong, text in (
+        ({10**6: (0, 0)}, "pins"), ({1: (0, 0), 2: (0, 0)}, "at one place"), ({1: (0, float("nan"))}, "NaN"),
+        ({1.5: (0, 0)}, "whole"), ({1: (0, 0, 0)}, "pins"), ({1: (0, 0), 2: (1,)}, "pins"),
+    ):  # fmt: skip
+        with pytest.raises(koebe.InputError, match=text):
+            dial.pin(wrong)
+    with pytest.raises(koebe.InputError, match="round loops"):
+        koebe.EvenDial(vertices, triangles, uv=first.uv).pin(dict(zip(ends, first.uv[ends], strict=True)))
+    assert np.array_equal(dial.uv, before)
+    assert np.allclose(dial.pin({}), before, rtol=0.0, atol=1e-14)
+    dial.pin(dict(zip(ends, first.uv[ends], strict=True)))

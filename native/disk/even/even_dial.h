@@ -4,6 +4,7 @@
 #include "core/api.h"
 #include "core/types.h"
 #include "even/even_map.h"
+#include "even/pinned_map.h"
 #include "execution/execution.h"
 
 #include <memory>
@@ -23,17 +24,36 @@ public:
     /// @return whether the map moved @throws InputError E is not from 0 to 1; Cancelled: the map stays
     bool move(double even, int most_steps, ExecutionContext& context);
 
-    /// (V, 2) in the unit of the points at first.
-    PlanarPoints points() const { return points_ / scale_; }
+    /// Moves vertices to places where they stay from now on: one pin by a translation, two pins by a similarity, three
+    /// pins and more by a relaxation at E in which all loops are free, and at the size that suits the pins. Replaces
+    /// the pins of the last call.
+    /// @param pins places in the unit of the points at first
+    /// @throws InputError pins (require_pins), E, or three pins and round loops; SolverError no one-to-one map was
+    /// found that has the pins in their places: the elements are the pins that are in the way; Cancelled. Nothing is
+    /// moved then.
+    void pin(const Pins& pins, double even, ExecutionContext& context);
+
+    /// (V, 2) in the unit of the points at first. Pins are exactly at their places.
+    PlanarPoints points() const;
 
 private:
+    struct Form {
+        PlanarPoints points;  // in the unit of the vertices
+        std::vector<RoundLoop> round;
+        double scale = 1.0;   // of the points, over their unit at first
+        double extent = 1.0;  // as in make_even
+    };
+
+    FlatSurface view(Form& form) const { return {vertices_, triangles_, loops_, form.points, form.round}; }
+    static void place(const Pins& pins, Form& form);
+    void bend(const Pins& pins, double even, Form& form, ExecutionContext& context) const;
+
     Vertices vertices_;
     Triangles triangles_;
     std::vector<VertexLoop> loops_;
-    PlanarPoints points_;  // in the unit of the vertices
-    std::vector<RoundLoop> round_;
+    Form form_;
+    Pins pins_;                               // in the unit of the points at first
     std::shared_ptr<NewtonPattern> pattern_;  // of the last call
-    double scale_ = 1.0, extent_ = 1.0;
 };
 
 }  // namespace koebe

@@ -44,7 +44,8 @@ constexpr double least_gap = 1e-4;         // between loops, over the extent
 constexpr double area_rounding = 1.5e-7;   // twice the area lost by 32-bit floats, over the edge and the extent
 constexpr double ample_face = 1000.0;      // times that: a face as large is not hindered
 constexpr double shortest_drawn = 1e-7;    // over the extent: shorter edges say nothing about a loop's course
-constexpr int fine_grid = 1 << 21;         // with the void, which opens narrow gaps again
+constexpr double held_power = 2.0;  // of the energy: at 1 held vertices of fine meshes move only their neighbours
+constexpr int fine_grid = 1 << 21;  // with the void, which opens narrow gaps again
 constexpr std::array grids{1 << 19, 1 << 20, 1 << 21, 1 << 22};  // points along the extent; 32-bit floats have 1 << 24
 
 double area(const CornerPlaces& at) { return 0.5 * cross(at[1] - at[0], at[2] - at[0]); }
@@ -75,12 +76,17 @@ public:
                 track_of_[v] = static_cast<int>(k);
                 rides[v] = 1;
             }
+        for (const Index v : flat.held) {
+            mobility_[v] = Mobility::held;
+            rides[v] = 1;
+        }
         if (!flat.periods) turn_upright(flat.vertices, flat.triangles, flat.loops, rides, flat.points, context);
         shapes_ = wanted_shapes(flat.vertices, flat.triangles, flat.points, flat.sizes);
         if (!apart(flat.points, 0.0)) shortest_ = shortest_drawn * extent;
         for (const int grid : grids)
             if (grid_ == 0 && apart_on_grid(flat.points, grid)) grid_ = grid;
         // Otherwise the whole map could move, so one vertex stays.
+        if (!flat.held.empty() || !flat.pull.vertices.empty()) return;
         if (const auto free = std::ranges::find(mobility_, Mobility::free); free != mobility_.end())
             *free = Mobility::held;
     }
@@ -143,6 +149,14 @@ public:
     }
 
 private:
+    double power() const { return flat_.held.empty() ? 1.0 : held_power; }
+
+    /// Lower bound of the minimized sum.
+    double least_sum(const FoldoverProblem& problem) const
+    {
+        return problem.weight.sum() * (flat_.held.empty() ? 2.0 * (1.0 + weight_) : std::pow(weight_, held_power));
+    }
+
     /// @param grid on which loops stay apart; 0: none
     FoldoverResult minimize(FoldoverProblem& problem, int iterations, int grid, NewtonPattern* pattern = nullptr) const
     {
@@ -151,8 +165,9 @@ private:
                                       {.max_iterations = iterations,
                                        .area_weight = weight_,
                                        .settled = settled_decrease,
-                                       .least = 2.0 * (1.0 + weight_) * problem.weight.sum(),
+                                       .least = least_sum(problem),
                                        .strict = true,
+                                       .power = power(),
                                        .pattern = pattern,
                                        .refuses = [&](const FoldoverPlaces& places) {
                                            const PlanarPoints points = places.points.topRows(own);
@@ -258,7 +273,22 @@ private:
         for (const RoundLoop& loop : flat_.round) problem.tracks.push_back(loop.track);
         problem.lift = flat_.lift;
         problem.periods = periods();
+        add_pull(problem);
         return problem;
+    }
+
+    void add_pull(FoldoverProblem& problem) const
+    {
+        const PlacePull& pull = flat_.pull;
+        if (pull.vertices.empty()) return;
+        problem.circles.resize(mobility_.size());
+        problem.pull = VectorXd::Zero(flat_.points.rows());
+        problem.pull_inside.assign(mobility_.size(), 1);
+        for (std::size_t i = 0; i < pull.vertices.size(); ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            problem.circles[pull.vertices[i]] = {Complex(pull.places(row, 0), pull.places(row, 1)), extent_};
+            problem.pull[pull.vertices[i]] = pull.weight;
+        }
     }
 
     void take(const FoldoverProblem& problem, const FoldoverResult& done, EvenMap& result)
@@ -339,8 +369,8 @@ EvenMap make_even(const FlatSurface& surface, double even, double extent, Execut
     NewtonPattern own;
     EvenProblem problem(surface, even, extent, effort, context, pattern ? *pattern : own);
     if (!(even > 0.0) || !problem.one_to_one()) return result;
-    result.moved =
-        !surface.periods && is_true_to_size(surface.vertices, surface.triangles, surface.points, surface.sizes);
+    result.moved = !surface.periods && surface.pull.vertices.empty() &&
+                   is_true_to_size(surface.vertices, surface.triangles, surface.points, surface.sizes);
     if (result.moved) return result;
     if (problem.relax_alone(result) && !surface.periods) problem.relax_with_void(result);
     return result;

@@ -31,6 +31,13 @@ struct RoundLoop {
     Track track;
 };
 
+/// Vertices that springs draw to places.
+struct PlacePull {
+    std::vector<Index> vertices;
+    PlanarPoints places;  ///< (n, 2) in the unit of the points
+    double weight = 0.0;  ///< of the square of a distance over the extent; E_t of a conformal map is 0 at E = 0
+};
+
 /// A surface and its map. Relaxing changes only the map: points, tracks of `round`, and periods.
 struct FlatSurface {
     const Vertices& vertices;              ///< (V, 3) in the unit of the wanted map
@@ -45,6 +52,8 @@ struct FlatSurface {
     /// Refuses steps that leave the domain, for example if circles would meet; empty: refuses no step.
     std::function<bool(const FoldoverPlaces&)> refuses = {};
     VectorXd sizes = {};  ///< (F) factor of the area that each face should have; empty: 1 (surface/importance.h)
+    std::vector<Index> held = {};  ///< vertices that stay where they are
+    PlacePull pull = {};           ///< vertices that are drawn to places; not for tiles
 };
 
 struct EvenEffort {

@@ -24,6 +24,7 @@ from .maps.pack import PackResult, pack
 from .maps.parts import PartsResult, parts
 from .maps.result import CIRCLE_TOLERANCE, UV_RESOLUTION, ConformalDomain, MapReport, UniformizeResult
 from .maps.schottky import SchottkyMap, schottky_map
+from .maps.sew import SewnUV, sew
 from .maps.sphere import SphereMap, sphere_map
 from .maps.surface import Surface
 from .maps.tiles import TileMap, ring_map, torus_map
@@ -57,6 +58,7 @@ __all__ = [
     "PartsResult",
     "Patch",
     "SchottkyMap",
+    "SewnUV",
     "SolverError",
     "SphereMap",
     "Surface",
@@ -93,6 +95,7 @@ __all__ = [
     "read_region",
     "ring_map",
     "schottky_map",
+    "sew",
     "sphere_map",
     "to_image",
     "torus_map",

@@ -1,13 +1,16 @@
 """A map made more or less even again and again: for a slider."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from .._arrays import as_indices, as_points
 from .._native import _koebe
 from .._option_table import rows
 from .._options import flag, number, token, whole
+from ..errors import InputError, KoebeError
 from .input import points_at_vertices, surface_of
 
 
@@ -47,6 +50,35 @@ class EvenDial:
         """
         value = number(even, rows("uniformize")["even"])
         uv, self.moved = self._native.move(value, whole(steps, "steps", least=1), token(cancel, "cancel"))
+        self.uv = self._everywhere(uv)
+        return self.uv
+
+    def pin(
+        self, pins: Mapping[int, Sequence[float]], *, even: float = 0.5, cancel: "_koebe.CancelToken | None" = None
+    ) -> np.ndarray:
+        """The map (V, 2), one to one, with these vertices exactly at their places; also `uv`.
+
+        pins    vertex: (u, v). Later calls of `move` keep them there; a new call replaces them
+        even    E at which three pins or more bend the map, as for `uniformize`
+
+        One pin moves the map, and two pins turn and scale it: it bends for three or more. These need `round=False`,
+        unless no loop is round. Raises OptionError; InputError for pins that are no vertices of a face, not finite, at
+        one place, or that turn a face over; SolverError if no one-to-one map was found: its `elements` are the pins
+        that are in the way; or Cancelled. Then the map stays, and so do the pins of the last call.
+        """
+        value = number(even, rows("uniformize")["even"])
+        named = as_indices(list(pins), "pins", len(self._used), "vertices")
+        places = as_points(list(pins.values()) or np.zeros((0, 2)), "pins", 2)
+        lost = named[~self._used[named]].tolist()
+        if lost:
+            raise InputError(f"a pin is no vertex of a face: {lost[0]}", lost, "vertices")
+        vertices = (np.cumsum(self._used) - 1)[named].tolist()
+        try:
+            uv = self._native.pin(vertices, places, value, token(cancel, "cancel"))
+        except KoebeError as error:
+            if error.of == "vertices":
+                error.elements = [int(v) for v in np.flatnonzero(self._used)[np.asarray(error.elements, dtype=int)]]
+            raise
         self.uv = self._everywhere(uv)
         return self.uv
 

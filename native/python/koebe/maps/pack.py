@@ -80,7 +80,7 @@ def pack(vertices: Any, triangles: Any = None, **given: "Unpack[PackOptions]") -
     """
     options, said, source, run = prepared("pack", _koebe.PackOptions(), given, (vertices, triangles), degenerate=True)
     options.polygon = polygons_of(given["polygon"], source)
-    options.uv = _corner_uv(given["uv"], source).reshape(-1, 2)
+    options.uv = corner_uv(given["uv"], source).reshape(-1, 2)
     options.locked = _locks(given["locked"], source)
     options.enough = token(given["enough"], "enough")
     native = source.call(_koebe.pack, options, *run)
@@ -99,7 +99,7 @@ def _locks(given: Any, source: Source) -> np.ndarray:
     return locked.astype(np.float64)
 
 
-def _corner_uv(given: Any, source: Source) -> np.ndarray:
+def corner_uv(given: Any, source: Source) -> np.ndarray:
     """(F, 3, 2) float64 of the source's triangles."""
     uv = np.asarray([] if given is None else given)
     if uv.dtype.kind in "fiu" and uv.shape == source.vertices.shape[:1] + (2,):

@@ -1,0 +1,126 @@
+"""Live: a seam or a pin that changes in Edit Mode unwraps its islands again, and no others."""
+
+import time
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+import scenes
+
+pytestmark = pytest.mark.alike
+
+
+@pytest.fixture
+def live(addon):
+    """Live, switched on. In the background its timer is this call, until nothing is left to do."""
+    manager = bpy.context.window_manager
+    yield addon("operators.live")
+    manager.koebe_live = False
+
+
+def follow(live):
+    """Let Live do its work."""
+    bpy.context.view_layer.update()
+    end = time.monotonic() + 30.0
+    while live.live.step() is not None:
+        time.sleep(0.02)
+        assert time.monotonic() < end
+
+
+def edited(seams=(6,)):
+    """A sheet in Edit Mode, with its islands."""
+    obj = scenes.add_sheet(12, seams)
+    assert bpy.ops.uv.koebe_parts(seams="only", checker=False) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="EDIT")
+    return obj
+
+
+def mark(obj, column, value):
+    """Mark or clear the seams of a column of vertices."""
+    mesh = bmesh.from_edit_mesh(obj.data)
+    for edge in mesh.edges:
+        ends = sorted(vertex.index for vertex in edge.verts)
+        if ends[0] // 13 == ends[1] // 13 == column:
+            edge.seam = value
+    bmesh.update_edit_mesh(obj.data)
+
+
+def uv_of(obj):
+    """The UVs (144, 4, 2), read in Edit Mode."""
+    mesh = bmesh.from_edit_mesh(obj.data)
+    layer = mesh.loops.layers.uv["Koebe"]
+    return np.array([[corner[layer].uv[:] for corner in face.loops] for face in mesh.faces])
+
+
+def cuts(uv):
+    """How many of the 13 vertices of each inner column are cut."""
+    grid = uv.reshape(12, 12, 4, 2)
+    return [int((np.abs(grid[k - 1, :, 1] - grid[k, :, 0]).max(axis=-1) > 1e-5).sum()) for k in range(1, 12)]
+
+
+def test_a_marked_and_a_cleared_seam_are_followed(live):
+    obj = edited()
+    bpy.context.window_manager.koebe_live = True
+    follow(live)
+    before = uv_of(obj)
+    mark(obj, 3, True)
+    follow(live)
+    after = uv_of(obj)
+    assert live.live.message == ""
+    assert np.array_equal(after[72:], before[72:]) and not np.array_equal(after[:72], before[:72])
+    assert [bool(count) for count in cuts(after)] == [k in (3, 6) for k in range(1, 12)]
+    mark(obj, 6, False)
+    follow(live)
+    joined = uv_of(obj)
+    assert [bool(count) for count in cuts(joined)] == [k == 3 for k in range(1, 12)]
+    # The joined island lies where the larger of the two lay, in its size.
+    assert np.allclose(joined[72:].mean(axis=(0, 1)), after[72:].mean(axis=(0, 1)), atol=0.02)
+    follow(live)
+    assert np.array_equal(uv_of(obj), joined)  # what it wrote itself is no change
+
+
+def test_a_moved_pin_is_followed(live):
+    obj = edited()
+    bpy.context.window_manager.koebe_live = True
+    follow(live)
+    before = uv_of(obj)
+    mesh = bmesh.from_edit_mesh(obj.data)
+    layer = mesh.loops.layers.uv["Koebe"]
+    mesh.verts.ensure_lookup_table()
+    for corner in mesh.verts[0].link_loops:
+        corner[layer].pin_uv = True
+        corner[layer].uv = (0.25, -0.5)
+    bmesh.update_edit_mesh(obj.data)
+    follow(live)
+    after = uv_of(obj)
+    assert live.live.message == "" and np.array_equal(after[72:], before[72:])
+    assert tuple(after[0, 0]) == (0.25, -0.5)
+    one, other = after[:72].reshape(-1, 2), before[:72].reshape(-1, 2)
+    assert np.allclose(one[1:] - one[1], other[1:] - other[1], atol=1e-3)  # one pin moves the island
+
+
+def test_what_cannot_be_mapped_is_told_and_stays(live):
+    obj = edited()
+    bpy.context.window_manager.koebe_live = True
+    follow(live)
+    mesh = bmesh.from_edit_mesh(obj.data)
+    layer = mesh.loops.layers.uv["Koebe"]
+    mesh.faces.ensure_lookup_table()
+    places = [(0.0, 0.0), (0.0, 0.1), (0.1, 0.1), (0.1, 0.0)]  # the wrong way round
+    for vertex, place in zip(list(mesh.faces[40].verts), places):
+        for corner in vertex.link_loops:
+            corner[layer].pin_uv = True
+            corner[layer].uv = place
+    bmesh.update_edit_mesh(obj.data)
+    before = uv_of(obj)
+    follow(live)
+    assert "pins turn faces over" in live.live.message and np.array_equal(uv_of(obj), before)
+
+
+def test_no_handler_is_left(live):
+    counts = [len(handlers) for handlers, _ in live.HANDLERS]
+    bpy.context.window_manager.koebe_live = True
+    assert [len(handlers) for handlers, _ in live.HANDLERS] == [count + 1 for count in counts]
+    bpy.context.window_manager.koebe_live = False
+    assert [len(handlers) for handlers, _ in live.HANDLERS] == counts
