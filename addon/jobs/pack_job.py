@@ -35,6 +35,20 @@ class PackTask:
     result: Any = None
     error: Exception | None = None
 
+    @property
+    def line(self) -> str:
+        """What became of it, in a sentence."""
+        report = self.result.to_dict()
+        overlaps = report["overlaps"]
+        more = f", {overlaps} overlap or touch themselves as before" if overlaps else ""
+        kept = sum(island["locked"] for island in report["islands"])
+        more += f", {kept} kept their place" if kept else ""
+        more += f", the others {100 * report['scale']:.0f} % as large" if kept and report["scale"] < 0.995 else ""
+        return (
+            f"{self.target.name}: {len(report['islands'])} islands{more}, "
+            f"{100 * report['coverage']:.0f} % of the UV square, margin {report['margin']:.3g} px"
+        )
+
 
 class PackJob:
     """Packs several objects one after the other.

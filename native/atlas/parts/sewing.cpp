@@ -2,12 +2,15 @@
 
 #include "core/complex_places.h"
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "cut/disjoint_sets.h"
 #include "mesh/topology.h"
+#include "parts/flat_part.h"
 #include "parts/parts.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -17,11 +20,7 @@
 namespace koebe {
 namespace {
 
-using VertexPair = std::pair<Index, Index>;  // the lower vertex first
-
 constexpr double only_necessary_cuts = 1e3;  // price of a part, as of the add-on's seams "only"
-
-VertexPair sorted(Index a, Index b) { return std::minmax(a, b); }
 
 /// An edge of two faces, by their corners at its ends: of the lower vertex, and of the other.
 struct EdgeCorners {
@@ -29,14 +28,14 @@ struct EdgeCorners {
     int faces = 0;
 };
 
-std::map<VertexPair, EdgeCorners> edge_corners(const Triangles& triangles)
+std::map<EdgeEnds, EdgeCorners> edge_corners(const Triangles& triangles)
 {
-    std::map<VertexPair, EdgeCorners> edges;
+    std::map<EdgeEnds, EdgeCorners> edges;
     for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f)
         for (int k = 0; k < 3; ++k) {
             Index start = 3 * f + k, end = 3 * f + (k + 1) % 3;
             Index a = triangles(f, k), b = triangles(f, (k + 1) % 3);
-            EdgeCorners& edge = edges[sorted(a, b)];
+            EdgeCorners& edge = edges[sorted_ends(a, b)];
             if (a > b) std::swap(start, end);
             if (edge.faces < 2) {
                 edge.low[edge.faces] = start;
@@ -55,7 +54,7 @@ public:
           before(static_cast<std::size_t>(triangles.rows())),
           after(static_cast<std::size_t>(triangles.rows()))
     {
-        const std::map<VertexPair, EdgeCorners> edges = edge_corners(triangles);
+        const std::map<EdgeEnds, EdgeCorners> edges = edge_corners(triangles);
         const PlanarPoints& uv = options.uv;
         const auto same = [&](const std::array<Index, 2>& at) {
             return as_stored(uv(at[0], 0)) == as_stored(uv(at[1], 0)) &&
@@ -67,7 +66,7 @@ public:
             before.join(edge.low[0] / 3, edge.low[1] / 3);
         }
         for (const auto& [a, b] : options.edges) {
-            const auto found = edges.find(sorted(a, b));
+            const auto found = edges.find(sorted_ends(a, b));
             if (found == edges.end()) throw InputError("a pair of vertices is no edge", ElementKind::edges, {a, b});
             const EdgeCorners& edge = found->second;
             if (edge.faces > 2)
@@ -79,8 +78,8 @@ public:
         if (sewn.empty()) throw InputError("no edge is a cut of the UVs with a face on either side");
     }
 
-    DisjointSets corners, before, after;             // of corners, and of faces
-    std::vector<std::pair<Index, VertexPair>> sewn;  // a face at each edge
+    DisjointSets corners, before, after;           // of corners, and of faces
+    std::vector<std::pair<Index, EdgeEnds>> sewn;  // a face at each edge
 
 private:
     void join(const EdgeCorners& edge)
@@ -217,8 +216,8 @@ SewnLayer sew_islands(const Vertices& vertices, const Triangles& triangles, cons
             old.push_back(seams.before.find(f));
             result.island[f] = number;
         }
-        std::ranges::sort(old);
-        result.joined += static_cast<Index>(std::unique(old.begin(), old.end()) - old.begin());
+        sort_unique(old);
+        result.joined += static_cast<Index>(old.size());
         island.map(vertices, triangles, options, seams, result.uv, context);
         ++number;
     }

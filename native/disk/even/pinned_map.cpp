@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/errors.h"
+#include "core/sort_unique.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 
@@ -140,8 +141,7 @@ void require_pins(const Pins& pins, const Triangles& triangles, Eigen::Index ver
         if (!(cross(place(1) - place(0), place(2) - place(0)) > 0.0))
             turned.insert(turned.end(), face.begin(), face.end());
     }
-    std::ranges::sort(turned);
-    turned.erase(std::unique(turned.begin(), turned.end()), turned.end());
+    sort_unique(turned);
     if (!turned.empty()) throw InputError("pins turn faces over", ElementKind::vertices, turned);
 }
 
