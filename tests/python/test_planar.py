@@ -161,6 +161,7 @@ def test_map_and_inverse():
         ([[-1 - 1j, 1 + 1j, 1 - 1j, -1 + 1j]], [0]),  # meets itself
         ([np.array([0j, 1, 2, 1])], [0]),  # no area
         ([2 * SQUARE, [0, 1, 1 + 1j, 1, 1j]], [1]),  # a spike
+        ([2 * SQUARE, [0, 1 + 0.001j, 1 - 0.001j]], [1]),  # too sharp
         ([[0, np.nan, 1j]], []),
         ([2 * SQUARE, {"circle": {"center": [0, 0], "radius": -1}}], []),
         ([], []),

@@ -61,8 +61,7 @@ struct PlanarEntry {
 
     std::vector<Complex> places(std::size_t least) const
     {
-        if (!value.is_array() || value.size() < least)
-            refuse("is not a list of " + std::to_string(least) + " places or more");
+        if (!value.is_array() || value.size() < least) refuse("is not a list of places [x, y], or too short");
         std::vector<Complex> all;
         for (const json& one : value) all.push_back(PlanarEntry{one, where}.place());
         return all;

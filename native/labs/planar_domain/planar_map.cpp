@@ -139,8 +139,13 @@ public:
     KoebeIteration(const OrderedRims& domain, const RimResolution& resolution) : resolution_(resolution)
     {
         for (std::size_t k = 0; k < domain.rims.size(); ++k) {
-            layouts_.push_back(rim_layout(domain.rims[k], domain.polygons[k], k == 0, resolution));
-            checks_.push_back(check_layout(domain.rims[k], domain.polygons[k], k == 0, resolution));
+            const std::vector<Index> rim{domain.order[k]};
+            try {
+                layouts_.push_back(rim_layout(domain.rims[k], domain.polygons[k], k == 0, resolution));
+                checks_.push_back(check_layout(domain.rims[k], domain.polygons[k], k == 0, resolution));
+            } catch (const InputError& error) {
+                throw InputError(error.what(), ElementKind::loops, rim);
+            }
         }
     }
 
