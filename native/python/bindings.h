@@ -22,5 +22,7 @@ void bind_flatten(pybind11::module_& m);
 // Of the extra labs: conformal modules and alignments of circle domains, points carried; maps to given circle domains.
 void bind_shapes(pybind11::module_& m);
 void bind_fit(pybind11::module_& m);
+/// Planar domains, to ten digits.
+void bind_planar(pybind11::module_& m);
 
 }  // namespace koebe::python

@@ -32,5 +32,6 @@ PYBIND11_MODULE(_koebe, m)
 #ifdef KOEBE_LABS
     bind_shapes(m);
     bind_fit(m);
+    bind_planar(m);
 #endif
 }

@@ -46,6 +46,7 @@ PAGES = {
         "permutation_test": ["permutation_test", "dispersion_test", "PermutationTest", "point_test", "PointTest"],
         "noise_error": ["noise_error", "vertex_noise"],
         "certified_moduli": ["certified_moduli", "CertifiedModuli"],
+        "planar": ["planar", "PlanarMap"],
         "teichmueller": ["teichmueller", "TeichmuellerMap"],
         "transfer": ["transfer", "Correspondence", "SphereCorrespondence"],
         "to_image": ["to_image", "from_image"],

@@ -38,7 +38,7 @@ def rows_in(front, of):
 def test_every_row_is_of_the_form():
     for row in TABLE:
         assert row["kind"] in KINDS and row["does"] and not row["does"].endswith("."), row["name"]
-        assert set(row["maps"].split()) <= {*MAPS, "ricci", "shapes", "module"}, row["name"]
+        assert set(row["maps"].split()) <= {*MAPS, "ricci", "shapes", "module", "planar"}, row["name"]
         assert set(row.get("in", "command").split()) <= {"command", "python", "blender", "batch", "arrays"}, row["name"]
         assert ("choices" in row) == (row["kind"] in ("choice", "loop")), row["name"]
         assert row["kind"] != "choice" or row["default"] in [word for word, _, _ in row["choices"]], row["name"]
@@ -49,7 +49,7 @@ def test_every_row_is_of_the_form():
 
 
 def test_a_name_is_one_option_of_a_map_and_one_property():
-    for of in (*MAPS, "ricci", "shapes", "module"):
+    for of in (*MAPS, "ricci", "shapes", "module", "planar"):
         for front in ("command", "python"):
             names = [row["name"] for row in TABLE if of in row["maps"].split() and front in row.get("in", front)]
             assert len(names) == len(set(names))

@@ -55,6 +55,7 @@ CALLS = {
     "fit_circles": lambda: partial(koebe.fit_circles, SAMPLES / "face.obj", *CIRCLES),
     "fit_circles, extremal": lambda: partial(koebe.fit_circles, SAMPLES / "face.obj", *CIRCLES, extremal=True),
     "certified_moduli": lambda: partial(koebe.certified_moduli, SAMPLES / "face.obj"),
+    "planar": lambda: partial(koebe.planar, [[(-2, -2), (2, -2), (0, 2)], [(0, 0), (0.5, -1), (-0.5, -1)]]),
     "open_surface": lambda: partial(koebe.open_surface, SAMPLES / "face.obj"),
     "module_error": lambda: partial(koebe.module_error, fresh(disk("face"))),
     "noise_error": lambda: partial(koebe.noise_error, disk("face"), noise=0.01, samples=3),

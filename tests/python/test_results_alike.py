@@ -33,6 +33,7 @@ OTHERS = {  # results that are no maps
     "alignment": lambda: koebe.align_domains(MADE["uniformize"](), MADE["fit"]()),
     "family": lambda: koebe.family([MADE["uniformize"]()]),
     "certified": lambda: koebe.certified_moduli(FACE),
+    "planar": lambda: koebe.planar([[(-2, -2), (2, -2), (0, 2)], [(0, 0), (0.5, -1), (-0.5, -1)]]),
     "opened": lambda: koebe.open_surface("docs/link.obj"),
     "permutations": lambda: koebe.permutation_test(1.0 - np.eye(4), [0, 0, 1, 1]),
 }

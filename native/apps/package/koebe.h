@@ -26,6 +26,7 @@
 #include "parts/parts.h"
 #include "pipeline/surface_solver.h"
 #include "pipeline/uniformize.h"
+#include "planar_domain/planar_map.h"
 #include "quality/distortion.h"
 #include "quality/verdict.h"
 #include "schottky/schottky_map.h"

@@ -123,6 +123,7 @@ if hasattr(_koebe, "conformal_module"):
     from .labs.family import Family, family
     from .labs.fit import FitResult, fit_circles
     from .labs.noise import noise_error, vertex_noise
+    from .labs.planar import PlanarMap, planar
     from .labs.shapes import (
         DomainAlignment,
         LoopMatch,
@@ -150,6 +151,7 @@ if hasattr(_koebe, "conformal_module"):
         "FitResult",
         "LoopMatch",
         "PermutationTest",
+        "PlanarMap",
         "PointFamily",
         "PointTest",
         "SphereCorrespondence",
@@ -168,6 +170,7 @@ if hasattr(_koebe, "conformal_module"):
         "module_names",
         "noise_error",
         "permutation_test",
+        "planar",
         "point_test",
         "separation_distance",
         "separations",

@@ -33,7 +33,7 @@ struct Subcommand {
     X(uniformize)                                                                                                      \
     X(batch)                                                                                                           \
     X(fill)                                                                                                            \
-    KOEBE_OF_LABS(X(module) X(compare) X(transfer) X(fit))                                                             \
+    KOEBE_OF_LABS(X(module) X(planar) X(compare) X(transfer) X(fit))                                                   \
     KOEBE_OF_MAKING(X(lift))                                                                                           \
     X(ricci)                                                                                                           \
     X(parts)                                                                                                           \
