@@ -184,3 +184,12 @@ def test_long_thin_strips_are_cut_so_that_all_islands_become_larger():
     assert len(koebe.flatten(*coin).pieces) == 3  # a pattern is packed onto no square
     alone = koebe.parts(*prism(circle(64), 2.0))  # the side of a tin is not thin
     assert len(alone.parts) == 3
+
+
+def test_holes_that_meet_at_a_point_neither_bend_nor_cut_a_plate():
+    """The flat image touches itself there, so both corners are drawn a little apart."""
+    u, v, quads = grid(12, 12)
+    holes = {(2, 2), (3, 3), (8, 3), (7, 4), (6, 5), (5, 9)}
+    triangles = quads[[divmod(k, 12) not in holes for k in range(144)]][:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    result = koebe.parts(turned(np.stack([u, v, 0 * u], axis=-1), 3), triangles)
+    assert (len(result.parts), result.whole, result.cut_length, result.flipped) == (1, 1.0, 0.0, 0)

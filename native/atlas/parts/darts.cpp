@@ -21,7 +21,7 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t most_darts = 16;  // opened together
-constexpr double first_gap = 0.05;      // between the sides of a dart, over the least height of a face beside it
+constexpr double least_gap = 1e-4;      // between the sides of a cut, over the least height of a face beside it
 
 /// The path from a vertex to the boundary. Its cost is a length, longer where the surface is shown. @return nothing if
 /// the vertex is on it, or if there is no path
@@ -208,11 +208,11 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
     return source;
 }
 
-bool draw_apart(FlatPart& flat, const std::vector<char>& moves)
+bool draw_apart(FlatPart& flat, const std::vector<char>& moves, double gap)
 {
     const VectorXd heights = least_heights(flat);
     const PlanarPoints before = flat.points;
-    for (double gap = first_gap; gap > 1e-4; gap *= 0.25) {
+    for (; gap > least_gap; gap *= 0.25) {
         for (const VertexLoop& loop : flat.surface.loops)
             for (std::size_t i = 0; i < loop.size(); ++i) {
                 if (!moves[loop[i]]) continue;

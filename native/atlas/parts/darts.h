@@ -35,9 +35,9 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
 std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<Dart>& darts);
 
 /// Draws the two sides of open cuts a little apart, where they lie on each other.
-/// @param moves (V) 1 for vertices of the cuts, but not for their tips @return false: it cannot be done without
-/// overlaps, and nothing changes
-bool draw_apart(FlatPart& flat, const std::vector<char>& moves);
+/// @param moves (V) 1 for vertices of the cuts, but not for their tips @param gap between the sides, over the least
+/// height of a face beside them; less where that overlaps @return false: it overlaps anyhow, and nothing changes
+bool draw_apart(FlatPart& flat, const std::vector<char>& moves, double gap = 0.05);
 
 /// For each face the cut nearest to it on the surface; -1 if no cut is within reach. @param cuts (cuts) vertices of
 /// each

@@ -24,6 +24,7 @@ namespace {
 constexpr double on_track = 1e-6;  // of a circle's radius, or a line's length: vertices farther off are free
 constexpr double first_even = 0.02, least_even = 0.005;       // start and end of the search for E
 constexpr int search_steps = 12;                              // for an E of the search, and before it for
+constexpr int far_rounds = 16;                                // with the void, while faces are far from their size
 constexpr EvenEffort look{4, 1, 8};                           // a first look, which ends the trial if angles are worse
 constexpr double step = 1.5;                                  // factor from one E to the next
 constexpr std::array less_even_with_darts{0.06, 0.03, 0.01};  // E with darts if angles are worse at dart_even
@@ -187,12 +188,15 @@ public:
             if (*next >= even) break;
             even = *next;
         }
-        relax_cut(even, EvenEffort{});  // parts that are far from their minimum
+        relax_cut(even, EvenEffort{.most_far = far_rounds});  // parts that are far from their minimum
         return done(worst_groups(bounds));
     }
 
 private:
-    EvenEffort search() const { return {.most_steps = search_steps, .most_rounds = options_.rounds}; }
+    EvenEffort search() const
+    {
+        return {.most_steps = search_steps, .most_rounds = options_.rounds, .most_far = far_rounds};
+    }
 
     double cut_price() const { return options_.dearer * dart_price(options_.darts); }
 
@@ -276,7 +280,7 @@ EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& optio
 {
     PartRelaxation parts(flats, options, context);
     if (options.even == 0.0) return {};
-    if (options.even) parts.relax_with_darts(*options.even, {});
+    if (options.even) parts.relax_with_darts(*options.even, {.most_far = far_rounds});
     const double even = options.even ? *options.even : parts.relax_freely();
     return {even, even > 0.0 ? parts.left() : std::vector<std::size_t>{}};
 }

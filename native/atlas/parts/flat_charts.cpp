@@ -5,6 +5,7 @@
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
+#include "parts/darts.h"
 #include "parts/regions.h"
 #include "parts/tension.h"
 
@@ -27,6 +28,7 @@ constexpr double flat_angle = 1e-3;     // radians by which the angles round a f
 constexpr double same_place = 1e-5;     // in roots of the surface's area
 constexpr double most_single = 0.75;    // of a chart's area, in faces that are alone in their planes
 constexpr double plate_to_strip = 2.0;  // a plate is so many times larger than its neighbours
+constexpr double narrow_gap = 1e-3;     // where a chart touches itself, over the least height of a face there
 
 class ChartLayer {
 public:
@@ -326,6 +328,21 @@ private:
     SeamedMesh& net_ = charts_.net;
 };
 
+/// (V) 1 for boundary vertices where the surface touches itself: holes may meet at a point.
+std::vector<char> touching(const FlatPart& part)
+{
+    std::map<std::array<double, 3>, Index> first;
+    std::vector<char> touches(static_cast<std::size_t>(part.surface.vertex_count), 0);
+    for (const VertexLoop& loop : part.surface.loops)
+        for (const Index v : loop) {
+            const auto found =
+                first.try_emplace({part.vertices(v, 0), part.vertices(v, 1), part.vertices(v, 2)}, v).first;
+            // The two sides of a cut are one vertex of the surface, and stay where they are.
+            if (part.original[v] != part.original[found->second]) touches[v] = touches[found->second] = 1;
+        }
+    return touches;
+}
+
 }  // namespace
 
 std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& charts, const std::vector<Index>& faces)
@@ -359,7 +376,8 @@ std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& c
     } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
         return {};
     }
-    if (!lies_one_to_one(part, part.points) || !survives_storing(part)) return {};
+    if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part), narrow_gap)) return {};
+    if (!survives_storing(part)) return {};
     part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
     part.held.assign(mesh.fan_count, 0);
     for (const VertexLoop& loop : part.surface.loops) {

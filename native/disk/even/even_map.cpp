@@ -29,6 +29,7 @@ using Mobility = FoldoverProblem::Mobility;
 
 constexpr double longest_approach = 8.0;  // most ratio of a face's next area to its present area,
 constexpr double few_far = 1e-3;          // until the wanted sizes differ by more only on this share of the area
+constexpr double much_far = 0.1;          // and the way is so long that its energy may rise
 constexpr double nearer = 0.9;            // and as long as this share, or the energy, falls to this
 constexpr double much_less = 0.99;        // the energy must fall to this, for faces to go on
 constexpr int steps_an_approach = 4;
@@ -131,7 +132,7 @@ public:
     void relax_with_void(EvenMap& result)
     {
         double before = energy();
-        for (int round = 0; round < effort_.most_rounds; ++round) {
+        for (int round = 0, far = 0; round < effort_.most_rounds;) {
             FoldoverProblem problem = surface_problem();
             try {
                 add_void(flat_.loops, void_weight / static_cast<double>(flat_.triangles.rows()), least_gap * extent_,
@@ -143,7 +144,10 @@ public:
             take(problem, done, result);
             ++result.rounds;
             const double now = energy();
-            if (!(before - now > settled_round * before)) return;
+            // From far off the energy rises before it falls: most faces shrink until the narrow places are through.
+            const bool is_far = far < effort_.most_far && done.iterations > 0 && far_off() > much_far;
+            if (!is_far && !(before - now > settled_round * before)) return;
+            ++(is_far ? far : round);
             before = now;
         }
     }

@@ -58,8 +58,9 @@ struct FlatSurface {
 
 struct EvenEffort {
     int most_steps = 60;     ///< Newton steps at the end, when all faces are near their size
-    int most_rounds = 20;    ///< rounds with the void, if loops would cross
+    int most_rounds = 20;    ///< rounds with the void, if loops would cross,
     int most_in_all = 1000;  ///< Newton steps without the void
+    int most_far = 0;        ///< and rounds before them, while faces are far from their size
 };
 
 struct EvenMap {
