@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGE = " ".join((ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8").split())
 # What the add-on calls; the rest belongs to the command and to the annulus map of Python.
 # Rooms of native/.
-NOT_CALLED_FROM_BLENDER = {"baselines", "certified", "cli", "fit", "flow", "io", "python", "report"}
+NOT_CALLED_FROM_BLENDER = {"baselines", "certified", "cli", "fit", "flow", "io", "planar_domain", "python", "report"}
 
 # Errors that no mesh in Blender can cause: wrong calls, guards of inner steps, and what the add-on has ruled out.
 NOT_FROM_BLENDER = (

@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "cost/costs.h"
+#include "cost/tolerances.h"
 #include "cut/edge_graph.h"
 #include "even/even_map.h"
 #include "mesh/connected_pieces.h"
@@ -118,7 +119,8 @@ private:
         }
     }
 
-    /// The regions of faces with much energy, and the energy of each.
+    /// The regions of faces with much energy, and the energy of each. Where most of the part is one such region, no cut
+    /// releases it all.
     void measure_strain()
     {
         const VectorXd areas = face_areas(flat_.vertices, flat_.surface.triangles);
@@ -128,8 +130,14 @@ private:
         Index count = 0;
         region_ = connected_pieces(flat_.surface.twin, is_strained, count);
         strain_.assign(static_cast<std::size_t>(count), 0.0);
-        for (std::size_t f = 0; f < region_.size(); ++f)
-            if (is_strained[f] != 0) strain_[region_[f]] += forces_.energy[static_cast<Eigen::Index>(f)];
+        std::vector<double> area(strain_.size(), 0.0);
+        for (std::size_t f = 0; f < region_.size(); ++f) {
+            if (is_strained[f] == 0) continue;
+            strain_[region_[f]] += forces_.energy[static_cast<Eigen::Index>(f)];
+            area[region_[f]] += areas[static_cast<Eigen::Index>(f)];
+        }
+        for (std::size_t k = 0; k < strain_.size(); ++k)
+            if (area[k] > tolerance::majority * areas.sum()) strain_[k] = 0.0;
     }
 
     /// The more strained of the regions on both sides of an edge.

@@ -30,6 +30,7 @@ using Mobility = FoldoverProblem::Mobility;
 constexpr double longest_approach = 8.0;  // most ratio of a face's next area to its present area,
 constexpr double few_far = 1e-3;          // until the wanted sizes differ by more only on this share of the area
 constexpr double much_far = 0.1;          // and the way is so long that its energy may rise
+constexpr double all_far = 0.95;          // and on more no way ends: the surface is made of needles
 constexpr double nearer = 0.9;            // and as long as this share, or the energy, falls to this
 constexpr double much_less = 0.99;        // the energy must fall to this, for faces to go on
 constexpr int steps_an_approach = 4;
@@ -131,6 +132,21 @@ public:
 
     void relax_with_void(EvenMap& result)
     {
+        const double first = energy();
+        const PlanarPoints points = flat_.points;
+        const std::vector<RoundLoop> round = flat_.round;
+        const double off = far_off();
+        const int most_far = off > much_far && off < all_far ? effort_.most_far : 0;
+        go_rounds_with_void(most_far, result);
+        if (most_far == 0 || energy() < first) return;
+        flat_.points = points;  // the way was too long
+        flat_.round = round;
+    }
+
+private:
+    /// @param most_far rounds while faces are far from their size
+    void go_rounds_with_void(int most_far, EvenMap& result)
+    {
         double before = energy();
         for (int round = 0, far = 0; round < effort_.most_rounds;) {
             FoldoverProblem problem = surface_problem();
@@ -145,14 +161,13 @@ public:
             ++result.rounds;
             const double now = energy();
             // From far off the energy rises before it falls: most faces shrink until the narrow places are through.
-            const bool is_far = far < effort_.most_far && done.iterations > 0 && far_off() > much_far;
+            const bool is_far = far < most_far && done.iterations > 0 && far_off() > much_far;
             if (!is_far && !(before - now > settled_round * before)) return;
             ++(is_far ? far : round);
             before = now;
         }
     }
 
-private:
     double power() const { return flat_.held.empty() ? 1.0 : held_power; }
 
     /// Lower bound of the minimized sum.
