@@ -305,6 +305,14 @@ void estimate_errors(PlanarResult& result, const std::vector<Circle>& coarser)
     result.module_errors = result.module_errors.cwiseMax((result.module - conformal_module(coarser)).cwiseAbs());
 }
 
+/// Whether a place lies in the circle domain, up to rounding. @param circles the unit circle, then the holes
+bool lies_inside(Complex z, const std::vector<Circle>& circles)
+{
+    return std::abs(z) <= 1.0 + off_domain && std::all_of(circles.begin() + 1, circles.end(), [&](const Circle& hole) {
+               return std::abs(z - hole.center) >= hole.radius - off_domain;
+           });
+}
+
 [[noreturn]] void refuse(const std::vector<double>& residuals, const std::vector<int>& order)
 {
     std::vector<Index> worst;
@@ -369,9 +377,7 @@ VectorXcd PlanarMap::operator()(const VectorXcd& places) const
     std::vector<Index> off;
     for (Eigen::Index i = 0; i < places.size(); ++i) {
         images[i] = image(places[i]);
-        bool inside = std::isfinite(std::abs(images[i])) && std::abs(images[i]) <= 1.0 + off_domain;
-        for (std::size_t k = 1; k < circles_.size(); ++k)
-            inside = inside && std::abs(images[i] - circles_[k].center) >= circles_[k].radius - off_domain;
+        bool inside = lies_inside(images[i], circles_);
         // The formulas go on beyond the rims: a place that is clearly off the domain is refused by the rims themselves.
         for (std::size_t k = 0; k < rims_.size() && inside; ++k) {
             const bool wrong = (rims_[k].winding(places[i]) != 0) != (k == 0);
@@ -388,10 +394,7 @@ VectorXcd PlanarMap::inverse(const VectorXcd& images) const
     VectorXcd places(images.size());
     std::vector<Index> off, lost;
     for (Eigen::Index i = 0; i < images.size(); ++i) {
-        bool inside = std::abs(images[i]) <= 1.0 + off_domain;
-        for (std::size_t k = 1; k < circles_.size(); ++k)
-            inside = inside && std::abs(images[i] - circles_[k].center) >= circles_[k].radius - off_domain;
-        if (!inside) {
+        if (!lies_inside(images[i], circles_)) {
             off.push_back(static_cast<Index>(i));
             continue;
         }
