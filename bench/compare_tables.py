@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of docs/comparison.md: figures of all maps, and ours over another's."""
+"""The table of docs/comparison.md and its data in docs/data/: figures of all maps, and ours over another's."""
 
+import csv
 import math
 import statistics
 
 from compare_unwraps import SETTINGS, UNWRAPS
 
-BEGIN, END = "<!-- the tables of `make compare` -->", "<!-- their end -->"
-HEAD = ["unwrap", "islands", "cuts / √area", "density, 5 to 95 %", "area within a factor 3", "angle error", "coverage",
-        "flips", "faces lost", "overlap", "seconds"]  # fmt: skip
-SUMMARY = ["unwrap", "models done", *HEAD[1:7], "models with flips", "with faces lost", "with overlap", "seconds"]
+BEGIN, END = "<!-- the table of `make compare` -->", "<!-- its end -->"
+HEAD = ["islands", "cuts / √area", "density, 5 to 95 %", "area within a factor 3, %", "angle error, °", "coverage, %",
+        "flips", "faces lost", "overlap, %", "seconds"]  # fmt: skip
+SUMMARY = [*HEAD[:6], "models with flips", "with faces lost", "with overlap", "seconds"]
 OURS = ("ours, in parts", *SETTINGS)
 TIE = 1.01  # of density and angle error: ours over theirs that counts as equal
 # Of a goal: its words, the figure, and the most that ours over theirs may be.
@@ -68,57 +69,47 @@ def default(rows):
     return "ours, in parts"
 
 
-def goal_table(groups, peer, cuts, goals, setting_of):
-    """A goal a row, and of each group of models the median ratio and how often the goal is met."""
-    head = ["goal", *(f"{heading}: {what}" for heading in groups for what in ("ratio", "goal met"))]
-    columns = [beside(rows_of, peer, cuts, goals, setting_of) for rows_of in groups.values()]
-    return markdown(head, [[lines[0][0], *(cell for line in lines for cell in line[1:])] for lines in zip(*columns)])
+def goal_rows(groups, peer, cuts, goals, setting_of):
+    """A goal and a group of models a row: the median ratio, and how often the goal is met."""
+    return [[peer, f"cuts {cuts[2]:g} times as long", heading, *line] for heading, rows_of in groups.items()
+            for line in beside(rows_of, peer, cuts, goals, setting_of)]  # fmt: skip
 
 
-def setting_table(groups):
+def ratio_rows(rows_of):
     """The settings that the goals beside xatlas were met with, and ours over its on each model."""
     lines = []
-    for rows_of in groups.values():
-        for model, rows in rows_of.items():
-            if done(rows, "xatlas"):
-                setting = chosen(rows, "xatlas", CUTS, BESIDE_XATLAS)
-                pair = rows[setting], rows["xatlas"]
-                cells = [marked(ratio(*pair, goal[1]), meets(*pair, goal)) for goal in (CUTS, *BESIDE_XATLAS)]
-                lines.append([model, "" if setting in UNWRAPS else f"`{setting}`", *cells])
-    return markdown(["model", "setting", "cuts", "density", "angle error", "islands", "seconds"], lines)
+    for model, rows in rows_of.items():
+        if done(rows, "xatlas"):
+            setting = chosen(rows, "xatlas", CUTS, BESIDE_XATLAS)
+            pair = rows[setting], rows["xatlas"]
+            lines.append([model, setting, *(short(ratio(*pair, goal[1])) for goal in (CUTS, *BESIDE_XATLAS))])
+    return lines
 
 
-def marked(value, met):
-    text = f"{value:.2f}" if value < 100.0 else f"{value:.0e}"
-    return text if met else f"**{text}**"
-
-
-def markdown(head, lines):
-    rows = [head, ["---"] * len(head), *lines]
-    return "".join("| " + " | ".join(map(str, row)) + " |\n" for row in rows)
+def short(value):
+    return f"{value:.2f}" if value < 100.0 else f"{value:.0e}"
 
 
 def cells(facts):
     """A row as it is printed."""
     if "error" in facts:
-        return [facts["error"][:110], *[""] * (len(HEAD) - 2)]
-    spread = f"{facts['spread']:.2f}" if facts["spread"] < 100.0 else f"{facts['spread']:.0e}"
-    return [f"{facts['islands']:,}", f"{facts['seams']:.1f}", spread, f"{100.0 * facts['even']:.0f} %",
-            f"{facts['angle']:.2f}°", f"{100.0 * facts['coverage']:.0f} %", f"{facts['flips']:,}", f"{facts['lost']:,}",
-            f"{100.0 * facts['overlap']:.1f} %", f"{facts['seconds']:.2f}"]  # fmt: skip
+        return [facts["error"][:110], *[""] * (len(HEAD) - 1)]
+    return [str(facts["islands"]), f"{facts['seams']:.1f}", short(facts["spread"]), f"{100.0 * facts['even']:.0f}",
+            f"{facts['angle']:.2f}", f"{100.0 * facts['coverage']:.0f}", str(facts["flips"]), str(facts["lost"]),
+            f"{100.0 * facts['overlap']:.1f}", f"{facts['seconds']:.2f}"]  # fmt: skip
 
 
-def table(model, rows):
-    """One model's figures."""
-    faces = next((facts["faces"] for facts in rows.values() if "faces" in facts), 0)
-    lines = [[unwrap, *cells(rows[unwrap])] for unwrap in UNWRAPS if unwrap in rows]
-    return f"#### {model}, {faces:,} triangles\n\n" + markdown(HEAD, lines)
+def model_rows(heading, rows_of):
+    """The figures of each model and unwrap."""
+    for model, rows in rows_of.items():
+        faces = next((facts["faces"] for facts in rows.values() if "faces" in facts), 0)
+        yield from ([model, heading, faces, unwrap, *cells(rows[unwrap])] for unwrap in UNWRAPS if unwrap in rows)
 
 
-def summary(rows_of):
+def median_rows(rows_of, unwraps):
     """Models together: medians, and how many maps have a fault. @param rows_of model -> unwrap -> figures"""
     lines = []
-    for unwrap in (*UNWRAPS, *SETTINGS):
+    for unwrap in unwraps:
         some = [rows[unwrap] for rows in rows_of.values() if done(rows, unwrap)]
         if some:
             keys = ("islands", "seams", "spread", "even", "angle", "coverage", "seconds")
@@ -126,32 +117,43 @@ def summary(rows_of):
             faulty = [sum(facts[key] > most for facts in some)
                       for key, most in (("flips", 0), ("lost", 0), ("overlap", 0.001))]  # fmt: skip
             row = cells({**middle, "flips": 0, "lost": 0, "overlap": 0.0, "islands": round(middle["islands"])})
-            name = unwrap if unwrap in UNWRAPS else f"ours, `{unwrap}`"
-            lines.append([name, len(some), *row[:6], *faulty, row[-1]])
-    return markdown(SUMMARY, lines)
+            lines.append([unwrap, len(some), *row[:6], *faulty, row[-1]])
+    return lines
+
+
+def markdown(head, lines):
+    rows = [head, ["---"] * len(head), *lines]
+    return "".join("| " + " | ".join(map(str, row)) + " |\n" for row in rows)
+
+
+def save(folder, name, head, lines):
+    """A table as a data file, which the site shows sortable."""
+    with (folder / f"comparison_{name}.csv").open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([head, *lines])
 
 
 def write(page, groups):
-    """Put the tables into the page. @param groups heading -> model -> unwrap -> figures"""
-    groups = {f"{len(rows_of)} {heading}": rows_of for heading, rows_of in groups.items() if rows_of}
+    """Put the medians into the page, and all tables beside it. @param groups heading -> model -> unwrap -> figures"""
+    groups = {heading: rows_of for heading, rows_of in groups.items() if rows_of}
+    every = {model: rows for rows_of in groups.values() for model, rows in rows_of.items()}
 
     def best(peer, cuts, goals):
         return lambda rows: chosen(rows, peer, cuts, goals)
 
-    text = ["### Compared with xatlas, with 60 % of its cuts\n",
-            goal_table(groups, "xatlas", CUTS, BESIDE_XATLAS, best("xatlas", CUTS, BESIDE_XATLAS)),
-            "### Compared with xatlas, with our default\n",
-            goal_table(groups, "xatlas", AT_ITS_CUTS, BESIDE_XATLAS, default),
-            "### Compared with Smart UV, with our default\n",
-            goal_table(groups, "Smart UV", AT_ITS_CUTS, BESIDE_SMART, default)]  # fmt: skip
-    if any(done(rows, "OptCuts") for rows_of in groups.values() for rows in rows_of.values()):
-        text += ["### Compared with OptCuts, with our default\n",
-                 goal_table(groups, "OptCuts", AT_ITS_CUTS, BESIDE_SMART, default)]  # fmt: skip
-    for heading, rows_of in groups.items():
-        text += [f"### {heading}\n", summary(rows_of)]
-    text += ["### Our figures over the figures of xatlas, with 60 % of its cuts\n", setting_table(groups),
-             "### Each model\n"]  # fmt: skip
-    text += [table(model, rows) for rows_of in groups.values() for model, rows in rows_of.items()]
+    goals = [*goal_rows(groups, "xatlas", CUTS, BESIDE_XATLAS, best("xatlas", CUTS, BESIDE_XATLAS)),
+             *goal_rows(groups, "xatlas", AT_ITS_CUTS, BESIDE_XATLAS, default),
+             *goal_rows(groups, "Smart UV", AT_ITS_CUTS, BESIDE_SMART, default)]  # fmt: skip
+    if any(done(rows, "OptCuts") for rows in every.values()):
+        goals += goal_rows(groups, "OptCuts", AT_ITS_CUTS, BESIDE_SMART, default)
+    data = page.parent / "data"
+    save(data, "goals", ["beside", "at most", "set", "goal", "median ratio", "met"], goals)
+    save(data, "medians", ["set", "unwrap", "done", *SUMMARY],
+         [[heading, *line] for heading, rows_of in groups.items() for line in median_rows(rows_of, (*UNWRAPS, *SETTINGS))])
+    save(data, "ratios", ["model", "setting", "cuts", "density", "angle error", "islands", "seconds"], ratio_rows(every))
+    save(data, "models", ["model", "set", "triangles", "unwrap", *HEAD],
+         [line for heading, rows_of in groups.items() for line in model_rows(heading, rows_of)])
+    shown = [[line[0], *line[2:5], *line[6:8], line[8], line[10], line[11]] for line in median_rows(every, UNWRAPS)]
+    text = markdown(["unwrap", *SUMMARY[:3], *SUMMARY[4:6], SUMMARY[6], *SUMMARY[8:]], shown)
     before, rest = page.read_text(encoding="utf-8").split(BEGIN)
-    page.write_text(f"{before}{BEGIN}\n\n" + "\n".join(text) + f"\n{END}{rest.split(END)[1]}", encoding="utf-8")
-    print("\n".join(text[: -sum(map(len, groups.values()))]))
+    page.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{rest.split(END)[1]}", encoding="utf-8")
+    print(text)

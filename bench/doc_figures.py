@@ -24,7 +24,7 @@ MARK = re.compile(r"(<!-- figures?: ([^>]*?) -->)(.*?)(<!-- end -->)", re.DOTALL
 
 
 def pages() -> list[Path]:
-    return [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+    return [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 
 
 def load() -> dict:

@@ -17,8 +17,8 @@ import reproduce  # noqa: E402
 from doc_tables import TABLES  # noqa: E402
 
 FIGURES = doc_figures.load()
-# make reliability, make bench, bench/cortex.py
-MEASURED_ELSEWHERE = {"reliability", "commands", "cancel", "bff", "cortex", "cortex_lesions"}
+# make reliability, make bench, bench/cortex.py; figures of several pages, which tests/python/test_docs_references.py compares
+MEASURED_ELSEWHERE = {"reliability", "commands", "cancel", "bff", "cortex", "cortex_lesions", "shared"}
 CHEAP = {"quality", "polish", "balance", "limits", "same_shape", "faces", "distances"}
 LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
 NUMBER = re.compile(r"-?[\d,]+(?:\.\d+)?(?:e[-+]?\d+)?")

@@ -16,10 +16,10 @@ project = "Koebe UV"
 author = "The Koebe UV developers"
 release = subprocess.check_output([ROOT / "scripts" / "version.sh"], text=True).strip()
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "breathe", "sphinx_copybutton"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "breathe", "sphinx_copybutton", "sphinx-mathjax-offline"]
 exclude_patterns = ["code"]
 myst_heading_anchors = 4
-myst_enable_extensions = ["colon_fence"]
+myst_enable_extensions = ["colon_fence", "dollarmath"]
 nb_execution_mode = "off"
 suppress_warnings = ["mystnb.unknown_mime_type"]
 
@@ -39,8 +39,9 @@ breathe_show_include = False
 html_theme = "furo"
 html_title = f"Koebe UV {release}"
 html_logo = html_favicon = "logo.svg"
-html_static_path = ["style.css"]
+html_static_path = ["style.css", "sort.js"]
 html_css_files = ["style.css"]
+html_js_files = ["sort.js"]
 html_copy_source = False
 html_show_sphinx = html_show_copyright = False
 pygments_style = "tango"

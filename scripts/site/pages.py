@@ -11,6 +11,8 @@ PLACE = re.compile(r"^(?:\.\./)*(?:docs/)?(?:developers/)?")
 FILE_NAME = re.compile(r"\[(?:docs/)?(?:developers/)?(\w+)\.(?:md|ipynb)\](\(\1\.)")
 CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
 PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
+DATA = re.compile(r"^- \[([^\]]+)\]\((data/\w+\.csv)\)$", re.MULTILINE)  # a list of data files
+RELEASES = re.compile(r"\[([^\]]+)\]\((?:\.\./)+releases\)")  # of the repository one is in: not on the site
 CODE = {"main.cpp", "examples.cpp", "CMakeLists.txt"}
 
 
@@ -23,8 +25,15 @@ def documents():
 def flat(text):
     """The text with its links as they are where all pages lie side by side. A link named by its file gets a name."""
     titles = dict(contents())
+    text = DATA.sub(table, RELEASES.sub(r"\1", text))
     text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]) + link[3], text)
     return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
+
+
+def table(data):
+    """A folded table to sort (sort.js) in place of a link to a data file, and the link below it."""
+    return (f"\n<details><summary>{data[1]}</summary>\n\n:::{{csv-table}}\n:file: {data[2]}\n:header-rows: 1\n"
+            f":class: sortable\n:::\n\n[{data[2]}]({data[2]})\n\n</details>\n")  # fmt: skip
 
 
 def linked_files(page):

@@ -1,5 +1,6 @@
 """What code says of a page is there, and what a page says of a file."""
 
+import json
 import re
 from pathlib import Path
 
@@ -16,6 +17,8 @@ SOURCES = [
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
 TO_PAGE = re.compile(r'docs/(\w+\.md)(?:, "([^"]+)")?')
 TO_FILE = re.compile(r"`((?:[\w.-]+/)+[\w.-]+\.(?:h|cpp|py|sh|json|txt|obj))`")
+RELEASES = re.compile(r"(?:\.\./)+releases$")  # of the repository one is in, on its forge
+FIGURES = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))["shared"]["rows"]
 MADE = ("build/", "out/", "dist/", "shared/")  # not in the repository
 
 
@@ -55,7 +58,7 @@ def test_the_files_that_a_page_names_exist(page):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_links_lead_somewhere(page):
     for target, anchor in re.findall(r"\]\(([^)#\s]*)(#[\w-]+)?\)", page.read_text(encoding="utf-8")):
-        if "://" in target:
+        if "://" in target or RELEASES.match(target):
             continue
         file = page.parent / target if target else page
         assert file.exists(), target
@@ -65,3 +68,30 @@ def test_links_lead_somewhere(page):
                 for heading in re.findall(r"^#+ (.+)$", file.read_text(encoding="utf-8"), re.MULTILINE)
             ]
             assert anchor in anchors, target + anchor
+
+
+def said(sentence):
+    """What the pages say of a figure: page and figure."""
+    texts = {page.name: re.sub(r"<!--.*?-->|\s+", " ", page.read_text(encoding="utf-8")) for page in PAGES}
+    return [(name, figure) for name, text in texts.items() for figure in re.findall(sentence, re.sub(" +", " ", text))]
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_all_pages_say_the_same_figure(name):
+    value, sentence = FIGURES[name]
+    found = said(sentence)
+    assert len(found) >= 2 and {figure for _, figure in found} == {value}, found
+
+
+def test_a_page_with_another_figure_is_seen(monkeypatch):
+    name = next(iter(FIGURES))
+    monkeypatch.setitem(FIGURES, name, ["another", FIGURES[name][1]])
+    with pytest.raises(AssertionError):
+        test_all_pages_say_the_same_figure(name)
+
+
+@pytest.mark.parametrize("name, option", [("price of a part", "price"), ("darts of parts", "darts")])
+def test_a_default_on_the_pages_is_the_one_of_the_table(name, option):
+    table = json.loads((ROOT / "native" / "options" / "options.json").read_text(encoding="utf-8"))
+    (row,) = [row for row in table if row["name"] == option and row["maps"] == "parts"]
+    assert float(FIGURES[name][0]) == row["default"]
