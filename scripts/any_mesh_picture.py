@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/any_mesh.md: docs/images/any_mesh.svg, drawn by the command. NumPy alone.
+"""The picture of docs/parts.md: docs/images/any_mesh.svg, drawn by the command. NumPy alone.
 
 A torus, a cube and a Möbius band, beside each other in one file.
 """

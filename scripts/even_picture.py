@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/even.md: docs/images/even.svg, a hill with a hole at three places of the dial. NumPy alone.
+"""The picture of docs/parts.md: docs/images/even.svg, a hill with a hole at three places of the dial. NumPy alone.
 
 Colours: how much denser (blue) or sparser (red) the texels are than in the mean.
 """

@@ -23,12 +23,17 @@ NOT_RUN = re.compile(r"^(make |git )|make_samples\.py")  # build, test and insta
 pytestmark = pytest.mark.slow
 
 
+def without_code(text):
+    """A page without its fenced blocks."""
+    return re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+
+
 def blocks():
     """Commands, line by line, and Python blocks, of all pages."""
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         found = re.findall(r"^```(\w*)\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
-        found += [("", block) for block in re.findall(r"^\n((?:    \S.*\n)+)", text, re.MULTILINE)]
+        found += [("", block) for block in re.findall(r"^\n((?:    \S.*\n)+)", without_code(text), re.MULTILINE)]
         for language, block in found:
             if language == "python" and page.name != "labs.md":  # that one: tests/labs/test_page.py
                 yield pytest.param("python", block, id=f"{page.name}: Python")
@@ -90,7 +95,7 @@ def test_the_small_faces_are_what_their_maker_makes(tmp_path):
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_what_a_page_names_is_there(page):
-    text = page.read_text(encoding="utf-8")
+    text = without_code(page.read_text(encoding="utf-8"))
     links = re.findall(r"\]\((?!https?:|#)([^)#]+)(?:#[^)]*)?\)", text)
     names = re.findall(r"`((?:tests|bench|scripts|addon|blend_samples|native)/[\w/.]+\.\w+)`", text)
     missing = [link for link in links if not link.endswith("../releases") and not (page.parent / link).exists()]

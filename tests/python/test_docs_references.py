@@ -95,3 +95,9 @@ def test_a_default_on_the_pages_is_the_one_of_the_table(name, option):
     table = json.loads((ROOT / "native" / "options" / "options.json").read_text(encoding="utf-8"))
     (row,) = [row for row in table if row["name"] == option and row["maps"] == "parts"]
     assert float(FIGURES[name][0]) == row["default"]
+
+
+def test_the_program_of_the_cpp_page_is_the_one_that_the_tests_build():
+    page = (ROOT / "docs" / "cpp.md").read_text(encoding="utf-8")
+    program = (ROOT / "tests" / "consumer" / "page.cpp").read_text(encoding="utf-8")
+    assert re.search(r"```cpp\n(.*?)```", page, re.DOTALL)[1] == program.partition("\n")[2]
