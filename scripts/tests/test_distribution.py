@@ -54,7 +54,7 @@ def test_the_release_page_says_what_is_new():
     begin = next(index for index, line in enumerate(lines) if line.startswith("## "))
     end = next(index for index, line in enumerate(lines) if line.startswith("### "))
     assert notes.replace("https://forge/v1/", "").splitlines() == lines[begin + 1 : end] and notes.strip()
-    assert "](https://forge/v1/docs/upgrade.md)" in notes and "](docs" not in notes
+    assert "](https://forge/v1/docs/parts.md#unfolded-surfaces)" in notes and "](docs" not in notes
 
 
 def test_another_version_is_one_line(tmp_path):
