@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Koebe UV: conformal UV maps of surfaces with holes, every hole a perfect circle."""
+"""Koebe UV: conformal UV maps of surfaces with holes, holes become circles."""
 
 from types import ModuleType
 
 bl_info = {
     "name": "Koebe UV",
-    "description": "Unwraps any model, and every hole becomes a perfect circle",
+    "description": "Unwraps any model, and every hole becomes a circle",
     "author": "The Koebe UV developers",
     "version": (0, 0, 0),  # filled when the package is built
     "blender": (3, 4, 0),
