@@ -114,6 +114,16 @@ def test_a_link_that_is_named_by_its_file_gets_the_title_of_the_contents():
     )
 
 
+def test_a_list_of_data_becomes_tables_to_sort():
+    made = pages.flat("- [all, `polish`](figures.json)\n- [times](data/benchmark_times.csv)\n")
+    assert made.count(":class: sortable") == 2 and "mesh,mean," in made and ":file: data/benchmark_times.csv" in made
+    assert all((ROOT / "docs" / name).exists() for name in pages.linked_files(ROOT / "docs" / "comparison.md"))
+
+
+def test_the_releases_of_the_repository_are_no_page_of_the_site():
+    assert pages.flat("the [releases](../../releases)") == "the releases"
+
+
 def test_a_docstring_becomes_definitions_links_and_an_example():
     lines = ["Maps like uniformize.", "", "uv, part    (F,) of *each*,", "            and more", "", ">>> 1", "1"]
     text = "\n".join(docstrings.converted(lines, False, {"uniformize"}))
