@@ -147,9 +147,11 @@ def write(page, groups):
         goals += goal_rows(groups, "OptCuts", AT_ITS_CUTS, BESIDE_SMART, default)
     data = page.parent / "data"
     save(data, "goals", ["beside", "at most", "set", "goal", "median ratio", "met"], goals)
-    save(data, "medians", ["set", "unwrap", "done", *SUMMARY],
-         [[heading, *line] for heading, rows_of in groups.items() for line in median_rows(rows_of, (*UNWRAPS, *SETTINGS))])
-    save(data, "ratios", ["model", "setting", "cuts", "density", "angle error", "islands", "seconds"], ratio_rows(every))
+    medians = [[heading, *line] for heading, rows_of in groups.items()
+               for line in median_rows(rows_of, (*UNWRAPS, *SETTINGS))]  # fmt: skip
+    save(data, "medians", ["set", "unwrap", "done", *SUMMARY], medians)
+    ratios = ["model", "setting", "cuts", "density", "angle error", "islands", "seconds"]
+    save(data, "ratios", ratios, ratio_rows(every))
     save(data, "models", ["model", "set", "triangles", "unwrap", *HEAD],
          [line for heading, rows_of in groups.items() for line in model_rows(heading, rows_of)])
     shown = [[line[0], *line[2:5], *line[6:8], line[8], line[10], line[11]] for line in median_rows(every, UNWRAPS)]

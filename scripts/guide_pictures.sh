@@ -3,7 +3,7 @@
 # Usage: scripts/guide_pictures.sh window     cut out of those that `make test-gui` leaves in out/gui
 #        scripts/guide_pictures.sh film       the film at the top, filmed in a window on a screen of its own
 #        scripts/guide_pictures.sh plotted    drawn by matplotlib, beside the packages of `make test-labs`
-#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand, mug and character in parts, a torus tile, a sphere
+#        scripts/guide_pictures.sh drawn      drawn by Blender: the vase in its pattern, hand and character in parts, a torus tile, a sphere
 set -euo pipefail
 cd "$(dirname "$0")/.."
 images=docs/images
@@ -21,13 +21,11 @@ window)
     cut distortion 08_area 1057x692+0+28 800
     cut uv_editor 11_loop_selected 1057x641+0+28 800
     cut filled 12_filled 1057x641+0+28 800
-    cut unrolled 14_unrolled 1057x641+0+28 800
     cut circles 44_disk_held_OBJECT 1057x772+0+28 800
     cut flat 51_flat_copy 588x420+225+178 560
     cut lift 70_lift 1057x692+0+28 800
     cut scatter 71_scatter 466x520+362+126 480
     cut loops 72_loops 460x330+300+290 460
-    cut parts 62_hand_in_parts 1057x772+0+28 800
     # without the row that names the folder of the tests
     convert out/gui/15_preferences.png -crop 884x340+170+61 +repage -gravity North -chop 0x23+0+126 +repage \
         -strip "$images/guide_install.png"
@@ -38,7 +36,6 @@ film)
 drawn)
     draw vase guide_picture.py "$images/guide_vase.jpg"
     draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
-    draw mug parts_picture.py --output "$images/guide_parts_mug.jpg" --size 1000x500
     draw character parts_picture.py --output "$images/parts_character.jpg" --size 1000x500
     draw closed_head parts_picture.py --output "$images/importance_before.jpg" --size 1000x500 --samples 8
     draw closed_head parts_picture.py --output "$images/importance_after.jpg" --size 1000x500 --samples 8 \

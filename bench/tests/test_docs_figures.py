@@ -17,7 +17,7 @@ import reproduce  # noqa: E402
 from doc_tables import TABLES  # noqa: E402
 
 FIGURES = doc_figures.load()
-# make reliability, make bench, bench/cortex.py; figures of several pages, which tests/python/test_docs_references.py compares
+# make reliability, make bench, bench/cortex.py; figures of several pages (tests/python/test_docs_references.py)
 MEASURED_ELSEWHERE = {"reliability", "commands", "cancel", "bff", "cortex", "cortex_lesions", "shared"}
 CHEAP = {"quality", "polish", "balance", "limits", "same_shape", "faces", "distances"}
 LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
@@ -61,6 +61,7 @@ def test_every_mark_is_closed_and_every_table_is_used():
     assert len(starts) == len(doc_figures.MARK.findall(text)) == text.count("<!-- end -->")
     assert {re.split("/| ", start)[0] for start in starts} == set(FIGURES)
     assert set(FIGURES) == set(TABLES) | MEASURED_ELSEWHERE
+    assert not re.search(r"^<!-- figure: ", text, re.MULTILINE), "a comment at the margin ends its paragraph"
 
 
 def test_a_changed_figure_is_seen():

@@ -16,7 +16,8 @@ CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
 PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
 DATA = re.compile(r"^- \[([^\]]+)\]\((data/\w+\.csv)\)$", re.MULTILINE)  # a list of data files
 MEASURED = re.compile(r"^- \[([^\]]*`(\w+)`)\]\(figures\.json\)$", re.MULTILINE)  # a list of tables of figures.json
-RELEASES = re.compile(r"\[([^\]]+)\]\((?:\.\./)+releases\)")  # of the repository one is in: not on the site
+# Files and releases of the repository, which are not on the site.
+ELSEWHERE = re.compile(r"\[([^\]]+)\]\((?:(?:\.\./)+releases|LICENSE|blend_samples/[\w.]+)\)")
 CODE = {"main.cpp", "examples.cpp", "CMakeLists.txt"}
 
 
@@ -29,7 +30,7 @@ def documents():
 def flat(text):
     """The text with its links as they are where all pages lie side by side. A link named by its file gets a name."""
     titles = dict(contents())
-    text = DATA.sub(lambda data: table(*data.groups()), RELEASES.sub(r"\1", text))
+    text = DATA.sub(lambda data: table(*data.groups()), ELSEWHERE.sub(r"\1", text))
     text = MEASURED.sub(lambda data: table(data[1], "figures.json", measured(data[2])), text)
     text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]) + link[3], text)
     return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
@@ -39,7 +40,8 @@ def measured(name):
     """The rows of a table of figures.json as CSV."""
     found = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))[name]
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerows([found["head"], *([row, *cells] for row, cells in found["rows"].items())])
+    rows = [[row, *cells] for row, cells in found["rows"].items()]
+    csv.writer(text, lineterminator="\n").writerows([found["head"], *rows])
     return text.getvalue()
 
 
@@ -52,7 +54,8 @@ def table(title, file, rows=""):
 
 def linked_files(page):
     """Files other than pages that a page of docs/ links: their names on the site, and the files."""
-    found = sorted({link[1].partition("#")[0] for link in LINK.findall(page.read_text(encoding="utf-8"))})
+    text = ELSEWHERE.sub("", page.read_text(encoding="utf-8"))
+    found = sorted({link[1].partition("#")[0] for link in LINK.findall(text)})
     return {PLACE.sub("", name): page.parent / name for name in found if not name.endswith((".md", ".ipynb"))}
 
 

@@ -9,7 +9,7 @@ import re
 import typing
 
 import koebe
-from docstrings import linked
+from docstrings import linked, parts
 from koebe import _report_entries
 from koebe.labs import fit as _fit
 from koebe.maps import result as _result
@@ -119,13 +119,21 @@ def first_sentence(name):
     return re.split(r"(?<=[^.]\.)\s", text)[0]
 
 
+def described(kind):
+    """The members of a class that the rows of its docstring describe."""
+    rows = [names for one, names, text in parts((inspect.getdoc(kind) or "").splitlines())
+            if one == "row" and not text[0].startswith("as ")]  # fmt: skip
+    return [name for names in rows for name in names.split(", ")]
+
+
 def entry(name):
     """The entry of a public name."""
     one = getattr(koebe, name)
     if inspect.isclass(one):
         arguments = "" if name in CALLED else "()"  # conf.py hides these
         others = "dict, ndarray, Mapping, Exception"  # whose members are not ours
-        return f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: {others}\n\n"
+        kept = f"   :members:\n   :inherited-members: {others}\n   :exclude-members: {', '.join(described(one))}\n"
+        return f".. autoclass:: koebe.{name}{arguments}\n{kept}\n"
     if callable(one):
         return f".. autofunction:: koebe.{name}\n\n"
     value = f"   :value: {one!r}\n" if isinstance(one, float) else ""
