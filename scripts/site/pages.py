@@ -1,7 +1,5 @@
 """The pages of docs/ as the site has them: side by side, README.md as the front page, and a gallery of all pictures."""
 
-import csv
-import io
 import json
 import re
 from pathlib import Path
@@ -15,9 +13,9 @@ FILE_NAME = re.compile(r"\[(?:docs/)?(?:developers/)?(\w+)\.(?:md|ipynb)\](\(\1\
 CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
 PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
 DATA = re.compile(r"^- \[([^\]]+)\]\((data/\w+\.csv)\)$", re.MULTILINE)  # a list of data files
-MEASURED = re.compile(r"^- \[([^\]]*`(\w+)`)\]\(figures\.json\)$", re.MULTILINE)  # a list of tables of figures.json
 # Files and releases of the repository, which are not on the site.
 ELSEWHERE = re.compile(r"\[([^\]]+)\]\((?:(?:\.\./)+releases|LICENSE|blend_samples/[\w.]+)\)")
+SOME_ROWS = re.compile(r"<!-- figures: (\w+) \|.*?<!-- end -->", re.DOTALL)  # of a table of docs/figures.json
 CODE = {"main.cpp", "examples.cpp", "CMakeLists.txt"}
 
 
@@ -30,26 +28,25 @@ def documents():
 def flat(text):
     """The text with its links as they are where all pages lie side by side. A link named by its file gets a name."""
     titles = dict(contents())
-    text = DATA.sub(lambda data: table(*data.groups()), ELSEWHERE.sub(r"\1", text))
-    text = MEASURED.sub(lambda data: table(data[1], "figures.json", measured(data[2])), text)
+    text = DATA.sub(table_of_file, ELSEWHERE.sub(r"\1", text))
+    text = SOME_ROWS.sub(with_all_rows, text)
     text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]) + link[3], text)
     return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
 
 
-def measured(name):
-    """The rows of a table of figures.json as CSV."""
-    found = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))[name]
-    text = io.StringIO()
-    rows = [[row, *cells] for row, cells in found["rows"].items()]
-    csv.writer(text, lineterminator="\n").writerows([found["head"], *rows])
-    return text.getvalue()
+def table_of_file(data):
+    """A folded table to sort (sort.js) in place of a link to a data file, and the link below it."""
+    return (f"\n<details><summary>{data[1]}</summary>\n\n:::{{csv-table}}\n:file: {data[2]}\n:header-rows: 1\n"
+            f":class: sortable\n:::\n\n[{data[2]}]({data[2]})\n\n</details>\n")  # fmt: skip
 
 
-def table(title, file, rows=""):
-    """A folded table to sort (sort.js) of a data file, or of rows of it, in place of a link to it."""
-    source = "" if rows else f":file: {file}\n"
-    return (f"\n<details><summary>{title.replace('`', '')}</summary>\n\n:::{{csv-table}}\n{source}:header-rows: 1\n"
-            f":class: sortable\n\n{rows}:::\n\n[{file}]({file})\n\n</details>\n")  # fmt: skip
+def with_all_rows(some):
+    """Some rows of a table, and the whole table below them, folded."""
+    table = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))[some[1]]
+    rows = [table["head"], ["---"] * len(table["head"]), *([name, *cells] for name, cells in table["rows"].items())]
+    lines = "\n".join(f"| {' | '.join(row)} |" for row in rows)
+    return (f"{some[0]}\n\n<details><summary>All {len(rows) - 2} rows, by {table['command']}</summary>\n\n"
+            f":::{{table}}\n:class: sortable\n\n{lines}\n:::\n\n</details>\n")  # fmt: skip
 
 
 def linked_files(page):

@@ -115,8 +115,8 @@ def test_a_link_that_is_named_by_its_file_gets_the_title_of_the_contents():
 
 
 def test_a_list_of_data_becomes_tables_to_sort():
-    made = pages.flat("- [all, `polish`](figures.json)\n- [times](data/benchmark_times.csv)\n")
-    assert made.count(":class: sortable") == 2 and "mesh,mean," in made and ":file: data/benchmark_times.csv" in made
+    made = pages.flat("- [times](data/benchmark_times.csv)\n\n<!-- figures: polish | face -->\n\n<!-- end -->\n")
+    assert made.count(":class: sortable") == 2 and "| surprised |" in made and ":file: data/benchmark_times.csv" in made
     assert all((ROOT / "docs" / name).exists() for name in pages.linked_files(ROOT / "docs" / "comparison.md"))
 
 
