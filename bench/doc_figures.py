@@ -5,8 +5,8 @@
     bench/doc_figures.py [measure] [TABLE ...]     measures into docs/figures.json, then writes the pages
     bench/doc_figures.py write                     writes the pages from docs/figures.json
 
-In a page a table stands between <!-- figures: NAME --> and <!-- end -->; a single figure of a table,
-TABLE/ROW/COLUMN, between <!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
+In a page a table stands between <!-- figures: NAME --> and <!-- end -->, or some of its rows between
+<!-- figures: NAME | ROW | ROW --> and <!-- end -->; a single figure of a table, TABLE/ROW/COLUMN, between <!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
 Rows whose meshes are not there keep what was measured before. bench/tests/test_docs_figures.py compares.
 """
 
@@ -58,10 +58,10 @@ def measure(names: list[str]) -> None:
             keep(name, table.head, rows)
 
 
-def markdown(table: dict) -> str:
-    """A measured table."""
+def markdown(table: dict, rows: list[str] | None = None) -> str:
+    """A measured table, or some of its rows."""
     lines = ["| " + " | ".join(table["head"]) + " |", "|" + " --- |" * len(table["head"])]
-    lines += [f"| {row} | " + " | ".join(cells) + " |" for row, cells in table["rows"].items()]
+    lines += [f"| {row} | " + " | ".join(table["rows"][row]) + " |" for row in rows or table["rows"]]
     return "\n".join(lines)
 
 
@@ -79,10 +79,11 @@ def filled(text: str, figures: dict) -> str:
 
     def place(match: re.Match) -> str:
         start, name, _, end = match.groups()
-        if name.split("/")[0] not in figures:
+        if re.split("/| ", name)[0] not in figures:
             return match[0]
         if "figures:" in start:
-            return f"{start}\n\n{markdown(figures[name])}\n\n{end}"
+            name, *rows = name.split(" | ")
+            return f"{start}\n\n{markdown(figures[name], rows)}\n\n{end}"
         return f"{start}{figure(figures, name)}{end}"
 
     return MARK.sub(place, text)

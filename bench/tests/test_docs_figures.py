@@ -59,7 +59,7 @@ def test_every_mark_is_closed_and_every_table_is_used():
     text = "\n".join(page.read_text(encoding="utf-8") for page in doc_figures.pages())
     starts = re.findall(r"<!-- figures?: (.*?) -->", text)
     assert len(starts) == len(doc_figures.MARK.findall(text)) == text.count("<!-- end -->")
-    assert {start.split("/")[0] for start in starts} == set(FIGURES)
+    assert {re.split("/| ", start)[0] for start in starts} == set(FIGURES)
     assert set(FIGURES) == set(TABLES) | MEASURED_ELSEWHERE
 
 
@@ -68,6 +68,8 @@ def test_a_changed_figure_is_seen():
     changed = json.loads(json.dumps(FIGURES))
     changed["quality"]["rows"]["face"][2] = "0.01"
     assert doc_figures.filled(page, changed) != page
+    row = "<!-- figures: quality | face -->\n\n{}\n\n<!-- end -->"
+    assert "| 0.01 |" in doc_figures.filled(row, changed) and doc_figures.filled(row, changed).count("\n| ") == 3
 
 
 def test_without_the_peer_the_last_measurement_is_printed(tmp_path, monkeypatch, capsys):
