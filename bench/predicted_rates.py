@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The factors by which a sweep lowers the error, predicted from the circles alone and measured (docs/method.md, "How
-fast"): CK, the first algorithm, GK step after step, and all loops at once."""
+fast", M12): CK, the first algorithm, GK step after step, and all loops at once."""
 
 import math
 import random

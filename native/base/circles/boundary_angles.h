@@ -24,9 +24,9 @@ VectorXd arc_length_angles(const VectorXd& edges);
 VectorXd vertex_weights(const VectorXd& edges);
 
 /// Moves the angles by the automorphism of the disk that brings their weighted mean point to 0 (the conformal
-/// barycentre, Douady and Earle 1986), by Newton's method. Then it turns the angles. If `reference` has the same size,
-/// they come as close to it as possible, else the first angle becomes 0. The result increases, and its first angle is
-/// in [-pi, pi).
+/// barycentre, Douady and Earle 1986; docs/method.md, M10), by Newton's method. Then it turns the angles. If
+/// `reference` has the same size, they come as close to it as possible, else the first angle becomes 0. The result
+/// increases, and its first angle is in [-pi, pi).
 /// @param weights (m) positive, sum 1
 VectorXd centered_angles(const VectorXd& angles, const VectorXd& weights, const VectorXd& reference = {});
 
