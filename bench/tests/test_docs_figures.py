@@ -17,8 +17,11 @@ import reproduce  # noqa: E402
 from doc_tables import TABLES  # noqa: E402
 
 FIGURES = doc_figures.load()
-# make reliability, make bench, make reproduce, bench/cortex.py
-MEASURED_ELSEWHERE = {"reliability", "commands", "cancel", "bff", "cortex", "cortex_lesions", "scans"}
+# Each has its command in the file.
+MEASURED_ELSEWHERE = {
+    "reliability", "commands", "cancel", "bff", "cortex", "cortex_lesions", "scans", "planar", "oracle",
+    "noise", "power",
+}  # fmt: skip
 CHEAP = {"quality", "polish", "balance", "limits", "same_shape", "faces", "distances"}
 LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
 NUMBER = re.compile(r"-?[\d,]+(?:\.\d+)?(?:e[-+]?\d+)?")
