@@ -1,4 +1,4 @@
-"""Each number of native/atlas/cost has its unit, meaning and source, as docs/developers/costs.md prints it, and a use."""
+"""Each number of native/atlas/cost has a unit, meaning, source and use, as docs/developers/costs.md prints it."""
 
 import functools
 import re
