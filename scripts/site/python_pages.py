@@ -9,7 +9,7 @@ import re
 import typing
 
 import koebe
-from docstrings import linked
+from docstrings import linked, parts
 from koebe import _report_entries
 from koebe.labs import fit as _fit
 from koebe.maps import result as _result
@@ -125,7 +125,10 @@ def entry(name):
     if inspect.isclass(one):
         arguments = "" if name in CALLED else "()"  # conf.py hides these
         others = "dict, ndarray, Mapping, Exception"  # whose members are not ours
-        return f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: {others}\n\n"
+        rows = parts(inspect.cleandoc(one.__doc__).splitlines())  # attributes already, as conf.py makes them
+        described = ", ".join(names for kind, names, _ in rows if kind == "row") or "-"
+        return (f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: {others}\n"
+                f"   :exclude-members: {described}\n\n")  # fmt: skip
     if callable(one):
         return f".. autofunction:: koebe.{name}\n\n"
     value = f"   :value: {one!r}\n" if isinstance(one, float) else ""

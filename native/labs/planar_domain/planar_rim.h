@@ -22,7 +22,7 @@ struct PlanarRim {
 
 /// @param points the corners of a polygon, three at least, the first one not repeated
 KOEBE_API PlanarRim polygon_rim(const std::vector<Complex>& points);
-/// @param half_axes positive @param turn of the first axis, radians
+/// @param first_half_axis positive @param second_half_axis positive @param turn of the first axis, radians
 KOEBE_API PlanarRim ellipse_rim(Complex center, double first_half_axis, double second_half_axis, double turn);
 
 /// One smooth piece of a rim, with the parameter s from 0 to 1. Complex s: the continuation off the curve.
