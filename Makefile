@@ -16,7 +16,7 @@ LABS := pytest==9.2.0 numpy==2.4.6 scikit-learn==1.9.1 scipy==1.17.1 trimesh==5.
         distributed==2026.8.0 nibabel==5.4.2 nbclient==0.11.0 ipykernel==7.4.0 \
         nilearn==0.14.1 pygeodesic==0.1.11
 # What the site is built with.
-SITE := sphinx==9.0.4 furo==2025.12.19 myst-nb==1.4.0 breathe==5.1.0 sphinx-copybutton==0.5.2 latex2mathml==3.81.1 numpy==2.4.6
+SITE := sphinx==9.0.4 furo==2025.12.19 myst-nb==1.4.0 breathe==5.1.0 sphinx-copybutton==0.5.2 sphinx-mathjax-offline==0.0.2 numpy==2.4.6
 # What ours is compared with, and what draws it.
 COMPARED := bpy==5.0.1 xatlas==0.0.11 matplotlib==3.11.2
 # Tools live in a virtual environment per Python: build/venv, build/venv-python3.13 ...

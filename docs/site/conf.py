@@ -11,18 +11,15 @@ sys.path[:0] = [str(ROOT / "scripts" / "site"), str(ROOT / "build" / "python")]
 
 import docstrings  # noqa: E402
 import python_pages  # noqa: E402
-from docutils import nodes  # noqa: E402
-from latex2mathml.converter import convert  # noqa: E402
 
 project = "Koebe UV"
 author = "The Koebe UV developers"
 release = subprocess.check_output([ROOT / "scripts" / "version.sh"], text=True).strip()
 
-extensions = ["myst_nb", "sphinx.ext.autodoc", "breathe", "sphinx_copybutton"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "breathe", "sphinx_copybutton", "sphinx-mathjax-offline"]
 exclude_patterns = ["code"]
 myst_heading_anchors = 4
 myst_enable_extensions = ["colon_fence", "dollarmath"]
-html_math_renderer = "mathml"  # browsers set it themselves: no script, and nothing is loaded from elsewhere
 nb_execution_mode = "off"
 suppress_warnings = ["mystnb.unknown_mime_type"]
 
@@ -70,18 +67,7 @@ def hide_arguments(app, what, name, obj, options, signature, returned):
     return signature, returned
 
 
-def write_formula(translator, node):
-    """$...$ and $$...$$ as MathML."""
-    if isinstance(node, nodes.math_block):
-        formula = convert(node.astext(), display="block")
-        translator.body.append(f'<div style="overflow-x: auto">{formula}</div>\n')
-    else:
-        translator.body.append(convert(node.astext()))
-    raise nodes.SkipNode
-
-
 def setup(app):
-    app.add_html_math_renderer("mathml", (write_formula, None), (write_formula, None))
     app.add_config_value("site_scripts", b"".join(path.read_bytes() for path in SCRIPTS), "env")  # reads all again
     app.connect("autodoc-process-docstring", write_docstring)
     app.connect("autodoc-process-signature", hide_arguments)
