@@ -1,5 +1,6 @@
 """The pages of docs/ as the site has them: side by side, README.md as the front page, and a gallery of all pictures."""
 
+import json
 import re
 from pathlib import Path
 
@@ -11,6 +12,7 @@ PLACE = re.compile(r"^(?:\.\./)*(?:docs/)?(?:developers/)?")
 FILE_NAME = re.compile(r"\[(?:docs/)?(?:developers/)?(\w+)\.(?:md|ipynb)\](\(\1\.)")
 CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
 PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
+SOME_ROWS = re.compile(r"<!-- figures: (\w+) \|.*?<!-- end -->", re.DOTALL)  # of a table of docs/figures.json
 CODE = {"main.cpp", "examples.cpp", "CMakeLists.txt"}
 
 
@@ -23,8 +25,18 @@ def documents():
 def flat(text):
     """The text with its links as they are where all pages lie side by side. A link named by its file gets a name."""
     titles = dict(contents())
+    text = SOME_ROWS.sub(with_all_rows, text)
     text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]) + link[3], text)
     return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
+
+
+def with_all_rows(some):
+    """Some rows of a table, and the whole table below them, folded."""
+    table = json.loads((ROOT / "docs" / "figures.json").read_text(encoding="utf-8"))[some[1]]
+    rows = [table["head"], ["---"] * len(table["head"]), *([name, *cells] for name, cells in table["rows"].items())]
+    lines = "\n".join(f"| {' | '.join(row)} |" for row in rows)
+    return (f"{some[0]}\n\n<details><summary>All {len(rows) - 2} rows, by {table['command']}</summary>\n\n"
+            f":::{{table}}\n:class: sortable\n\n{lines}\n:::\n\n</details>\n")  # fmt: skip
 
 
 def linked_files(page):
