@@ -6,7 +6,8 @@
     bench/doc_figures.py write                     writes the pages from docs/figures.json
 
 In a page a table stands between <!-- figures: NAME --> and <!-- end -->, or some of its rows between
-<!-- figures: NAME | ROW | ROW --> and <!-- end -->; a single figure of a table, TABLE/ROW/COLUMN, between <!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
+<!-- figures: NAME | ROW | ROW --> and <!-- end -->; a single figure of a table, TABLE/ROW/COLUMN, between
+<!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
 Rows whose meshes are not there keep what was measured before. bench/tests/test_docs_figures.py compares.
 """
 

@@ -26,8 +26,8 @@ SURFACES = (
     ("Fig. 11", "fig11_nefertiti_40k_5", 5, 80612),
     ("Fig. 12", "fig12_nefertiti_74k_9", 9, 146405),
 )
-HEAD = ["size of, method", "holes", "vertices", "faces", "converged", "steps", "mean roundness", "largest", "angle error",
-        "flipped", "time / condensed"]  # fmt: skip
+HEAD = ["size of, method", "holes", "vertices", "faces", "converged", "steps", "mean roundness", "largest",
+        "angle error", "flipped", "time / condensed"]  # fmt: skip
 RUNS = {
     "condensed": ("uniformize", "--method", "gk"),
     "GK mesh": ("uniformize", "--method", "gk", "--engine", "mesh"),
