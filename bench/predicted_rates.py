@@ -53,7 +53,7 @@ def turned_out(circles):
 
 
 def proved(circles):
-    """The factor below which docs/proof.md brings every sweep: 1 / t^2, t as large as it can be."""
+    """The factor below which docs/proof.md brings every sweep: 1 / t^2, t as large as P1 allows."""
     seen = turned_out(circles)
     return max((r + s) / abs(c - d) for k, (c, r) in enumerate(seen) for d, s in seen[:k]) ** 2
 
