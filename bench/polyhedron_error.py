@@ -6,7 +6,8 @@ of each mesh are then cut in four, in their own planes, again and again: the sam
     bench/doc_figures.py measure polyhedron
 
 The limit is the circle domain of the polyhedron. Its error is compared with its first variation (Hadamard's): chords
-instead of arcs move the rim inwards, by a twelfth of its geodesic curvature times the square of the chord in the mean.
+instead of arcs move the rim inwards, by a twelfth of its geodesic curvature times the square of the chord in the mean
+(docs/numerics.md, "The angles", N4).
 """
 
 from functools import cache

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The factors by which a sweep lowers the error, predicted from the circles alone and measured (docs/method.md, "How
-fast"): CK, the first algorithm, GK step after step, and all loops at once."""
+fast", M12): CK, the first algorithm, GK step after step, and all loops at once."""
 
 import math
 import random
@@ -53,7 +53,7 @@ def turned_out(circles):
 
 
 def proved(circles):
-    """The factor below which docs/proof.md brings every sweep: 1 / t^2, t as large as it can be."""
+    """The factor below which docs/proof.md brings every sweep: 1 / t^2, t as large as P1 allows."""
     seen = turned_out(circles)
     return max((r + s) / abs(c - d) for k, (c, r) in enumerate(seen) for d, s in seen[:k]) ** 2
 

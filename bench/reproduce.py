@@ -4,8 +4,9 @@
     bench/reproduce.py [--quick] [--publish]
 
 Leaves out/reproduce/*.md, *.json and *.svg and prints the tables. --quick: the figures, the rates and the smallest
-surface of the tables. --publish: the pictures go to docs/images/paper_*.svg too. The tables of docs/reproduction.md
-are `make figures`'s: bench/doc_figures.py measure table_1 table_2 rates predicted choices twin heads.
+surface of the tables. --publish: the pictures go to docs/images/paper_*.svg too, and the scans to docs/figures.json.
+The other tables of docs/reproduction.md are `make figures`'s: bench/doc_figures.py measure table_1 table_2 rates
+predicted choices twin heads.
 """
 
 import argparse
@@ -87,8 +88,9 @@ def main():
     if not options.quick:
         rows = scan_table.compare(SURFACES, 3)
         write("scans.json", json.dumps(rows, indent=1) + "\n")
-        write("scans.md", scan_table.markdown(rows))
-        print(scan_table.markdown(rows))
+        tell("scans", scan_table.HEAD, scan_table.table(rows))
+        if options.publish:
+            doc_figures.keep("scans", scan_table.HEAD, scan_table.table(rows), "make reproduce")
 
 
 if __name__ == "__main__":

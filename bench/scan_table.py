@@ -26,6 +26,8 @@ SURFACES = (
     ("Fig. 11", "fig11_nefertiti_40k_5", 5, 80612),
     ("Fig. 12", "fig12_nefertiti_74k_9", 9, 146405),
 )
+HEAD = ["size of, method", "holes", "vertices", "faces", "converged", "steps", "mean roundness", "largest",
+        "angle error", "flipped", "time / condensed"]  # fmt: skip
 RUNS = {
     "condensed": ("uniformize", "--method", "gk"),
     "GK mesh": ("uniformize", "--method", "gk", "--engine", "mesh"),
@@ -104,19 +106,14 @@ def result_cells(row):
     ]
 
 
-def markdown(rows):
-    """The table of all runs."""
-    lines = [
-        "| size of | holes | vertices | faces | method | converged | steps | mean roundness | largest | angle error | "
-        "flipped "
-        "| time / condensed |",
-        "|" + " --- |" * 12,
-    ]
-    size = {row["figure"]: f"{row['vertices']:,} | {row['faces']:,}" for row in rows if not row["stopped"]}
+def table(rows):
+    """Cells of all runs, by surface and method, for HEAD."""
+    cells = {}
     for row in rows:
-        start = f"| {row['figure']} | {row['holes']} | {size[row['figure']]} | {row['method']} "
+        name = f"{row['figure']}, {row['method']}"
         if row["stopped"]:
-            lines.append(start + f"| stopped after {LIMIT} s |" + " |" * 6)
-            continue
-        lines.append(start + "| " + " | ".join([*result_cells(row), f"{row['ratio']:.1f}"]) + " |")
-    return "\n".join(lines) + "\n"
+            cells[name] = [str(row["holes"]), "", "", f"stopped after {LIMIT} s", "", "", "", "", "", ""]
+        else:
+            sizes = [str(row["holes"]), f"{row['vertices']:,}", f"{row['faces']:,}"]
+            cells[name] = [*sizes, *result_cells(row), f"{row['ratio']:.1f}"]
+    return cells

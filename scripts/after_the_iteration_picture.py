@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/after_the_iteration.md: docs/images/after_the_iteration.svg. It needs `make build`, and NumPy.
+"""The picture of docs/method.md, "After the iteration": docs/images/after_the_iteration.svg.
 
-A face with open eyes and mouth, mapped six times: with each option of the page, and without. All maps have the top of
-the face as their point, so that it is up.
+It needs `make build`, and NumPy. A face with open eyes and mouth, mapped six times: with each option of the page, and
+without. All maps have the top of the face as their point, so that it is up.
 """
 
 import sys

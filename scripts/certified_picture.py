@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/guarantees.md, "Capacities and moduli are proved": docs/images/certified.svg.
+"""The picture of docs/reliability.md, "Capacities and moduli are proved": docs/images/certified.svg.
 
 A square in a square; how wide the enclosure of its capacity is, and how far its middle is from the exact value, against
 the number of triangles.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/guarantees.md, "The promise": docs/images/embedded_map.svg. NumPy alone.
+"""The picture of docs/reliability.md, "Why maps are one to one": docs/images/embedded_map.svg. NumPy alone.
 
 A coarse ring with a square hole: filled, by convex combination, its loop pulled round, and after a step too long.
 """

@@ -17,8 +17,11 @@ import reproduce  # noqa: E402
 from doc_tables import TABLES  # noqa: E402
 
 FIGURES = doc_figures.load()
-# make reliability, make bench, bench/cortex.py; figures of several pages (tests/python/test_docs_references.py)
-MEASURED_ELSEWHERE = {"reliability", "commands", "cancel", "bff", "cortex", "cortex_lesions", "shared"}
+# Each has its command in the file.
+MEASURED_ELSEWHERE = {
+    "reliability", "commands", "cancel", "bff", "cortex", "cortex_lesions", "scans", "planar", "oracle",
+    "noise", "power", "shared",
+}  # fmt: skip
 CHEAP = {"quality", "polish", "balance", "limits", "same_shape", "faces", "distances"}
 LARGE = re.compile(r"fig1?\d_|_40tight|mountain_|neutral")
 NUMBER = re.compile(r"-?[\d,]+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -123,12 +126,6 @@ def test_exact_domains_give_the_figures(row):
 # ---------------------------------------------------------------- docs/reproduction.md: samples of `make reproduce`
 
 
-def rows_of(page, start):
-    """The cells of the rows of a page's tables that start so."""
-    lines = (ROOT / "docs" / page).read_text(encoding="utf-8").splitlines()
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith(f"| {start} |")]
-
-
 def bare(cell):
     return cell.removesuffix("°")
 
@@ -139,9 +136,9 @@ def test_the_comparison_of_methods_holds(figure, name, holes, faces, tmp_path, m
     if not scan.exists():
         pytest.skip("this scan is not in the repository")
     monkeypatch.setattr(reproduce, "OUT", tmp_path)
-    printed = {row[4]: row for row in rows_of("reproduction.md", figure) if len(row) == 12}
+    printed = FIGURES["scans"]["rows"][f"{figure}, condensed"]
     measured = reproduce.result_cells(reproduce.measure(scan, reproduce.RUNS["condensed"], 1))
-    assert all(agree(*map(bare, pair)) for pair in zip(printed["condensed"][5:11], measured))
+    assert all(agree(*map(bare, pair)) for pair in zip(printed[3:9], measured))
 
 
 def test_the_rates_of_the_theorems_hold():

@@ -53,7 +53,7 @@ def test_no_sweep_is_slower_than_the_proof_says():
         for values in predicted_rates.predicted(circles).values():
             assert abs(values[0]) < bounds[-1] < 1.0
     page = (ROOT / "docs" / "proof.md").read_text(encoding="utf-8")
-    assert f"1/t² is {min(bounds):.2f} to {max(bounds):.2f}" in page
+    assert f"$t^{{-2}}$ is {min(bounds):.2f} to {max(bounds):.2f}" in page
 
 
 ORDERS = {

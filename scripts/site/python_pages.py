@@ -119,21 +119,16 @@ def first_sentence(name):
     return re.split(r"(?<=[^.]\.)\s", text)[0]
 
 
-def described(kind):
-    """The members of a class that the rows of its docstring describe."""
-    rows = [names for one, names, text in parts((inspect.getdoc(kind) or "").splitlines())
-            if one == "row" and not text[0].startswith("as ")]  # fmt: skip
-    return [name for names in rows for name in names.split(", ")]
-
-
 def entry(name):
     """The entry of a public name."""
     one = getattr(koebe, name)
     if inspect.isclass(one):
         arguments = "" if name in CALLED else "()"  # conf.py hides these
         others = "dict, ndarray, Mapping, Exception"  # whose members are not ours
-        kept = f"   :members:\n   :inherited-members: {others}\n   :exclude-members: {', '.join(described(one))}\n"
-        return f".. autoclass:: koebe.{name}{arguments}\n{kept}\n"
+        rows = parts(inspect.cleandoc(one.__doc__).splitlines())  # attributes already, as conf.py makes them
+        described = ", ".join(names for kind, names, _ in rows if kind == "row") or "-"
+        return (f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: {others}\n"
+                f"   :exclude-members: {described}\n\n")  # fmt: skip
     if callable(one):
         return f".. autofunction:: koebe.{name}\n\n"
     value = f"   :value: {one!r}\n" if isinstance(one, float) else ""

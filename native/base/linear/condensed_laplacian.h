@@ -11,7 +11,8 @@
 namespace koebe {
 
 /// K + diag(0 on I, 1 on B) = L L' with the boundary B ordered last. The trailing block L_BB gives Sigma = K_BB - K_BI
-/// K_II^-1 K_IB = L_BB L_BB' - 1, and the leading part is the factor of K_II (docs/method.md, "The condensed engine").
+/// K_II^-1 K_IB = L_BB L_BB' - 1, and the leading part is the factor of K_II (docs/method.md, "The condensed engine",
+/// M5).
 ///
 /// A part of the boundary can be grounded: this part is held at 0, and Sigma covers only the other boundary vertices.
 /// Then the order of the boundary cannot change.

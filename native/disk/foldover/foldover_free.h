@@ -37,10 +37,11 @@ struct FoldoverResult {
 /// map from the reference to the image, chi(D, eps) = (D + sqrt(eps^2 + D^2)) / 2, and eps shrinks as the worst
 /// determinant rises. Pulled vertices add pull ((|z - c| - r) / r)^2, or pull (|z - c| / r)^2 if pulled to centres.
 /// (Garanzha, Kaporin, Kudryavtseva, Protais, Ray and Sokolov 2021, "Foldover-free maps in 50 lines of code", sections
-/// 2 and 3.) Uses Newton's method on Hessians made positive semidefinite face by face. With a power s > 1 each term t
-/// becomes ((t / 2 - 1 + delta) / c)^s. With theta = 0 this is ((2 |mu|^2 / (1 - |mu|^2) + delta) / c)^s. With s > 1
-/// single held vertices change the minimum on fine meshes, too. A larger s lowers the greatest |mu| more; delta keeps
-/// the Hessian regular, and a c near the largest t / 2 - 1 keeps large powers in the range of doubles.
+/// 2 and 3; docs/numerics.md, "Flips", N5.) Uses Newton's method on Hessians made positive semidefinite face by face.
+/// With a power s > 1 each term t becomes ((t / 2 - 1 + delta) / c)^s. With theta = 0 this is ((2 |mu|^2 / (1 - |mu|^2)
+/// + delta) / c)^s. With s > 1 single held vertices change the minimum on fine meshes, too. A larger s lowers the
+/// greatest |mu| more; delta keeps the Hessian regular, and a c near the largest t / 2 - 1 keeps large powers in the
+/// range of doubles.
 /// @return problem.points holds the result, with or without foldovers
 FoldoverResult minimize_foldover_free(FoldoverProblem& problem, const ExecutionContext& context,
                                       const FoldoverOptions& options = {});

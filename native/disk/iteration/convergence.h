@@ -16,8 +16,8 @@ struct CircleState {
 /// The circle of each loop's image by least squares, and how round the images are.
 CircleState circle_state(const std::vector<VectorXcd>& images);
 
-/// (sum |c' - c|^2 + |r' - r|^2)^(1/2), a length: the root of the number in the paper's termination test (section 4.4).
-/// The first state is compared with circles of radius 0 at the origin.
+/// (sum |c' - c|^2 + |r' - r|^2)^(1/2), a length: the root of the number in the paper's termination test (section 4.4;
+/// docs/method.md, M11). The first state is compared with circles of radius 0 at the origin.
 double circle_change(const CircleState& before, const CircleState& after);
 
 /// Whether the circles moved by less than the tolerance in a sweep. With two loops one step is exact, as it does not

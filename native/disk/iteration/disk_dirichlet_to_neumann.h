@@ -13,10 +13,10 @@ namespace koebe {
 /// order.
 ///
 /// T = S' G S - P. G is the Galerkin matrix of |d/d theta| on periodic hat functions (docs/method.md, "The condensed
-/// engine"): G_ab = W_(a-1)(b-1) - W_(a-1)b - W_a(b-1) + W_ab with W_ef = -(1/pi) times the mean of ln |2 sin((s - t) /
-/// 2)| for s on arc e = [theta_e, theta_(e+1)] and t on arc f. S corrects the error of hat functions, k^2 d^2 / 6 of a
-/// mode. P subtracts the segments between the circle and the chords, d_e / 6 (u_e - u_(e+1))^2 for each
-/// (docs/numerics.md, "The angles").
+/// engine", M6 and M7): G_ab = W_(a-1)(b-1) - W_(a-1)b - W_a(b-1) + W_ab with W_ef = -(1/pi) times the mean of ln |2
+/// sin((s - t) / 2)| for s on arc e = [theta_e, theta_(e+1)] and t on arc f. S corrects the error of hat functions, k^2
+/// d^2 / 6 of a mode. P subtracts the segments between the circle and the chords, d_e / 6 (u_e - u_(e+1))^2 for each
+/// (docs/numerics.md, "The angles", N2).
 ///
 /// @param angles (m >= 2) radians, strictly increasing, spanning less than 2 pi
 MatrixXd disk_dirichlet_to_neumann(const VectorXd& angles);

@@ -9,7 +9,8 @@
 namespace koebe {
 
 /// One angle per boundary vertex, and A for these angles: the Laplacian of the surface with the disks T_k in all its
-/// holes (docs/method.md, "The condensed engine"). A step opens loops by removing their disks; the others stay filled.
+/// holes (docs/method.md, "The condensed engine", M8). A step opens loops by removing their disks; the others stay
+/// filled.
 class FilledState {
 public:
     virtual ~FilledState() = default;

@@ -33,7 +33,7 @@ NearModule near_module(const Vertices& vertices, const Surface& surface, int thr
 ///
 /// The capacities are the periods of the surface's double. By Torelli's theorem (Weil 1957) they determine the surface
 /// up to its mirror image. So m or its mirror image is the surface's module. A domain of three circles is its own
-/// mirror image. Between four circles the mirror image has -x_3 (docs/guarantees.md).
+/// mirror image. Between four circles the mirror image has -x_3 (docs/reliability.md).
 ///
 /// @param near moved towards the module by Newton's method
 /// @param capacities those of loop_condensers @return as near.numbers

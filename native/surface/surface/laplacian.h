@@ -20,8 +20,8 @@ KOEBE_API EdgeLengths edge_lengths(const PlanarPoints& points, const Triangles& 
 EdgeLengths half_cotangents(const EdgeLengths& lengths);
 
 /// The stiffness matrix K of the Dirichlet energy: u' K u = integral |grad u|^2, dimensionless, (V, V), positive
-/// semidefinite, K 1 = 0, stored with its upper and its lower triangle. K_ij = -(cot alpha + cot beta) / 2. Unused
-/// vertices get an empty row.
+/// semidefinite, K 1 = 0, stored with its upper and its lower triangle. K_ij = -(cot alpha + cot beta) / 2
+/// (docs/method.md, M2). Unused vertices get an empty row.
 SparseMatrix cotan_laplacian(const Triangles& triangles, const EdgeLengths& half_cotangents, Index vertex_count);
 
 /// Knows the places of each half-edge's weights in a Laplacian, so that new weights on the same triangles go in fast.

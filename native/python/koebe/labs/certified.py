@@ -86,7 +86,7 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     between      pairs of lists of loops, at 0 and at 1, numbered as in boundary_loops; no flux runs through the other
                  loops. None: each loop at 1 and all others at 0, then each pair
     mask, progress, cancel    as for `uniformize`
-    The proof: docs/guarantees.md. Raises InputError (OptionError for an option; also for faces without area),
+    The proof: docs/reliability.md. Raises InputError (OptionError for an option; also for faces without area),
     TopologyError, SolverError, Cancelled, or MemoryError.
 
     >>> import koebe
