@@ -193,3 +193,21 @@ def test_holes_that_meet_at_a_point_neither_bend_nor_cut_a_plate():
     triangles = quads[[divmod(k, 12) not in holes for k in range(144)]][:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
     result = koebe.parts(turned(np.stack([u, v, 0 * u], axis=-1), 3), triangles)
     assert (len(result.parts), result.whole, result.cut_length, result.flipped) == (1, 1.0, 0.0, 0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_slivers_that_flip_by_rounding_bend_no_plate(seed):
+    # Every second vertex of an edge is off its line by less than 32 bits can store.
+    random = np.random.default_rng(seed)
+    off = np.where(np.arange(13) % 2 == 1, 1e-10, 0.0)
+    line = np.stack([np.linspace(0.0, 2.0, 13), off, 0.0 * off], axis=-1)
+    vertices = turned(np.concatenate([line, [[random.uniform(0.5, 1.5), 1.0, 0.0]]]), seed)
+    slivers = [[k, k + 2, k + 1] for k in range(0, 12, 2)]
+    triangles = np.array([[k, k + 1, 13] for k in range(12)] + slivers)
+    result = koebe.parts(vertices, triangles)
+    size = np.sqrt(result.coverage)  # the surface has the area 1
+    assert (len(result.parts), result.flipped, result.overlaps) == (1, 0, 0)
+    for k in range(3):
+        length = np.linalg.norm(vertices[triangles[:, k]] - vertices[triangles[:, k - 1]], axis=1)
+        stored = np.linalg.norm(result.uv[:, k] - result.uv[:, k - 1], axis=1)
+        assert np.abs(stored - size * length).max() < 1e-5

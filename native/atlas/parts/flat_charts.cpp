@@ -249,6 +249,7 @@ private:
     void settle_mixed(const SeamedMesh& chart)
     {
         const std::vector<Index> planar = planar_pieces(chart);
+        const std::vector<char> curved = curved_vertices(chart);
         const std::size_t count = static_cast<std::size_t>(std::ranges::max(planar)) + 1;
         std::vector<double> area(count), outline(count, 0.0), largest(count, 0.0);
         std::map<std::pair<Index, Index>, double> borders;
@@ -288,10 +289,39 @@ private:
         for (const SeamedMesh& piece : cut_between_groups(chart)) {
             if (settle(piece, 0)) continue;
             for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
-            for (const SeamedMesh& strip : cut_between_groups(piece))
-                if (looseness(strip, piece) > tolerance::rolled_outline || !settle(strip, 0))
-                    charts_.rest.insert(charts_.rest.end(), strip.face.begin(), strip.face.end());
+            for (const SeamedMesh& strip : cut_between_groups(piece)) {
+                if (looseness(strip, piece) <= tolerance::rolled_outline && settle(strip, 0)) continue;
+                // Large facets between flat vertices are no ball, and stay flat: a cylinder beside faces of any kind.
+                const bool is_flat = curved_share(strip, chart, curved) <= tolerance::rolled_outline;
+                for (const Index f : strip.face)
+                    group_[f] = is_flat && plane(f).area >= tuning::small_area * surface_.areas.sum() ? planar_[f] : -1;
+                for (const SeamedMesh& facet : cut_between_groups(strip))
+                    if (group_[facet.face.front()] < 0 || !settle(facet, 0))
+                        charts_.rest.insert(charts_.rest.end(), facet.face.begin(), facet.face.end());
+            }
         }
+    }
+
+    /// (fans of the chart) 1 for inner vertices round which the chart is not flat.
+    std::vector<char> curved_vertices(const SeamedMesh& chart) const
+    {
+        std::vector<char> curved(static_cast<std::size_t>(chart.fan_count), 0);
+        for (const Index h : tips_of(chart)) curved[origin(chart.fans, h)] = 1;
+        return curved;
+    }
+
+    /// The share of the vertices on the outline of a facet round which its chart is curved: all on a ball, and none on
+    /// a cylinder.
+    double curved_share(const SeamedMesh& facet, const SeamedMesh& chart, const std::vector<char>& curved) const
+    {
+        double all = 0.0, found = 0.0;
+        for (Index h = 0; h < facet.halfedge_count(); ++h) {
+            if (facet.twin[h] != no_twin) continue;
+            const auto at = std::ranges::lower_bound(chart.face, facet.face[face_of(h)]) - chart.face.begin();
+            all += 1.0;
+            found += curved[chart.fans(at, h % 3)];
+        }
+        return found / all;
     }
 
     /// The share of a strip's outline along which its piece goes on.
