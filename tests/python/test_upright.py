@@ -211,3 +211,21 @@ def test_slivers_that_flip_by_rounding_bend_no_plate(seed):
         length = np.linalg.norm(vertices[triangles[:, k]] - vertices[triangles[:, k - 1]], axis=1)
         stored = np.linalg.norm(result.uv[:, k] - result.uv[:, k - 1], axis=1)
         assert np.abs(stored - size * length).max() < 1e-5
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, 4])
+def test_faces_that_meet_in_t_junctions_stay_flat_and_whole(seed):
+    # A folded sheet with vertices in the middle of edges, which only the face on one side has.
+    random = np.random.default_rng(seed)
+    u, v, quads = grid(8, 6)
+    vertices = np.stack([np.minimum(u, 0.75), v, np.maximum(0.0, u - 0.75)], axis=-1)
+    triangles, count = triangles_of(quads).tolist(), len(vertices)
+    for _ in range(6):
+        face, k = triangles[random.integers(len(triangles))], random.integers(3)
+        start, end, last = face[k], face[(k + 1) % 3], face[(k + 2) % 3]
+        if max(face) < count:
+            triangles.remove(face)
+            triangles += [[start, len(vertices), last], [len(vertices), end, last]]
+            vertices = np.concatenate([vertices, [0.5 * (vertices[start] + vertices[end])]])
+    result = koebe.parts(turned(vertices, 2), np.array(triangles))
+    assert (result.whole, result.flipped, result.overlaps) == (1.0, 0, 0) and result.regions >= 2

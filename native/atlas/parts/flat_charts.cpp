@@ -24,11 +24,12 @@
 namespace koebe {
 namespace {
 
-constexpr double flat_angle = 1e-3;     // radians by which the angles round a flat vertex may miss a full turn
-constexpr double same_place = 1e-5;     // in roots of the surface's area
-constexpr double most_single = 0.75;    // of a chart's area, in faces that are alone in their planes
-constexpr double plate_to_strip = 2.0;  // a plate is so many times larger than its neighbours
-constexpr double narrow_gap = 1e-3;     // where a chart touches itself, over the least height of a face there
+constexpr double flat_angle = 1e-3;         // radians by which the angles round a flat vertex may miss a full turn
+constexpr double same_place = 1e-5;         // in roots of the surface's area
+constexpr double most_single = 0.75;        // of a chart's area, in faces that are alone in their planes
+constexpr double plate_to_strip = 2.0;      // a plate is so many times larger than its neighbours
+constexpr std::size_t longest_crack = 100;  // vertices round a crack between faces that meet in T-junctions
+constexpr double narrow_gap = 1e-3;         // where a chart touches itself, over the least height of a face there
 
 class ChartLayer {
 public:
@@ -358,8 +359,22 @@ private:
     SeamedMesh& net_ = charts_.net;
 };
 
-/// (V) 1 for boundary vertices where the surface touches itself: holes may meet at a point.
-std::vector<char> touching(const FlatPart& part)
+/// Whether a vertex of a loop lies on an edge of it elsewhere: a face has it, and the face beside it has not.
+bool lies_on_edge(const FlatPart& part, const VertexLoop& loop, Index v, double near)
+{
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Index a = loop[i], b = loop[(i + 1) % loop.size()];
+        if (a == v || b == v) continue;
+        const Eigen::RowVector2d edge = part.points.row(b) - part.points.row(a),
+                                 arm = part.points.row(v) - part.points.row(a);
+        const double along = arm.dot(edge), square = edge.squaredNorm();
+        if (along > 0.0 && along < square && (arm - along / square * edge).norm() < near) return true;
+    }
+    return false;
+}
+
+/// (V) 1 for boundary vertices where the surface touches itself: holes may meet at a point, and cracks have no width.
+std::vector<char> touching(const FlatPart& part, double near)
 {
     std::map<std::array<double, 3>, Index> first;
     std::vector<char> touches(static_cast<std::size_t>(part.surface.vertex_count), 0);
@@ -369,6 +384,7 @@ std::vector<char> touching(const FlatPart& part)
                 first.try_emplace({part.vertices(v, 0), part.vertices(v, 1), part.vertices(v, 2)}, v).first;
             // The two sides of a cut are one vertex of the surface, and stay where they are.
             if (part.original[v] != part.original[found->second]) touches[v] = touches[found->second] = 1;
+            if (loop.size() <= longest_crack && lies_on_edge(part, loop, v, near)) touches[v] = 1;
         }
     return touches;
 }
@@ -406,7 +422,7 @@ std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& c
     } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
         return {};
     }
-    if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part), narrow_gap)) return {};
+    if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part, charts.near), narrow_gap)) return {};
     if (!survives_storing(part)) return {};
     part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
     part.held.assign(mesh.fan_count, 0);

@@ -25,7 +25,7 @@ constexpr double next_scale = 0.95;  // times the last while nothing fits, by th
 constexpr double least_factor = 0.8;
 constexpr int most_scales = 600;
 constexpr double first_step = 0.04, last_step = 0.0005;  // larger by that share, halved where that has no room,
-constexpr double last_step_of_many = 0.008;
+constexpr double last_step_of_many = 0.002;
 constexpr std::size_t islands_on_shelves = 1000;  // so many islands are packed by shelf_packing.h
 constexpr double least_gain = 0.002;              // what a further attempt has to bring
 constexpr int attempts_an_order = 24;             // before a new order is begun
