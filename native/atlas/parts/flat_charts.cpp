@@ -8,6 +8,8 @@
 #include "parts/darts.h"
 #include "parts/regions.h"
 #include "parts/tension.h"
+#include "planar/boundary_crossings.h"
+#include "surface/loop_edges.h"
 
 #include <Eigen/Geometry>
 
@@ -359,6 +361,13 @@ private:
     SeamedMesh& net_ = charts_.net;
 };
 
+/// Whether a loop encloses nothing, where faces meet in T-junctions.
+bool is_crack(const FlatPart& part, const VertexLoop& loop, double near)
+{
+    const double length = loop_edges(part.vertices, loop).sum();
+    return loop.size() <= longest_crack && std::abs(enclosed_area(loop, part.points)) < near * length;
+}
+
 /// Whether a vertex of a loop lies on an edge of it elsewhere: a face has it, and the face beside it has not.
 bool lies_on_edge(const FlatPart& part, const VertexLoop& loop, Index v, double near)
 {
@@ -378,14 +387,16 @@ std::vector<char> touching(const FlatPart& part, double near)
 {
     std::map<std::array<double, 3>, Index> first;
     std::vector<char> touches(static_cast<std::size_t>(part.surface.vertex_count), 0);
-    for (const VertexLoop& loop : part.surface.loops)
+    for (const VertexLoop& loop : part.surface.loops) {
+        const bool crack = is_crack(part, loop, near);
         for (const Index v : loop) {
             const auto found =
                 first.try_emplace({part.vertices(v, 0), part.vertices(v, 1), part.vertices(v, 2)}, v).first;
             // The two sides of a cut are one vertex of the surface, and stay where they are.
             if (part.original[v] != part.original[found->second]) touches[v] = touches[found->second] = 1;
-            if (loop.size() <= longest_crack && lies_on_edge(part, loop, v, near)) touches[v] = 1;
+            if (crack && lies_on_edge(part, loop, v, near)) touches[v] = 1;
         }
+    }
     return touches;
 }
 

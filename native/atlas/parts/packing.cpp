@@ -39,7 +39,7 @@ constexpr std::int64_t fewest_words = 100'000'000, most_words = 200'000'000;
 constexpr std::size_t few_islands = 3;   // other turns are tried for so few islands,
 constexpr double held = 0.8;             // or if one is that long, in sides of the square, in the first packing
 constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that
-constexpr double worth_one_turn = 0.95;  // times the scale: less is given up so that equal islands lie alike
+constexpr double worth_one_turn = 0.98;  // times the scale: less is given up so that equal islands lie alike
 constexpr double least_scale = 1e-4;     // of the first one that is tried, beside islands that keep their place
 
 enum class Rule { lowest_top, lowest, smallest_square };

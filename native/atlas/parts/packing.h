@@ -51,7 +51,7 @@ struct PackingSite {
 /// Puts islands into the unit square, as large as it can. No island is mirrored. Each island is turned so that its
 /// smallest enclosing rectangle lies along the axes, unless the island already lies along them. Of the quarter turns
 /// the one with `up` nearest to up is taken where it costs no room. Islands
-/// that are alike lie in one turn where that makes all islands smaller by at most 5 %. Other turns are used only
+/// that are alike lie in one turn where that makes all islands smaller by at most 2 %. Other turns are used only
 /// where they make all islands larger by 2.5 %. Islands that lie along the axes already keep to quarter turns. Outlines
 /// are drawn on a grid of cells, with half the margin round them. Large islands are placed first, each in the lowest
 /// free place; small islands go into hollows and holes. Several orders and rules are tried. Up to 100 islands are then
