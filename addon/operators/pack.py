@@ -36,9 +36,7 @@ class UV_OT_koebe_pack(LayerRun, bpy.types.Operator):
 
     def _job(self, context: bpy.types.Context) -> PackJob:
         options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale,
-                   "seconds": self.seconds or None}  # fmt: skip
-        if self.keep_places == "NONE":  # the free space is that of one tile
-            options["tiles"] = max(1, self.tiles)
+                   "tiles": max(1, self.tiles), "seconds": self.seconds or None}  # fmt: skip
         job = PackJob(native_package.load(), self.layer, context.mode == "EDIT_MESH", self.keep_places, options)
         return self._read(context, job)
 

@@ -93,9 +93,9 @@ def square(at, side=1.0):
 
 
 def test_locked_islands_keep_their_place_and_the_others_go_into_the_free_space():
-    """Some locked islands lie on the square in part, one around it, and one far away."""
+    """Some locked islands lie on the tiles in part, one around them, and one far away."""
     rng = np.random.default_rng(5)
-    for _ in range(6):
+    for tiles in (1, 1, 1, 1, 2, 3):
         kept = [(w / 40 + complex(*rng.uniform(0, 1, 2)) - 1, t) for w, t in convex_islands(rng, 4)]
         frame = np.array([-9, 9 - 9j, 9 + 9j, -9 + 9j, -9 - 9j])
         kept.append((np.array([-9 - 9j, 9 - 9j, 0.5 - 0.2j]), np.array([[0, 1, 2]])))
@@ -104,11 +104,13 @@ def test_locked_islands_keep_their_place_and_the_others_go_into_the_free_space()
         vertices, triangles, uv = layer_of(kept + free)
         count = sum(len(t) for _, t in kept)
         locked = np.arange(len(triangles)) < count
-        result = koebe.pack(vertices, triangles, uv=uv, locked=locked, margin=4, pixels=512)
+        result = koebe.pack(vertices, triangles, uv=uv, locked=locked, margin=4, pixels=512, tiles=tiles)
         assert [island["locked"] for island in result.islands] == [k < len(kept) for k in range(len(kept + free))]
         assert np.array_equal(result.uv[:count], uv[:count]) and 0 < result.scale <= 1 + 1e-9
         moved = result.uv[count:]
-        assert moved.min() > 0 and moved.max() < 1
+        assert moved.min() > 0 and moved[..., 1].max() < 1 and result.tiles <= tiles
+        tile = np.floor(moved[..., 0])
+        assert np.array_equal(tile.min(axis=1), tile.max(axis=1)) and tile.max() < tiles
         outlines = [(result.uv @ [1, 1j])[result.island == k] for k in range(len(kept + free))]
         places = [np.r_[corners[:, 0][:1], corners[:, 1], corners[-1:, 2]] for corners in outlines]
         apart = [distance(places[i], places[k]) for k in range(len(kept), len(places)) for i in range(k)]
@@ -133,8 +135,10 @@ def test_locked_islands_that_leave_no_room_are_told():
     locked = [True, True, False, False]
     with pytest.raises(koebe.InputError, match="leave no room"):
         koebe.pack(vertices, triangles, uv=uv, locked=locked)
-    with pytest.raises(koebe.InputError, match="tiles = 1"):
-        koebe.pack(vertices, triangles, uv=uv, locked=locked, tiles=2)
+    with pytest.raises(koebe.InputError, match="leave no room"):
+        koebe.pack(vertices, triangles, uv=uv, locked=locked, tiles=2)  # it covers both
+    result = koebe.pack(vertices, triangles, uv=uv, locked=locked, tiles=3)
+    assert result.tiles == 3 and (result.uv[2:] @ [1, 1j] - 2).real.min() > 0 and result.uv[2:].max() < 3
     with pytest.raises(koebe.InputError, match="bool"):
         koebe.pack(vertices, triangles, uv=uv, locked=[1, 1, 0])
     whole = koebe.pack(vertices, triangles, uv=uv, locked=[True] * 4)

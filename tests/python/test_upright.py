@@ -193,3 +193,39 @@ def test_holes_that_meet_at_a_point_neither_bend_nor_cut_a_plate():
     triangles = quads[[divmod(k, 12) not in holes for k in range(144)]][:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
     result = koebe.parts(turned(np.stack([u, v, 0 * u], axis=-1), 3), triangles)
     assert (len(result.parts), result.whole, result.cut_length, result.flipped) == (1, 1.0, 0.0, 0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_slivers_that_flip_by_rounding_bend_no_plate(seed):
+    # Every second vertex of an edge is off its line by less than 32 bits can store.
+    random = np.random.default_rng(seed)
+    off = np.where(np.arange(13) % 2 == 1, 1e-10, 0.0)
+    line = np.stack([np.linspace(0.0, 2.0, 13), off, 0.0 * off], axis=-1)
+    vertices = turned(np.concatenate([line, [[random.uniform(0.5, 1.5), 1.0, 0.0]]]), seed)
+    slivers = [[k, k + 2, k + 1] for k in range(0, 12, 2)]
+    triangles = np.array([[k, k + 1, 13] for k in range(12)] + slivers)
+    result = koebe.parts(vertices, triangles)
+    size = np.sqrt(result.coverage)  # the surface has the area 1
+    assert (len(result.parts), result.flipped, result.overlaps) == (1, 0, 0)
+    for k in range(3):
+        length = np.linalg.norm(vertices[triangles[:, k]] - vertices[triangles[:, k - 1]], axis=1)
+        stored = np.linalg.norm(result.uv[:, k] - result.uv[:, k - 1], axis=1)
+        assert np.abs(stored - size * length).max() < 1e-5
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, 4])
+def test_faces_that_meet_in_t_junctions_stay_flat_and_whole(seed):
+    # A folded sheet with vertices in the middle of edges, which only the face on one side has.
+    random = np.random.default_rng(seed)
+    u, v, quads = grid(8, 6)
+    vertices = np.stack([np.minimum(u, 0.75), v, np.maximum(0.0, u - 0.75)], axis=-1)
+    triangles, count = triangles_of(quads).tolist(), len(vertices)
+    for _ in range(6):
+        face, k = triangles[random.integers(len(triangles))], random.integers(3)
+        start, end, last = face[k], face[(k + 1) % 3], face[(k + 2) % 3]
+        if max(face) < count:
+            triangles.remove(face)
+            triangles += [[start, len(vertices), last], [len(vertices), end, last]]
+            vertices = np.concatenate([vertices, [0.5 * (vertices[start] + vertices[end])]])
+    result = koebe.parts(turned(vertices, 2), np.array(triangles))
+    assert (result.whole, result.flipped, result.overlaps) == (1.0, 0, 0) and result.regions >= 2

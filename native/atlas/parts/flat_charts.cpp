@@ -8,6 +8,8 @@
 #include "parts/darts.h"
 #include "parts/regions.h"
 #include "parts/tension.h"
+#include "planar/boundary_crossings.h"
+#include "surface/loop_edges.h"
 
 #include <Eigen/Geometry>
 
@@ -24,11 +26,12 @@
 namespace koebe {
 namespace {
 
-constexpr double flat_angle = 1e-3;     // radians by which the angles round a flat vertex may miss a full turn
-constexpr double same_place = 1e-5;     // in roots of the surface's area
-constexpr double most_single = 0.75;    // of a chart's area, in faces that are alone in their planes
-constexpr double plate_to_strip = 2.0;  // a plate is so many times larger than its neighbours
-constexpr double narrow_gap = 1e-3;     // where a chart touches itself, over the least height of a face there
+constexpr double flat_angle = 1e-3;         // radians by which the angles round a flat vertex may miss a full turn
+constexpr double same_place = 1e-5;         // in roots of the surface's area
+constexpr double most_single = 0.75;        // of a chart's area, in faces that are alone in their planes
+constexpr double plate_to_strip = 2.0;      // a plate is so many times larger than its neighbours
+constexpr std::size_t longest_crack = 100;  // vertices round a crack between faces that meet in T-junctions
+constexpr double narrow_gap = 1e-3;         // where a chart touches itself, over the least height of a face there
 
 class ChartLayer {
 public:
@@ -249,6 +252,7 @@ private:
     void settle_mixed(const SeamedMesh& chart)
     {
         const std::vector<Index> planar = planar_pieces(chart);
+        const std::vector<char> curved = curved_vertices(chart);
         const std::size_t count = static_cast<std::size_t>(std::ranges::max(planar)) + 1;
         std::vector<double> area(count), outline(count, 0.0), largest(count, 0.0);
         std::map<std::pair<Index, Index>, double> borders;
@@ -288,10 +292,39 @@ private:
         for (const SeamedMesh& piece : cut_between_groups(chart)) {
             if (settle(piece, 0)) continue;
             for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
-            for (const SeamedMesh& strip : cut_between_groups(piece))
-                if (looseness(strip, piece) > tolerance::rolled_outline || !settle(strip, 0))
-                    charts_.rest.insert(charts_.rest.end(), strip.face.begin(), strip.face.end());
+            for (const SeamedMesh& strip : cut_between_groups(piece)) {
+                if (looseness(strip, piece) <= tolerance::rolled_outline && settle(strip, 0)) continue;
+                // Large facets between flat vertices are no ball, and stay flat: a cylinder beside faces of any kind.
+                const bool is_flat = curved_share(strip, chart, curved) <= tolerance::rolled_outline;
+                for (const Index f : strip.face)
+                    group_[f] = is_flat && plane(f).area >= tuning::small_area * surface_.areas.sum() ? planar_[f] : -1;
+                for (const SeamedMesh& facet : cut_between_groups(strip))
+                    if (group_[facet.face.front()] < 0 || !settle(facet, 0))
+                        charts_.rest.insert(charts_.rest.end(), facet.face.begin(), facet.face.end());
+            }
         }
+    }
+
+    /// (fans of the chart) 1 for inner vertices round which the chart is not flat.
+    std::vector<char> curved_vertices(const SeamedMesh& chart) const
+    {
+        std::vector<char> curved(static_cast<std::size_t>(chart.fan_count), 0);
+        for (const Index h : tips_of(chart)) curved[origin(chart.fans, h)] = 1;
+        return curved;
+    }
+
+    /// The share of the vertices on the outline of a facet round which its chart is curved: all on a ball, and none on
+    /// a cylinder.
+    double curved_share(const SeamedMesh& facet, const SeamedMesh& chart, const std::vector<char>& curved) const
+    {
+        double all = 0.0, found = 0.0;
+        for (Index h = 0; h < facet.halfedge_count(); ++h) {
+            if (facet.twin[h] != no_twin) continue;
+            const auto at = std::ranges::lower_bound(chart.face, facet.face[face_of(h)]) - chart.face.begin();
+            all += 1.0;
+            found += curved[chart.fans(at, h % 3)];
+        }
+        return found / all;
     }
 
     /// The share of a strip's outline along which its piece goes on.
@@ -328,18 +361,42 @@ private:
     SeamedMesh& net_ = charts_.net;
 };
 
-/// (V) 1 for boundary vertices where the surface touches itself: holes may meet at a point.
-std::vector<char> touching(const FlatPart& part)
+/// Whether a loop encloses nothing, where faces meet in T-junctions.
+bool is_crack(const FlatPart& part, const VertexLoop& loop, double near)
+{
+    const double length = loop_edges(part.vertices, loop).sum();
+    return loop.size() <= longest_crack && std::abs(enclosed_area(loop, part.points)) < near * length;
+}
+
+/// Whether a vertex of a loop lies on an edge of it elsewhere: a face has it, and the face beside it has not.
+bool lies_on_edge(const FlatPart& part, const VertexLoop& loop, Index v, double near)
+{
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Index a = loop[i], b = loop[(i + 1) % loop.size()];
+        if (a == v || b == v) continue;
+        const Eigen::RowVector2d edge = part.points.row(b) - part.points.row(a),
+                                 arm = part.points.row(v) - part.points.row(a);
+        const double along = arm.dot(edge), square = edge.squaredNorm();
+        if (along > 0.0 && along < square && (arm - along / square * edge).norm() < near) return true;
+    }
+    return false;
+}
+
+/// (V) 1 for boundary vertices where the surface touches itself: holes may meet at a point, and cracks have no width.
+std::vector<char> touching(const FlatPart& part, double near)
 {
     std::map<std::array<double, 3>, Index> first;
     std::vector<char> touches(static_cast<std::size_t>(part.surface.vertex_count), 0);
-    for (const VertexLoop& loop : part.surface.loops)
+    for (const VertexLoop& loop : part.surface.loops) {
+        const bool crack = is_crack(part, loop, near);
         for (const Index v : loop) {
             const auto found =
                 first.try_emplace({part.vertices(v, 0), part.vertices(v, 1), part.vertices(v, 2)}, v).first;
             // The two sides of a cut are one vertex of the surface, and stay where they are.
             if (part.original[v] != part.original[found->second]) touches[v] = touches[found->second] = 1;
+            if (crack && lies_on_edge(part, loop, v, near)) touches[v] = 1;
         }
+    }
     return touches;
 }
 
@@ -376,7 +433,7 @@ std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& c
     } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
         return {};
     }
-    if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part), narrow_gap)) return {};
+    if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part, charts.near), narrow_gap)) return {};
     if (!survives_storing(part)) return {};
     part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
     part.held.assign(mesh.fan_count, 0);

@@ -30,7 +30,9 @@ namespace koebe {
 namespace {
 
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
-constexpr double most_image = 4.0;  // UV area of a part over its area: even texels never need more
+constexpr double rounded_height = 2.5e-7;  // UV units: a face with that height is upright as stored
+constexpr int most_nudges = 200;           // rounds in which a face gets it
+constexpr double most_image = 4.0;         // UV area of a part over its area: even texels never need more
 
 std::vector<VertexLoop> original_loops(const PartMesh& mesh)
 {
@@ -369,6 +371,40 @@ bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points)
            turned_loops(part.surface.loops, points, 0.0).empty();
 }
 
+namespace {
+
+/// Moves a corner of each face that only rounding turns over, such as a sliver where solids were cut, by that rounding.
+/// So parts true to size stay so. @param uv in [0, 1]^2 or another tile
+PlanarPoints without_rounded_flips(const FlatPart& part, PlanarPoints uv)
+{
+    const Triangles& triangles = part.surface.triangles;
+    const double height = rounded_height * std::max(1.0, uv.maxCoeff());
+    const auto stored = [&](Index v) { return StoredPoint{as_stored(uv(v, 0)), as_stored(uv(v, 1))}; };
+    bool any = true;
+    for (int round = 0; any && round < most_nudges; ++round) {
+        any = false;
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+            if (!StoredFace(stored(triangles(f, 0)), stored(triangles(f, 1)), stored(triangles(f, 2))).doubtful())
+                continue;
+            // The corner opposite to the longest edge gets that height over it.
+            const auto edge = [&](int k) -> Eigen::RowVector2d {
+                return uv.row(triangles(f, (k + 2) % 3)) - uv.row(triangles(f, (k + 1) % 3));
+            };
+            int corner = 0;
+            for (int k = 1; k < 3; ++k)
+                if (edge(k).squaredNorm() > edge(corner).squaredNorm()) corner = k;
+            const Eigen::RowVector2d base = edge(corner);
+            const double length = base.norm(), now = 2.0 * signed_area(uv, triangles, f) / length;
+            if (!(std::abs(now) < height)) continue;
+            uv.row(triangles(f, corner)) += (height - now) / length * Eigen::RowVector2d(-base[1], base[0]);
+            any = true;
+        }
+    }
+    return uv;
+}
+
+}  // namespace
+
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)
 {
     const auto bad = [&](const PlanarPoints& points) {
@@ -388,22 +424,26 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
     std::ranges::copy_if(boundary, std::back_inserter(held), [&](Index v) { return faces_at[v] > 1; });
     const std::vector<Circle> circles(part.surface.loops.size());
     RepairEffort effort(part.surface.triangles.rows());
+    const auto take = [&](const PlanarPoints& moved) {
+        const PlanarPoints in_square =
+            ((0.5 * (moved.array() + 1.0)).matrix().rowwise() - corner).cwiseMax(0.0).cwiseMin(1.0).rowwise() + corner;
+        const bool in_box = (in_square.colwise().minCoeff().array() >= low.array()).all() &&
+                            (in_square.colwise().maxCoeff().array() <= high.array()).all();
+        if (!moved.allFinite() || !in_box || !loops_apart(part, in_square)) return;
+        const PlanarPoints found = 2.0 * in_square.array() - 1.0;
+        const Index count = bad(found);
+        if (count >= least) return;
+        least = count;
+        points = found;
+        uv = in_square;
+    };
+    if (least > 0) take(2.0 * without_rounded_flips(part, uv).array() - 1.0);
     for (const auto& stay : {held, std::vector<Index>{}}) {
         if (least == 0) break;
         PlanarPoints moved = points;
         untangle(part.vertices, part.surface, part.surface.loops, circles, boundary, moved, context,
                  {.slide = false, .held = stay, .effort = &effort, .share = stay.empty() ? 1.0 : 0.5});
-        const PlanarPoints in_square =
-            ((0.5 * (moved.array() + 1.0)).matrix().rowwise() - corner).cwiseMax(0.0).cwiseMin(1.0).rowwise() + corner;
-        const bool in_box = (in_square.colwise().minCoeff().array() >= low.array()).all() &&
-                            (in_square.colwise().maxCoeff().array() <= high.array()).all();
-        if (!moved.allFinite() || !in_box || !loops_apart(part, in_square)) continue;
-        moved = 2.0 * in_square.array() - 1.0;
-        const Index count = bad(moved);
-        if (count >= least) continue;
-        least = count;
-        points = moved;
-        uv = in_square;
+        take(moved);
     }
     return least;
 }

@@ -20,6 +20,7 @@ namespace koebe {
 namespace {
 
 constexpr double flat = 1e-4;               // of the region's size: distance from its plane,
+constexpr double sliver = 1e-6;             // of the region's area: its own normal is only rounding
 constexpr double same_shape = 2e-3;         // and of its image from a similar one
 constexpr double long_outer_edge = 0.05;    // in roots of the area: such an edge is straight by itself,
 constexpr double goes_on_straight = 0.996;  // cosine of 5 degrees: others if the border goes on like that
@@ -91,9 +92,10 @@ private:
             regions[sets.find(static_cast<Index>(f))].push_back(f);
             total += areas_[f];
         }
-        for (const auto& [root, faces] : regions) {
+        for (auto& [root, faces] : regions) {
             double area = 0.0;
             for (const Eigen::Index f : faces) area += areas_[f];
+            std::erase_if(faces, [&](Eigen::Index f) { return areas_[f] < sliver * area; });
             bool is_whole = false;
             if (!(area > tuning::small_area * total) || !is_planar(faces, is_whole)) continue;
             ++figures.regions;

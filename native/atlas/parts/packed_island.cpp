@@ -183,7 +183,7 @@ std::vector<DrawnTurns> draw_islands(const std::vector<UprightIsland>& islands, 
     return drawn;
 }
 
-double largest_scale(const std::vector<UprightIsland>& islands, double margin)
+double largest_scale(const std::vector<UprightIsland>& islands, double margin, std::size_t tiles)
 {
     double area = 0.0, along = 0.0, extent = 0.0;
     for (const UprightIsland& island : islands) {
@@ -192,7 +192,8 @@ double largest_scale(const std::vector<UprightIsland>& islands, double margin)
         extent = std::max(extent, island.extent);
     }
     if (!(extent > 0.0)) return 1.0;
-    const double rest = 1.0 - static_cast<double>(islands.size()) * EIGEN_PI / 4.0 * margin * margin;
+    const double rest =
+        static_cast<double>(tiles) - static_cast<double>(islands.size()) * EIGEN_PI / 4.0 * margin * margin;
     return std::min((1.0 - margin) / extent, 2.0 * rest / (along + std::sqrt(along * along + 4.0 * area * rest)));
 }
 

@@ -49,13 +49,14 @@ CellShape cells_on_board(const Outline& outline, int side, double margin);
 std::vector<DrawnTurns> draw_islands(const std::vector<UprightIsland>& islands, double scale, double unit,
                                      double margin);
 
-/// The largest scale at which islands can have room in the square: each takes at least its area, half the margin along
-/// its extent on both sides, and a disk of the margin's width.
-double largest_scale(const std::vector<UprightIsland>& islands, double margin);
+/// The largest scale at which islands can have room in so many squares: each takes at least its area, half the margin
+/// along its extent on both sides, and a disk of the margin's width.
+double largest_scale(const std::vector<UprightIsland>& islands, double margin, std::size_t tiles = 1);
 
 /// A place on a board, in cells.
 struct CellSpot {
     int turn = 0, x = 0, y = 0;
+    std::size_t tile = 0;
 };
 
 /// @param unit grid units of the square's side @param scale of the island, in sides of the square

@@ -256,17 +256,21 @@ MovedOutlines outlines_in_unit(const std::vector<PackedPiece>& islands)
     return moved;
 }
 
-/// The islands that keep their place, in UVs, as long as they lie on the square.
-std::vector<Outline> taken_places(const std::vector<PackedPiece>& islands, const LayerVertices& layer)
+/// The islands that keep their place, as seen from the corner of each tile that they touch.
+std::vector<std::vector<Outline>> taken_places(const std::vector<PackedPiece>& islands, const LayerVertices& layer,
+                                               int tiles)
 {
-    std::vector<Outline> taken;
+    std::vector<std::vector<Outline>> taken(static_cast<std::size_t>(tiles));
     for (const PackedPiece& island : islands) {
         if (!island.is_locked) continue;
-        Outline& outline = taken.emplace_back(island.outline);
-        outline.points = layer.unit * layer.points(island.vertices, Eigen::all);
-        if (outline.points.colwise().minCoeff().maxCoeff() > 1.0 || outline.points.maxCoeff() < 0.0 ||
-            outline.points.colwise().maxCoeff().minCoeff() < 0.0)
-            taken.pop_back();
+        const PlanarPoints points = layer.unit * layer.points(island.vertices, Eigen::all);
+        for (int tile = 0; tile < tiles; ++tile) {
+            Outline outline = island.outline;
+            outline.points = points.rowwise() - tile_corner(tile);
+            if (outline.points.colwise().minCoeff().maxCoeff() <= 1.0 &&
+                outline.points.colwise().maxCoeff().minCoeff() >= 0.0)
+                taken[static_cast<std::size_t>(tile)].push_back(std::move(outline));
+        }
     }
     return taken;
 }
@@ -288,8 +292,6 @@ void check_layer(const Triangles& triangles, const PackedLayerOptions& options)
 {
     if (!options.locked.empty() && options.locked.size() != static_cast<std::size_t>(triangles.rows()))
         throw InputError("there must be a lock for each face");
-    if (std::ranges::any_of(options.locked, [](double lock) { return lock > 0.0; }) && options.tiles != 1)
-        throw InputError("islands that keep their place need tiles = 1");
     if (options.seconds && !(*options.seconds > 0.0 && std::isfinite(*options.seconds)))
         throw InputError("the seconds must be positive");
     if (options.tiles < 1 || options.tiles > most_tiles) throw InputError("tiles must be from 1 to 100");
@@ -365,8 +367,10 @@ PackedLayer packed(const Vertices& given, const Triangles& triangles, const Pack
                            options.seconds.has_value()};
     TilePacking packing;
     if (any_locked) {
-        const PackingSite site{taken_places(islands, layer), as_it_is * moved.unit};
-        packing = {pack_around(moved.outlines, margin, site, time), std::vector<int>(moved.outlines.size(), 0)};
+        const PackingSite site{taken_places(islands, layer, options.tiles), as_it_is * moved.unit};
+        for (std::size_t tile = 0; tile < site.taken.size(); ++tile)
+            if (!site.taken[tile].empty()) result.tiles = static_cast<int>(tile) + 1;
+        packing = pack_around(moved.outlines, margin, site, time);
     } else {
         packing = pack_on_tiles(moved.outlines, margin, options.tiles, time);
     }

@@ -19,9 +19,9 @@ struct PackedLayerOptions : MapOptions {
     int pixels = 2048;                ///< side of the texture, for `margin`
     int tiles = 1;                    ///< UDIM tiles, as in PartsOptions, but at least 1
     bool average_scale = false;       ///< all islands get one texel density; false: they keep their relative sizes
-    /// (F) or empty. Islands with a face above 0 keep their place. The others go into the free space of the unit
-    /// square, at the size that they have, or at one that is smaller where there is less room. With average_scale they
-    /// get the texel density of those that keep their place, at most. Needs `tiles` 1.
+    /// (F) or empty. Islands with a face above 0 keep their place. The others go into the free space of the tiles, at
+    /// the size that they have, or at one that is smaller where there is less room. With average_scale they get the
+    /// texel density of those that keep their place, at most.
     std::vector<double> locked = {};
     std::optional<double> seconds = {};  ///< to look for a better packing; all of them are taken, on one tile
     CancelToken enough = {};             ///< ends the search: the best packing so far is taken

@@ -25,7 +25,7 @@ constexpr double next_scale = 0.95;  // times the last while nothing fits, by th
 constexpr double least_factor = 0.8;
 constexpr int most_scales = 600;
 constexpr double first_step = 0.04, last_step = 0.0005;  // larger by that share, halved where that has no room,
-constexpr double last_step_of_many = 0.008;
+constexpr double last_step_of_many = 0.002;
 constexpr std::size_t islands_on_shelves = 1000;  // so many islands are packed by shelf_packing.h
 constexpr double least_gain = 0.002;              // what a further attempt has to bring
 constexpr int attempts_an_order = 24;             // before a new order is begun
@@ -39,7 +39,7 @@ constexpr std::int64_t fewest_words = 100'000'000, most_words = 200'000'000;
 constexpr std::size_t few_islands = 3;   // other turns are tried for so few islands,
 constexpr double held = 0.8;             // or if one is that long, in sides of the square, in the first packing
 constexpr double worth_leaning = 1.025;  // times the scale: islands leave the upright for that
-constexpr double worth_one_turn = 0.95;  // times the scale: less is given up so that equal islands lie alike
+constexpr double worth_one_turn = 0.98;  // times the scale: less is given up so that equal islands lie alike
 constexpr double least_scale = 1e-4;     // of the first one that is tried, beside islands that keep their place
 
 enum class Rule { lowest_top, lowest, smallest_square };
@@ -54,7 +54,8 @@ public:
           is_many_(outlines.size() >= many_islands),
           time_(time),
           most_scale_(site.most_scale),
-          board_(side_)
+          taken_(site.taken.size()),
+          boards_(site.taken.size(), CellBoard(side_))
     {
         std::int64_t points = 0;
         for (const Outline& outline : outlines) {
@@ -64,24 +65,26 @@ public:
         }
         allowed_ = std::clamp(tests_a_point * points, fewest_tests, most_tests);
         if (outlines.size() <= most_tight) allowed_ = fewest_tests;
-        for (const Outline& outline : site.taken) taken_.push_back(cells_on_board(outline, side_, margin_));
-        const bool is_last = outlines.size() > most_tight || !site.taken.empty();  // no tighter packing follows
+        for (std::size_t t = 0; t < taken_.size(); ++t)
+            for (const Outline& outline : site.taken[t]) taken_[t].push_back(cells_on_board(outline, side_, margin_));
+        is_free_ = taken_.size() == 1 && taken_.front().empty();
+        const bool is_last = outlines.size() > most_tight || !is_free_;  // no tighter packing follows
         if (is_last && time.is_used_up) allowed_ = INT64_MAX;
     }
 
-    IslandPacking pack()
+    TilePacking pack()
     {
         std::vector<std::size_t> order = by_size(0);
-        double scale = std::min(largest_scale(islands_, margin_), most_scale_);
-        const double least = taken_.empty() ? 0.0 : least_scale * scale;
+        double scale = std::min(most_possible(), most_scale_);
+        const double least = is_free_ ? 0.0 : least_scale * scale;
         for (int k = 0; !fits(order, rules[0], scale);
              scale *= is_many_ || failed_ == 0 ? std::clamp(std::sqrt(room_), least_factor, next_scale) : next_scale)
             if (++k == most_scales || scale < least) {
-                if (taken_.empty()) throw SolverError("the islands have no room in the square");
+                if (is_free_) throw SolverError("the islands have no room in the square");
                 throw InputError("the islands that keep their place leave no room for the others");
             }
         grow(order, rules[0], first_step);
-        std::int64_t work = board_.tests();
+        std::int64_t work = tests();
         const int most = allowed_ == INT64_MAX ? INT_MAX : most_attempts;
         for (int k = 1; k < most && islands_.size() > 1 && work < allowed_ && !is_over(); ++k) {
             const Rule rule = rules[static_cast<std::size_t>(k) % rules.size()];
@@ -92,13 +95,22 @@ public:
                 std::rotate(order.begin() + static_cast<std::ptrdiff_t>(random() % failed_),
                             order.begin() + static_cast<std::ptrdiff_t>(failed_),
                             order.begin() + static_cast<std::ptrdiff_t>(failed_) + 1);
-            work = board_.tests() + k * tests_an_attempt;
+            work = tests() + k * tests_an_attempt;
         }
         if (islands_.size() > most_tight && std::ranges::count(alike_, 1) > 0) lay_alike();
         return result();
     }
 
 private:
+    std::int64_t tests() const
+    {
+        std::int64_t sum = 0;
+        for (const CellBoard& board : boards_) sum += board.tests();
+        return sum;
+    }
+
+    double most_possible() const { return largest_scale(islands_, margin_, boards_.size()); }
+
     std::uint64_t random()
     {
         random_ = random_ * 6364136223846793005ULL + 1442695040888963407ULL;
@@ -137,9 +149,8 @@ private:
     {
         const double last = is_many_ ? last_step_of_many : last_step;
         while (step > last)
-            if (const double scale = best_scale_ * (1.0 + step); scale > most_scale_ || is_over() ||
-                                                                 scale > largest_scale(islands_, margin_) ||
-                                                                 !fits(order, rule, scale))
+            if (const double scale = best_scale_ * (1.0 + step);
+                scale > most_scale_ || is_over() || scale > most_possible() || !fits(order, rule, scale))
                 step *= 0.5;
     }
 
@@ -155,45 +166,56 @@ private:
         }
         std::int64_t cells = 0, taken = 0;
         for (const DrawnTurns& turns : drawn_) cells += turns[0].shape.cells();
-        room_ = static_cast<double>(side_) * side_ / static_cast<double>(cells);
+        room_ = static_cast<double>(boards_.size()) * side_ * side_ / static_cast<double>(cells);
         if (room_ < 1.0) return false;
-        board_.clear();
-        for (const CellShape& shape : taken_) board_.take(shape, 0, 0);
+        for (std::size_t t = 0; t < boards_.size(); ++t) {
+            boards_[t].clear();
+            for (const CellShape& shape : taken_[t]) boards_[t].take(shape, 0, 0);
+        }
         std::vector<CellSpot> spots(islands_.size());
-        int from = 0;
+        CellSpot from;
         double area = std::numeric_limits<double>::infinity();
         for (; failed_ < order.size(); ++failed_) {
             const std::size_t k = order[failed_];
             if (islands_[k].area < tolerance::similar_area * area) {
                 area = islands_[k].area;
-                from = 0;
+                from = {};
             }
             if (!place(k, rule, from, spots[k])) {
                 room_ = static_cast<double>(taken) / static_cast<double>(cells);
                 return false;
             }
             taken += drawn_[k][0].shape.cells();
-            // Lower rows are full for the next island.
-            from = is_many_ ? spots[k].y : std::max(0, spots[k].y - drawn_[k][0].shape.height / 2);
+            // Tiles and rows before are full for the next island.
+            from = spots[k];
+            if (!is_many_) from.y = std::max(0, from.y - drawn_[k][0].shape.height / 2);
         }
         best_scale_ = scale;
         spots_ = std::move(spots);
         return true;
     }
 
-    /// @param from row below which no room is looked for
-    bool place(std::size_t k, Rule rule, int from, CellSpot& spot)
+    /// @param from tile and row before which no room is looked for
+    bool place(std::size_t k, Rule rule, const CellSpot& from, CellSpot& spot)
     {
+        for (spot.tile = from.tile; spot.tile < boards_.size(); ++spot.tile)
+            if (place_on_tile(k, rule, spot.tile == from.tile ? from.y : 0, spot)) return true;
+        return false;
+    }
+
+    bool place_on_tile(std::size_t k, Rule rule, int from, CellSpot& spot)
+    {
+        CellBoard& board = boards_[spot.tile];
         const DrawnTurns& turns = drawn_[k];
         std::array<int, 3> best = {INT_MAX, 0, 0};
         const int tried =
-            (islands_.size() == 1 && taken_.empty()) || (is_held_ && alike_[k]) ? 1 : 4;  // one alone stands upright
+            (islands_.size() == 1 && is_free_) || (is_held_ && alike_[k]) ? 1 : 4;  // one alone stands upright
         for (int t = 0; t < tried; ++t) {
             const CellShape& shape = turns[t].shape;
             for (int y = from; y + shape.height <= side_; ++y) {
                 const int top = y + shape.height;
                 if ((rule == Rule::lowest ? y : top) > best[0]) break;
-                const int x = board_.first_room(shape, turns[t].order, y, 0);
+                const int x = board.first_room(shape, turns[t].order, y, 0);
                 if (x < 0) continue;
                 const int right = x + shape.width;
                 std::array<int, 3> score = {top, right, t};
@@ -201,20 +223,20 @@ private:
                 if (rule == Rule::smallest_square) score = {std::max(top, right), top + right, t};
                 if (score < best) {
                     best = score;
-                    spot = {t, x, y};
+                    spot = {t, x, y, spot.tile};
                 }
                 if (rule != Rule::smallest_square) break;
             }
         }
         if (best[0] == INT_MAX) return false;
-        board_.take(turns[spot.turn].shape, spot.x, spot.y);
+        board.take(turns[spot.turn].shape, spot.x, spot.y);
         return true;
     }
 
-    IslandPacking result()
+    TilePacking result()
     {
         const std::vector<DrawnTurns> drawn = draw_islands(islands_, best_scale_, unit_, margin_);
-        if (!is_many_ && taken_.empty()) {  // the other poses do not know what else lies on the board
+        if (!is_many_ && is_free_) {  // the other poses do not know what else lies on the board
             std::vector<std::vector<CellMask>> masks(islands_.size());
             std::vector<IslandSpot> spots;
             std::vector<std::array<double, 4>> preference;
@@ -226,9 +248,11 @@ private:
             turn_to_preferred_poses(masks, preference, side_, spots);
             for (std::size_t k = 0; k < spots.size(); ++k) spots_[k] = {spots[k].pose, spots[k].x, spots[k].y};
         }
-        IslandPacking packing{{}, best_scale_, margin_};
-        for (std::size_t k = 0; k < islands_.size(); ++k)
+        TilePacking packing{{{}, best_scale_, margin_}, {}};
+        for (std::size_t k = 0; k < islands_.size(); ++k) {
             packing.places.push_back(place_of_spot(islands_[k], drawn[k], spots_[k], unit_, best_scale_));
+            packing.tile.push_back(static_cast<int>(spots_[k].tile));
+        }
         return packing;
     }
 
@@ -238,12 +262,13 @@ private:
     const bool is_many_;
     const PackingTime& time_;
     const double most_scale_;
-    std::vector<CellShape> taken_;  // on the board
+    std::vector<std::vector<CellShape>> taken_;  // on the board of each tile
+    bool is_free_ = true;                        // one tile, with nothing on it
     std::vector<UprightIsland> islands_;
     std::vector<char> alike_;
-    bool is_held_ = false;  // islands that are alike keep their turn
-    CellBoard board_;
-    std::int64_t allowed_ = 0;  // work
+    bool is_held_ = false;           // islands that are alike keep their turn
+    std::vector<CellBoard> boards_;  // of the tiles
+    std::int64_t allowed_ = 0;       // work
     std::vector<DrawnTurns> drawn_;
     double drawn_scale_ = 0.0, best_scale_ = 0.0;
     std::vector<CellSpot> spots_;  // at the best scale
@@ -288,12 +313,14 @@ void tighten(const std::vector<Outline>& outlines, const PackingTime& time, Isla
 
 }  // namespace
 
-IslandPacking pack_around(const std::vector<Outline>& outlines, double margin, const PackingSite& site,
-                          const PackingTime& time)
+TilePacking pack_around(const std::vector<Outline>& outlines, double margin, const PackingSite& site,
+                        const PackingTime& time)
 {
-    if (outlines.empty()) return {{}, 1.0, margin};
+    if (outlines.empty()) return {{{}, 1.0, margin}, {}};
     require_finite_outlines(outlines);
-    margin = std::min(margin, most_margin(outlines.size() + site.taken.size()));
+    std::size_t count = outlines.size();
+    for (const std::vector<Outline>& taken : site.taken) count += taken.size();
+    margin = std::min(margin, most_margin(count / site.taken.size()));
     return Packer(outlines, margin, time, site).pack();
 }
 

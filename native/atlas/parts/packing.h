@@ -37,16 +37,21 @@ struct PackingTime {
     bool is_used_up = false;             ///< true: the search goes on until then, for up to 999 islands
 };
 
-/// What lies in the unit square already.
+/// Islands on tiles, which are unit squares.
+struct TilePacking : IslandPacking {
+    std::vector<int> tile;  ///< of each island; its place is for tile 0
+};
+
+/// What lies on the tiles already.
 struct PackingSite {
-    std::vector<Outline> taken = {};                              ///< places, in units of the square
+    std::vector<std::vector<Outline>> taken = {{}};               ///< of each tile, places as seen from its corner
     double most_scale = std::numeric_limits<double>::infinity();  ///< of the islands
 };
 
 /// Puts islands into the unit square, as large as it can. No island is mirrored. Each island is turned so that its
 /// smallest enclosing rectangle lies along the axes, unless the island already lies along them. Of the quarter turns
 /// the one with `up` nearest to up is taken where it costs no room. Islands
-/// that are alike lie in one turn where that makes all islands smaller by at most 5 %. Other turns are used only
+/// that are alike lie in one turn where that makes all islands smaller by at most 2 %. Other turns are used only
 /// where they make all islands larger by 2.5 %. Islands that lie along the axes already keep to quarter turns. Outlines
 /// are drawn on a grid of cells, with half the margin round them. Large islands are placed first, each in the lowest
 /// free place; small islands go into hollows and holes. Several orders and rules are tried. Up to 100 islands are then
@@ -57,10 +62,11 @@ struct PackingSite {
 /// @throws SolverError points that are NaN or infinite
 IslandPacking pack_islands(const std::vector<Outline>& outlines, double margin, const PackingTime& time = {});
 
-/// Puts islands into the free places of the square, as above, but none is moved closer to others in the end.
+/// Puts islands into the free places of the tiles, as above, each onto the first tile with room. None is moved closer
+/// to others in the end.
 /// @throws InputError there is no room for them; SolverError
-IslandPacking pack_around(const std::vector<Outline>& outlines, double margin, const PackingSite& site,
-                          const PackingTime& time = {});
+TilePacking pack_around(const std::vector<Outline>& outlines, double margin, const PackingSite& site,
+                        const PackingTime& time = {});
 
 /// The points (V, 2) of an island, moved to its place.
 PlanarPoints place_island(const PlanarPoints& points, const IslandPlace& place, double scale);

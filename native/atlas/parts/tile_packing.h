@@ -13,10 +13,6 @@ constexpr int most_tiles = 100;   ///< v up to 10, too
 /// The lower left corner of a tile.
 inline Eigen::RowVector2d tile_corner(int tile) { return Eigen::RowVector2d(tile % tiles_in_row, tile / tiles_in_row); }
 
-struct TilePacking : IslandPacking {
-    std::vector<int> tile;  ///< of each island; its place is for tile 0
-};
-
 /// Puts islands onto tiles, at one scale, as large as it can. First they are spread at the largest scale at which the
 /// tiles have room for them, one after the other, the largest first (sheet_packing.h). Then each tile is packed by
 /// itself (pack_islands), and small islands move from the fullest tile to the emptiest one. With one tile this is
