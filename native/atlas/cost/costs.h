@@ -152,6 +152,22 @@ inline ThroughPrice room_price(double darts, double piece)
 /// sector, a thin ring does not stay one.
 inline constexpr ThroughPrice hard_room_price{tuning::hard_cut, tuning::hard_island, tuning::smooth_factor};
 
+// Stitches, in energy
+
+/// What a stitch saves: a cut, and the island that is one less, in proportion to the neck between the two.
+/// @param length of the cut @param neck its length over the size of the smaller part
+inline double stitch_saving(const ThroughPrice& price, double length, double neck)
+{
+    return price.length * length + tuning::stitched_island * price.piece.value_or(0.0) * std::min(1.0, neck);
+}
+
+/// What islands cost that become less like disks; 0 if they become more like them. @param compactness 4 pi A / L^2 of
+/// the islands, in the mean of their areas
+inline double roundness_loss(double compactness, double after)
+{
+    return tuning::roundness * std::max(0.0, compactness - after);
+}
+
 /// What room is worth. @param area in the square, in areas of the mesh
 inline double room_gain(double area) { return tuning::room_worth * area; }
 

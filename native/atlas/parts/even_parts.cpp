@@ -4,7 +4,9 @@
 #include "cost/costs.h"
 #include "even/even_map.h"
 #include "execution/side_by_side.h"
+#include "parts/carried_parts.h"
 #include "parts/dart_rounds.h"
+#include "parts/stitches.h"
 #include "parts/tension.h"
 #include "parts/through_rounds.h"
 #include "surface/loop_edges.h"
@@ -126,9 +128,10 @@ public:
         const bool is_cut = joined || std::ranges::any_of(parts_, has_darts);
         if (is_cut) relax_cut(even, effort);
         const bool is_split = cut_through(even, options_.piece * cut_price());
+        const bool is_stitched = stitch(even);
         const bool is_roomy = cut_for_room();
-        if (is_roomy || is_split) relax_cut(even, effort);
-        return is_cut || is_split || is_roomy;
+        if (is_roomy || is_split || is_stitched) relax_cut(even, effort);
+        return is_cut || is_split || is_stitched || is_roomy;
     }
 
     /// Tries darts first. If they do not help, goes from one E to the next, as long as angles are no worse than at 0.
@@ -172,9 +175,13 @@ public:
         const auto done = [&](std::vector<std::size_t> worse) {
             return EvenParts{worse.size() < bounds.most.size() ? even : 0.0, left_, std::move(worse)};
         };
+        const double asked = even;  // parts that are far from it get the time before E becomes smaller
         for (auto next = less_even_with_darts.begin();;) {
             relax_cut(even, look);
+            start_stuck_anew(even);
             if (bounds.exact && angles() > tuning::carried_error * bounds.sum()) bounds = bounds.exact();
+            if (!bounds.most.empty() && even == asked && angles() > tuning::carried_error * bounds.sum())
+                relax_cut(even, EvenEffort{.most_far = far_rounds});
             if (bounds.most.empty() || angles() <= tuning::carried_error * bounds.sum())
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
             if (bounds.most.empty()) return {even, left_};
@@ -209,6 +216,12 @@ private:
         return cut_parts_through(parts_, even, price, options_.threads, context_);
     }
 
+    bool stitch(double even)
+    {
+        if (options_.loops != LoopForm::free || !options_.stitch) return false;
+        return stitch_parts(parts_, even, {cut_price(), options_.piece * cut_price()}, context_);
+    }
+
     bool cut_for_room()
     {
         if (options_.loops != LoopForm::free || !options_.roomy) return false;
@@ -227,6 +240,22 @@ private:
         relax(even, effort);
         for (std::size_t k = 0; k < parts_.size(); ++k)
             if (!survives_storing(parts_[k].flat)) parts_[k] = before[k];
+    }
+
+    /// Maps parts by themselves that are stuck: they have as much energy as a strained region.
+    void start_stuck_anew(double even)
+    {
+        const auto energy = [&](const FlatPart& flat) { return forces_in(flat, even).energy.sum(); };
+        side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
+            FlatPart& flat = parts_[k].flat;
+            const double area = face_areas(flat.vertices, flat.surface.triangles).sum();
+            if (!flat.is_near || !parts_[k].round.empty() || !(energy(flat) > tuning::strained * area)) return;
+            FlatPart anew = flat;
+            start_by_itself({}, anew, own);
+            make_even(flat_surface(anew, parts_[k].round), even, packed_side, own, {.most_far = far_rounds});
+            if (lies_one_to_one(anew, anew.points) && survives_storing(anew) && energy(anew) < energy(flat))
+                flat = std::move(anew);
+        });
     }
 
     /// The groups that must go back to E = 0, so that angles are no worse than there: those that gain most.

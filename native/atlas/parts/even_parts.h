@@ -22,6 +22,7 @@ struct EvenOptions {
     int threads = 0;
     int rounds = 20;      ///< as EvenEffort::most_rounds, in the search for E and cuts
     double dearer = 1.0;  ///< factor of the price of cuts, except those made for packing
+    bool stitch = false;  ///< parts are joined again along stretches of borders (stitches.h)
 };
 
 struct EvenParts {
@@ -41,8 +42,8 @@ struct AngleBounds {
 
 /// Relaxes all parts (even/even_map.h). Cuts darts into them (dart_rounds.h), unless E is 0. If loops are free, it also
 /// cuts parts through (through_rounds.h): first it joins loops, then it splits parts that darts did not help, and last
-/// it cuts for room (roomy_cuts.h). The pieces of a part come last, or after it. A part that is not one to one is not
-/// changed.
+/// it joins parts where that pays (stitches.h) and cuts for room (roomy_cuts.h). The pieces of a part come last, or
+/// after it. A part that is not one to one is not changed.
 EvenParts make_parts_even(std::vector<FlatPart>& flats, const EvenOptions& options, ExecutionContext& context);
 
 /// Relaxes parts that were decided on a coarse surface. Takes a smaller E if angles are worse than the bounds allow, as

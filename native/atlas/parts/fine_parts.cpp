@@ -1,29 +1,57 @@
 #include "parts/fine_parts.h"
 
 #include "cost/costs.h"
+#include "cut/disjoint_sets.h"
 #include "execution/side_by_side.h"
 #include "mesh/connected_pieces.h"
 #include "parts/carried_parts.h"
+#include "parts/near_faces.h"
 #include "parts/pinholes.h"
 #include "surface/mirror.h"
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
 namespace {
 
-/// For each part the number of the other part with its first face. @param faces of the surface
-std::vector<std::size_t> owners(const std::vector<FlatPart>& parts, const std::vector<FlatPart>& others,
-                                Eigen::Index faces)
+/// (F) The number of the part with each face. @param faces of the surface
+std::vector<std::size_t> owners_of_faces(const std::vector<FlatPart>& parts, Eigen::Index faces)
 {
-    std::vector<std::size_t> other(static_cast<std::size_t>(faces), 0), owner;
-    for (std::size_t k = 0; k < others.size(); ++k)
-        for (const Index f : others[k].faces) other[f] = k;
-    for (const FlatPart& part : parts) owner.push_back(other[part.faces.front()]);
+    std::vector<std::size_t> owner(static_cast<std::size_t>(faces), 0);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (const Index f : parts[k].faces) owner[f] = k;
     return owner;
+}
+
+/// For each part the number of the other part with its first face. @param owner_of_face of the others
+std::vector<std::size_t> owners(const std::vector<FlatPart>& parts, const std::vector<std::size_t>& owner_of_face)
+{
+    std::vector<std::size_t> owner;
+    for (const FlatPart& part : parts) owner.push_back(owner_of_face[part.faces.front()]);
+    return owner;
+}
+
+/// numbers[i] for each i.
+std::vector<std::size_t> numbers_of(std::vector<std::size_t> of, const std::vector<std::size_t>& numbers)
+{
+    for (std::size_t& i : of) i = numbers[i];
+    return of;
+}
+
+/// For each part before, the number of its group: parts that were joined are in one group.
+std::vector<std::size_t> groups_before(const std::vector<FlatPart>& before, const std::vector<FlatPart>& parts,
+                                       const std::vector<std::size_t>& owner_of_face)
+{
+    DisjointSets sets(before.size());
+    for (const FlatPart& part : parts)
+        for (const Index f : part.faces)
+            sets.join(static_cast<Index>(owner_of_face[part.faces.front()]), static_cast<Index>(owner_of_face[f]));
+    std::vector<std::size_t> group;
+    for (std::size_t k = 0; k < before.size(); ++k)
+        group.push_back(static_cast<std::size_t>(sets.find(static_cast<Index>(k))));
+    return group;
 }
 
 std::size_t groups_of(const MeshPiece& own)
@@ -51,10 +79,10 @@ void FineParts::carry(MeshPiece& own, std::vector<FlatPart> before)
 {
     // Parts of the piece itself are compared with what they were before.
     if (own.is_fine) {
-        own.group = owners(own.parts, before, own.named().triangles.rows());
+        const std::vector<std::size_t> owner = owners_of_faces(before, own.named().triangles.rows());
+        own.uncut_group = groups_before(before, own.parts, owner);
+        own.group = numbers_of(owners(own.parts, owner), own.uncut_group);
         own.conformal = std::move(before);
-        own.uncut_group.resize(own.conformal.size());
-        std::iota(own.uncut_group.begin(), own.uncut_group.end(), 0);
         return;
     }
     std::vector<FlatPart> fine = carried_parts(*own.proxy, own.parts, options_.threads, context_);
@@ -65,14 +93,22 @@ void FineParts::carry(MeshPiece& own, std::vector<FlatPart> before)
         return;
     }
 
-    // Parts of the proxy: those of one group were one part there before darts and through cuts.
-    own.group = owners(own.parts, before, own.proxy->surface.triangles.rows());
+    // Parts of the proxy: those of one group were one part there before darts and through cuts. Where parts were
+    // joined, each face is in the part before that has the coarse face near it.
+    const std::vector<std::size_t> owner = owners_of_faces(before, own.proxy->surface.triangles.rows());
+    const std::vector<std::size_t> first = owners(own.parts, owner), joined = groups_before(before, own.parts, owner);
+    own.group = numbers_of(first, joined);
+    for (std::size_t k = 0; k < joined.size(); ++k) own.is_joined = own.is_joined || joined[k] != k;
+    const NearFaces near(*own.proxy);
     std::vector<std::vector<Index>> faces(before.size());
     for (std::size_t k = 0; k < fine.size(); ++k)
-        faces[own.group[k]].insert(faces[own.group[k]].end(), fine[k].faces.begin(), fine[k].faces.end());
+        for (const Index f : fine[k].faces) {
+            const Index at = own.is_joined ? near.nearest(f) : -1;
+            faces[at >= 0 && joined[owner[at]] == own.group[k] ? owner[at] : first[k]].push_back(f);
+        }
     own.conformal = laid(own, faces, MapPurpose::judging);
-    own.uncut_group = owners(own.conformal, fine, own.proxy->fine.whole.areas.size());
-    for (std::size_t& group : own.uncut_group) group = own.group[group];
+    own.uncut_group =
+        numbers_of(owners(own.conformal, owners_of_faces(fine, own.proxy->fine.whole.areas.size())), own.group);
     own.is_measured = true;
 
     // Pieces that found no place in their part start from what they are at E = 0.
@@ -90,10 +126,9 @@ void FineParts::make_exact(MeshPiece& own) const
     std::vector<std::vector<Index>> faces;
     for (const FlatPart& part : own.conformal) faces.push_back(part.faces);
     std::vector<FlatPart> exact = laid(own, faces);
-    std::vector<std::size_t> group = owners(exact, own.conformal, own.proxy->fine.whole.areas.size());
-    for (std::size_t& k : group) k = own.uncut_group[k];
+    own.uncut_group =
+        numbers_of(owners(exact, owners_of_faces(own.conformal, own.proxy->fine.whole.areas.size())), own.uncut_group);
     own.conformal = std::move(exact);
-    own.uncut_group = std::move(group);
 }
 
 AngleBounds FineParts::angle_bounds()
@@ -131,6 +166,18 @@ void FineParts::open_pinholes()
         own.parts = std::move(parts);
         own.group = std::move(group);
     }
+}
+
+bool FineParts::can_go_back(const std::vector<std::size_t>& groups) const
+{
+    std::size_t first = 0;
+    for (const MeshPiece& own : pieces_) {
+        const std::size_t end = first + groups_of(own);
+        if (own.is_joined && std::ranges::any_of(groups, [&](std::size_t k) { return k >= first && k < end; }))
+            return false;
+        first = end;
+    }
+    return true;
 }
 
 std::vector<Index> FineParts::go_back(const std::vector<std::size_t>& groups)

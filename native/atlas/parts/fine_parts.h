@@ -32,6 +32,9 @@ public:
     /// Takes the faces away that fill pinholes.
     void open_pinholes();
 
+    /// Whether conformal parts can take the place of these groups: not where parts were joined on a proxy.
+    bool can_go_back(const std::vector<std::size_t>& groups) const;
+
     /// Puts conformal parts in the place of groups. @param groups numbers as in angle_bounds
     /// @return faces of the input that are in these parts
     std::vector<Index> go_back(const std::vector<std::size_t>& groups);

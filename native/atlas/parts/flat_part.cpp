@@ -437,7 +437,8 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
         points = found;
         uv = in_square;
     };
-    if (least > 0) take(2.0 * without_rounded_flips(part, uv).array() - 1.0);
+    if (const PlanarPoints nudged = 2.0 * without_rounded_flips(part, uv).array() - 1.0; least > 0 && bad(nudged) == 0)
+        take(nudged);
     for (const auto& stay : {held, std::vector<Index>{}}) {
         if (least == 0) break;
         PlanarPoints moved = points;

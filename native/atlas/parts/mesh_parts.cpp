@@ -89,7 +89,7 @@ public:
     }
 
     /// Makes the parts even. Parts that were decided on proxies are then made of the fine surface, and relaxed.
-    void make_even() { result_.even = make_all_even(); }
+    void make_even() { result_.even = make_all_even(true); }
 
     /// With parts named by the input.
     MeshParts take()
@@ -102,11 +102,13 @@ public:
     }
 
 private:
-    /// @return E
-    double make_all_even()
+    /// @param stitch whether parts may be joined again @return E
+    double make_all_even(bool stitch)
     {
+        const std::vector<MeshPiece> decided = stitch ? pieces_ : std::vector<MeshPiece>{};
         FineParts fine(pieces_, options_, context_);
         EvenOptions evening = evening_of(options_, options_.roomy, options_.threads);
+        evening.stitch = stitch;
         const bool by_proxy = std::ranges::any_of(pieces_, [](const MeshPiece& own) { return own.proxy.has_value(); });
         if (by_proxy && (options_.even == 0.0 || evening.loops != LoopForm::free))
             for (MeshPiece& own : pieces_)
@@ -127,6 +129,10 @@ private:
             std::vector<FlatPart> parts = together();
             const EvenParts relaxed = relax_carried(parts, even, fine.angle_bounds(), evening, context_);
             take_back(std::move(parts), relaxed);
+            if (!fine.can_go_back(relaxed.worse)) {
+                pieces_ = decided;
+                return make_all_even(false);
+            }
             fine.open_pinholes();
             const std::vector<Index> worse = fine.go_back(relaxed.worse);
             result_.not_even.insert(result_.not_even.end(), worse.begin(), worse.end());

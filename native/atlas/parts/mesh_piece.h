@@ -20,7 +20,9 @@ struct MeshPiece : FlatPiece {
     bool is_fine = true;                        ///< whether the parts name elements of the piece, not of the proxy
     std::vector<FlatPart> conformal = {};       ///< fine parts at E = 0, without darts, to compare with
     bool is_measured = false;                   ///< whether these only compare: they are no result
-    std::vector<std::size_t> group = {};        ///< (parts) parts of one group were one part before they were cut
+    bool is_joined = false;                     ///< and that some of them are parts of one part: they cannot replace it
+    std::vector<std::size_t> group = {};        ///< (parts) parts of one group were one part before they were cut, or
+                                                ///< are joined from the conformal parts of this group
     std::vector<std::size_t> uncut_group = {};  ///< (conformal)
 
     /// The piece whose numbers parts may name.

@@ -7,6 +7,7 @@
 #include "mesh/topology.h"
 #include "parts/flat_part.h"
 #include "parts/parts.h"
+#include "planar/rigid_fit.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>
@@ -154,35 +155,16 @@ private:
         std::map<Index, double> area;
         for (const Index f : faces_) area[seams.before.find(f)] += std::abs(area_in(uv, f));
         const Index largest = std::ranges::max_element(area, {}, [](const auto& one) { return one.second; })->first;
-        Complex from, to;
-        double count = 0.0;
-        const auto over_largest = [&](auto&& take) {
-            for (std::size_t i = 0; i < faces_.size(); ++i)
-                for (int k = 0; k < 3 && seams.before.find(faces_[i]) == largest; ++k)
-                    take(complex_at(made, static_cast<Index>(3 * i) + k), complex_at(uv, 3 * faces_[i] + k));
-        };
-        over_largest([&](Complex now, Complex old) {
-            from += now;
-            to += old;
-            count += 1.0;
-        });
-        from /= count;
-        to /= count;
-        double spread_from = 0.0, spread_to = 0.0;
-        Complex turn;
-        over_largest([&](Complex now, Complex old) {
-            spread_from += std::norm(now - from);
-            spread_to += std::norm(old - to);
-            turn += std::conj(now - from) * (old - to);
-        });
-        const double scale = std::sqrt(spread_to / spread_from);
+        RigidFit fit;
+        for (std::size_t i = 0; i < faces_.size(); ++i)
+            for (int k = 0; k < 3 && seams.before.find(faces_[i]) == largest; ++k)
+                fit.add(complex_at(uv, 3 * faces_[i] + k), complex_at(made, static_cast<Index>(3 * i) + k));
+        const double scale = std::sqrt(fit.first_spread() / fit.second_spread());
         if (!std::isfinite(scale) || !(area[largest] > 0.0))
             throw InputError("the islands to sew have no area in the UVs", ElementKind::faces, faces_);
-        const Complex factor = scale * (std::abs(turn) > 0.0 ? turn / std::abs(turn) : Complex(1.0));
         for (std::size_t i = 0; i < faces_.size(); ++i)
             for (int k = 0; k < 3; ++k)
-                put_complex(uv, 3 * faces_[i] + k,
-                            to + factor * (complex_at(made, static_cast<Index>(3 * i) + k) - from));
+                put_complex(uv, 3 * faces_[i] + k, fit.moved(complex_at(made, static_cast<Index>(3 * i) + k), scale));
     }
 
     std::vector<Index> faces_, edges_;  // edges: pairs of vertices of the mesh

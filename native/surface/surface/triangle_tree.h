@@ -25,7 +25,8 @@ struct NumberedTriangle {
     }
 
     Id id() const { return face; }
-    Point reference_point() const { return corner(0); }
+    /// Boxes are divided by it: by a corner, those of long triangles would overlap more.
+    Point reference_point() const { return CGAL::centroid(corner(0), corner(1), corner(2)); }
     Datum datum() const { return {corner(0), corner(1), corner(2)}; }
     Point corner(int k) const
     {
