@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace koebe {
@@ -56,7 +57,11 @@ public:
             if (surplus < tuning::noticeable * forces.energy.sum()) trials_[k].darts.clear();
             energy_[k] = std::move(forces.energy);
         });
-        if (is_mirrored_) pair_images();
+        if (is_mirrored_) {
+            const std::vector<Trial> unpaired = trials_;
+            pair_images();
+            free_strained(unpaired);
+        }
         if (std::ranges::all_of(trials_, [](const Trial& trial) { return trial.darts.empty(); })) return false;
         for_each_part([&](std::size_t k, ExecutionContext& own) { open(k, own); });
         const std::vector<std::vector<char>> pays = paying();
@@ -255,6 +260,23 @@ private:
                 paired[other].image[j] = {k, i};
             }
         trials_ = std::move(paired);
+    }
+
+    /// Takes the mirror from parts that no dart would help otherwise: none has an image, as where rims differ.
+    void free_strained(const std::vector<Trial>& unpaired)
+    {
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            const FlatPart& flat = parts_[k].flat;
+            const double area = face_areas(flat.vertices, flat.surface.triangles).sum();
+            if (unpaired[k].darts.empty() || !trials_[k].darts.empty() || flat.image.empty() ||
+                !(energy_[k].sum() > tuning::unsymmetric * area))
+                continue;
+            trials_[k] = unpaired[k];
+            const std::set<Index> own(flat.original.begin(), flat.original.end());
+            for (HeldPart& other : parts_)
+                if (std::ranges::any_of(other.flat.image, [&](Index v) { return own.contains(v); }))
+                    other.flat.image.clear();
+        }
     }
 
     std::optional<std::pair<std::size_t, Dart>> image_of(std::size_t k, const Dart& dart,
