@@ -6,7 +6,8 @@
     bench/doc_figures.py write                     writes the pages from docs/figures.json
 
 In a page a table stands between <!-- figures: NAME --> and <!-- end -->, or some of its rows between
-<!-- figures: NAME | ROW | ROW --> and <!-- end -->; a single figure of a table, TABLE/ROW/COLUMN, between
+<!-- figures: NAME | ROW | ROW --> and <!-- end -->, some of its columns with
+<!-- figures: NAME | ROW | ROW || COLUMN | COLUMN -->; a single figure of a table, TABLE/ROW/COLUMN, between
 <!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
 Rows whose meshes are not there keep what was measured before. bench/tests/test_docs_figures.py compares.
 """
@@ -59,11 +60,12 @@ def measure(names: list[str]) -> None:
             keep(name, table.head, rows)
 
 
-def markdown(table: dict, rows: list[str] | None = None) -> str:
-    """A measured table, or some of its rows."""
-    lines = ["| " + " | ".join(table["head"]) + " |", "|" + " --- |" * len(table["head"])]
-    lines += [f"| {row} | " + " | ".join(table["rows"][row]) + " |" for row in rows or table["rows"]]
-    return "\n".join(lines)
+def markdown(table: dict, rows: list[str] | None = None, columns: list[str] | None = None) -> str:
+    """A measured table, or some of its rows and columns."""
+    places = [0, *(table["head"].index(column) for column in columns or table["head"][1:])]
+    cells = [table["head"], ["---"] * len(table["head"])]
+    cells += [[row, *table["rows"][row]] for row in rows or table["rows"]]
+    return "\n".join("| " + " | ".join(row[place] for place in places) + " |" for row in cells)
 
 
 def figure(figures: dict, place: str) -> str:
@@ -83,8 +85,9 @@ def filled(text: str, figures: dict) -> str:
         if re.split("/| ", name)[0] not in figures:
             return match[0]
         if "figures:" in start:
-            name, *rows = name.split(" | ")
-            return f"{start}\n\n{markdown(figures[name], rows)}\n\n{end}"
+            chosen, _, columns = name.partition(" || ")
+            name, *rows = chosen.split(" | ")
+            return f"{start}\n\n{markdown(figures[name], rows, columns.split(' | ') if columns else None)}\n\n{end}"
         return f"{start}{figure(figures, name)}{end}"
 
     return MARK.sub(place, text)

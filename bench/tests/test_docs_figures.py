@@ -74,6 +74,8 @@ def test_a_changed_figure_is_seen():
     assert doc_figures.filled(page, changed) != page
     row = "<!-- figures: quality | face -->\n\n{}\n\n<!-- end -->"
     assert "| 0.01 |" in doc_figures.filled(row, changed) and doc_figures.filled(row, changed).count("\n| ") == 3
+    narrow = row.replace("face -->", "face || angle error -->")
+    assert "| mesh | angle error |\n| --- | --- |\n| face | 0.01 |\n" in doc_figures.filled(narrow, changed)
 
 
 def test_without_the_peer_the_last_measurement_is_printed(tmp_path, monkeypatch, capsys):
