@@ -63,9 +63,9 @@ def measure(names: list[str]) -> None:
 def markdown(table: dict, rows: list[str] | None = None, columns: list[str] | None = None) -> str:
     """A measured table, or some of its rows and columns."""
     places = [0, *(table["head"].index(column) for column in columns or table["head"][1:])]
-    cells = [table["head"], ["---"] * len(table["head"])]
-    cells += [[row, *table["rows"][row]] for row in rows or table["rows"]]
-    return "\n".join("| " + " | ".join(row[place] for place in places) + " |" for row in cells)
+    cells = [table["head"], *([row, *table["rows"][row]] for row in rows or table["rows"])]
+    head, *lines = ("| " + " | ".join(row[place] for place in places) + " |" for row in cells)
+    return "\n".join([head, "|" + "---|" * len(places), *lines])
 
 
 def figure(figures: dict, place: str) -> str:
