@@ -9,7 +9,7 @@ import koebe
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-TEXTS = [ROOT / "docs" / name for name in ("troubleshooting.md", "data/pattern_errors.csv")]
+TEXTS = [ROOT / "docs" / "troubleshooting.md", *sorted((ROOT / "docs" / "data").glob("*_errors.csv"))]
 PAGE = " ".join(" ".join(path.read_text(encoding="utf-8") for path in TEXTS).split())
 # What the add-on calls; the rest belongs to the command and to the annulus map of Python.
 # Rooms of native/.
