@@ -1,7 +1,7 @@
 """Pages of docs/ as HTML for the add-on's zip, which the help buttons open.
 
-Pictures are left out, as they are larger than the add-on. Links lead only to pages of the zip. A listed data file becomes
-its table.
+Pictures are left out, as they are larger than the add-on. Links lead only to pages of the zip. A listed data file
+becomes its table.
 """
 
 import csv

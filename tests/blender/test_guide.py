@@ -22,7 +22,8 @@ def registered():
 def test_the_table_names_every_operator_by_its_label():
     operators = registered()
     assert len(operators) >= 11
-    assert {row[1]: row[0] for row in rows()} == {name: operator.get_rna_type().name for name, operator in operators.items()}
+    labels = {name: operator.get_rna_type().name for name, operator in operators.items()}
+    assert {name: label for label, name, *_ in rows()} == labels
 
 
 def test_every_row_says_what_is_written_and_what_becomes_of_it_on_an_error():
