@@ -8,13 +8,15 @@
 In a page a table stands between <!-- figures: NAME --> and <!-- end -->, or some of its rows between
 <!-- figures: NAME | ROW | ROW --> and <!-- end -->, some of its columns with
 <!-- figures: NAME | ROW | ROW || COLUMN | COLUMN -->; a single figure of a table, TABLE/ROW/COLUMN, between
-<!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
+<!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date. The beginning of a row's or a column's name
+stands for it, if no other begins so.
 Rows whose meshes are not there keep what was measured before. bench/tests/test_docs_figures.py compares.
 """
 
 import json
 import re
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -60,12 +62,19 @@ def measure(names: list[str]) -> None:
             keep(name, table.head, rows)
 
 
+def named(names: Iterable[str], start: str) -> str:
+    """The name that is this, or else the only one that begins so."""
+    (name,) = [name for name in names if name == start] or [name for name in names if name.startswith(start)]
+    return name
+
+
 def markdown(table: dict, rows: list[str] | None = None, columns: list[str] | None = None) -> str:
     """A measured table, or some of its rows and columns."""
-    places = [0, *(table["head"].index(column) for column in columns or table["head"][1:])]
-    cells = [table["head"], *([row, *table["rows"][row]] for row in rows or table["rows"])]
-    head, *lines = ("| " + " | ".join(row[place] for place in places) + " |" for row in cells)
-    return "\n".join([head, "|" + "---|" * len(places), *lines])
+    head, body = table["head"], table["rows"]
+    places = [0, *(head.index(named(head[1:], column)) for column in columns or head[1:])]
+    cells = [head, *([row, *body[row]] for row in (named(body, row) for row in rows or body))]
+    first, *lines = ("| " + " | ".join(row[place] for place in places) + " |" for row in cells)
+    return "\n".join([first, "|" + "---|" * len(places), *lines])
 
 
 def figure(figures: dict, place: str) -> str:
@@ -74,7 +83,8 @@ def figure(figures: dict, place: str) -> str:
     table = figures[name]
     if not column:
         return table[row]
-    return table["rows"][row][table["head"].index(*column) - 1]
+    head, rows = table["head"][1:], table["rows"]
+    return rows[named(rows, row)][head.index(named(head, *column))]
 
 
 def filled(text: str, figures: dict) -> str:

@@ -78,6 +78,13 @@ def test_a_changed_figure_is_seen():
     assert "| mesh | angle error |\n|---|---|\n| face | 0.01 |\n" in doc_figures.filled(narrow, changed)
 
 
+def test_the_beginning_of_a_name_is_enough_if_no_other_begins_so():
+    assert doc_figures.figure(FIGURES, "quality/choi_a/angle") == FIGURES["quality"]["rows"]["choi_alex3"][2]
+    assert doc_figures.named(["face", "face_finer"], "face") == "face"
+    with pytest.raises(ValueError, match="too many"):
+        doc_figures.figure(FIGURES, "quality/choi_/angle")
+
+
 def test_without_the_peer_the_last_measurement_is_printed(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(against_bff, "SOURCE", tmp_path)
     monkeypatch.setattr(sys, "argv", ["against_bff.py"])
