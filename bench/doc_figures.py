@@ -6,14 +6,17 @@
     bench/doc_figures.py write                     writes the pages from docs/figures.json
 
 In a page a table stands between <!-- figures: NAME --> and <!-- end -->, or some of its rows between
-<!-- figures: NAME | ROW | ROW --> and <!-- end -->; a single figure of a table, TABLE/ROW/COLUMN, between
-<!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date.
+<!-- figures: NAME | ROW | ROW --> and <!-- end -->, some of its columns with
+<!-- figures: NAME | ROW | ROW || COLUMN | COLUMN -->; a single figure of a table, TABLE/ROW/COLUMN, between
+<!-- figure: TABLE/ROW/COLUMN --> and <!-- end -->, or its date, TABLE/date. The beginning of a row's or a column's name
+stands for it, if no other begins so.
 Rows whose meshes are not there keep what was measured before. bench/tests/test_docs_figures.py compares.
 """
 
 import json
 import re
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -59,11 +62,19 @@ def measure(names: list[str]) -> None:
             keep(name, table.head, rows)
 
 
-def markdown(table: dict, rows: list[str] | None = None) -> str:
-    """A measured table, or some of its rows."""
-    lines = ["| " + " | ".join(table["head"]) + " |", "|" + " --- |" * len(table["head"])]
-    lines += [f"| {row} | " + " | ".join(table["rows"][row]) + " |" for row in rows or table["rows"]]
-    return "\n".join(lines)
+def named(names: Iterable[str], start: str) -> str:
+    """The name that is this, or else the only one that begins so."""
+    (name,) = [name for name in names if name == start] or [name for name in names if name.startswith(start)]
+    return name
+
+
+def markdown(table: dict, rows: list[str] | None = None, columns: list[str] | None = None) -> str:
+    """A measured table, or some of its rows and columns."""
+    head, body = table["head"], table["rows"]
+    places = [0, *(head.index(named(head[1:], column)) for column in columns or head[1:])]
+    cells = [head, *([row, *body[row]] for row in (named(body, row) for row in rows or body))]
+    first, *lines = ("| " + " | ".join(row[place] for place in places) + " |" for row in cells)
+    return "\n".join([first, "|" + "---|" * len(places), *lines])
 
 
 def figure(figures: dict, place: str) -> str:
@@ -72,7 +83,8 @@ def figure(figures: dict, place: str) -> str:
     table = figures[name]
     if not column:
         return table[row]
-    return table["rows"][row][table["head"].index(*column) - 1]
+    head, rows = table["head"][1:], table["rows"]
+    return rows[named(rows, row)][head.index(named(head, *column))]
 
 
 def filled(text: str, figures: dict) -> str:
@@ -83,8 +95,9 @@ def filled(text: str, figures: dict) -> str:
         if re.split("/| ", name)[0] not in figures:
             return match[0]
         if "figures:" in start:
-            name, *rows = name.split(" | ")
-            return f"{start}\n\n{markdown(figures[name], rows)}\n\n{end}"
+            chosen, _, columns = name.partition(" || ")
+            name, *rows = chosen.split(" | ")
+            return f"{start}\n\n{markdown(figures[name], rows, columns.split(' | ') if columns else None)}\n\n{end}"
         return f"{start}{figure(figures, name)}{end}"
 
     return MARK.sub(place, text)

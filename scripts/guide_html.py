@@ -1,14 +1,19 @@
 """Pages of docs/ as HTML for the add-on's zip, which the help buttons open.
 
-Pictures are left out, as they are larger than the add-on. Links lead only to pages of the zip.
+Pictures are left out, as they are larger than the add-on. Links lead only to pages of the zip. A listed data file
+becomes its table.
 """
 
+import csv
 import html
 import re
+from pathlib import Path
 
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+DATA = re.compile(r"^- \[([^\]]+)\]\((data/\w+\.csv)\)$", re.MULTILINE)
 PAGES = ("guide", "troubleshooting")  # of docs/, in the zip
 STYLE = (
     "body{max-width:50em;margin:2em auto;padding:0 1em;font:16px/1.5 sans-serif;color:#222;background:#fff}"
@@ -20,7 +25,7 @@ STYLE = (
 def page(markdown: str, title: str) -> str:
     """A whole page."""
     reader = MarkdownIt("commonmark").enable("table")
-    tokens = reader.parse(markdown)
+    tokens = reader.parse(DATA.sub(lambda data: f"{data[1]}:\n\n{_table(DOCS / data[2])}", markdown))
     for at, token in enumerate(tokens):
         if token.type == "heading_open":
             token.attrSet("id", anchor("".join(child.content for child in tokens[at + 1].children or [])))
@@ -34,6 +39,12 @@ def page(markdown: str, title: str) -> str:
 def anchor(heading: str) -> str:
     """The id of a heading, as the links of the pages name it."""
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+def _table(file: Path) -> str:
+    """The table of a data file in Markdown."""
+    head, *rows = csv.reader(file.read_text(encoding="utf-8").splitlines())
+    return "\n".join("| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *rows))
 
 
 def _shown(tokens: list[Token]) -> list[Token]:

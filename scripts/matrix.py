@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Test the zips of `make dist` in every Blender to be had here, and write the table of docs/compatibility.md.
+"""Test the zips of `make dist` in every Blender to be had here, and write docs/data/compatibility.csv.
 
 Usage: matrix.py [NAME...]     as root on Debian 12. Without names: all of PLACES, one after another.
 
@@ -9,6 +9,7 @@ out/matrix/NAME.log; pictures: out/gui*. A place that cannot be made ready is in
 library only.
 """
 
+import csv
 import datetime
 import json
 import os
@@ -21,11 +22,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-WORK, OUT, PAGE = ROOT / "build" / "matrix", ROOT / "out" / "matrix", ROOT / "docs" / "compatibility.md"
+WORK, OUT, TABLE = ROOT / "build" / "matrix", ROOT / "out" / "matrix", ROOT / "docs" / "data" / "compatibility.csv"
 FACTS = ROOT / "docs" / "compatibility.json"
 HOURS = 1.5  # of one place
 INSIDE = "/koebe"  # the project, in a folder with another Debian
-BEGIN, END = "<!-- the table of `make matrix` -->", "<!-- its end -->"
 LINE = re.compile(r"(?:(\d+) failed)?(?:, )?(?:(\d+) passed)?(?:, )?(?:(\d+) skipped)?[^\n]* in [\d.]+s")
 
 Command = list[str | Path]
@@ -246,19 +246,17 @@ def tested(name: str) -> dict[str, object]:
     return {**facts, "passed": passed, "failed": failed, "skipped": skipped}
 
 
-def write_page(results: dict[str, dict[str, object]]) -> None:
+def write_table(results: dict[str, dict[str, object]]) -> None:
     FACTS.write_text(json.dumps(results, indent=1, sort_keys=True) + "\n", encoding="utf-8")
-    rows = ["| where | Blender | Python | passed | failed | skipped | on |", "| ---" * 7 + " |"]
+    rows = [["where", "Blender", "Python", "passed", "failed", "skipped", "on"]]
     for name in PLACES:
         if name in results:
             facts = results[name]
             counts = [f"not run: {facts['not run']}", "", ""] if "not run" in facts else [
-                f"{facts['passed']:,}", f"{facts['failed']:,}", f"{facts['skipped']:,}"]
-            row = [facts["place"], facts.get("blender", "–"), facts.get("python", "–"), *counts, facts["date"]]
-            rows.append("| " + " | ".join(map(str, row)) + " |")
-    page = PAGE.read_text(encoding="utf-8")
-    before, rest = page.split(BEGIN)
-    PAGE.write_text(f"{before}{BEGIN}\n" + "\n".join(rows) + f"\n{END}{rest.split(END)[1]}", encoding="utf-8")
+                facts["passed"], facts["failed"], facts["skipped"]]
+            rows.append([facts["place"], facts.get("blender", "–"), facts.get("python", "–"), *counts, facts["date"]])
+    with TABLE.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
 
 
 def main() -> None:
@@ -274,7 +272,7 @@ def main() -> None:
         results = json.loads(FACTS.read_text(encoding="utf-8")) if FACTS.exists() else {}
         results[name] = facts
         print(f"{name}: {results[name]}", flush=True)
-        write_page(results)
+        write_table(results)
     bad = [name for name in names if results[name].get("failed") or "not run" in results[name]]
     raise SystemExit(f"not all is well: {', '.join(bad)}" if bad else 0)
 

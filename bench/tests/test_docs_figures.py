@@ -73,7 +73,16 @@ def test_a_changed_figure_is_seen():
     changed["quality"]["rows"]["face"][2] = "0.01"
     assert doc_figures.filled(page, changed) != page
     row = "<!-- figures: quality | face -->\n\n{}\n\n<!-- end -->"
-    assert "| 0.01 |" in doc_figures.filled(row, changed) and doc_figures.filled(row, changed).count("\n| ") == 3
+    assert "| 0.01 |" in doc_figures.filled(row, changed) and doc_figures.filled(row, changed).count("\n| ") == 2
+    narrow = row.replace("face -->", "face || angle error -->")
+    assert "| mesh | angle error |\n|---|---|\n| face | 0.01 |\n" in doc_figures.filled(narrow, changed)
+
+
+def test_the_beginning_of_a_name_is_enough_if_no_other_begins_so():
+    assert doc_figures.figure(FIGURES, "quality/choi_a/angle") == FIGURES["quality"]["rows"]["choi_alex3"][2]
+    assert doc_figures.named(["face", "face_finer"], "face") == "face"
+    with pytest.raises(ValueError, match="too many"):
+        doc_figures.figure(FIGURES, "quality/choi_/angle")
 
 
 def test_without_the_peer_the_last_measurement_is_printed(tmp_path, monkeypatch, capsys):

@@ -28,6 +28,7 @@ def test_each_construct():
     ):  # fmt: skip
         assert part in body
     assert "<img" not in made and "even" not in made
+    assert "<td>uv.koebe_pack</td>" in page("- [All](data/operators.csv)\n", "T")
 
 
 @pytest.mark.parametrize("name", PAGES)

@@ -1,4 +1,4 @@
-"""What an operator may change, as the table in docs/guide.md says, told by the names of a fingerprint."""
+"""What an operator may change, as the table in docs/data/operators.csv says, told by the names of a fingerprint."""
 
 import contextlib
 
