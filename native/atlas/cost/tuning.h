@@ -119,10 +119,9 @@ inline constexpr double dart_even = 0.1;
 inline constexpr double proxy_factor = 2.0;
 
 // Stitches, in energy.
-/// of one more part | what an island costs that hangs together with another by a neck as wide as itself | 14 models
+/// of one more part | what an island costs beside another, joined to it by a neck as wide as itself | 14 models
 inline constexpr double stitched_island = 0.12;
-/// energy | of islands that are all disks, over islands without area | 14 models: islands 5.4 -> 3.8, compactness .42
-/// -> .40
+/// energy | of islands that are all disks, over islands without area | 14 models: islands 5.5 -> 3.8
 inline constexpr double roundness = 0.3;
 /// energy over area | of two sides of a border that are joined, over their mean square distance | chosen
 inline constexpr double bent_border = 0.5;

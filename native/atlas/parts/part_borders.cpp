@@ -36,21 +36,21 @@ std::pair<Index, Index> PartBorders::vertices_at(const PartBorder& border, std::
     return {target(first, border.of_first.back()), origin(second, border.of_second.back())};
 }
 
-EdgeEnds PartBorders::name(const RimEdge& edge) const
+EdgeEnds PartBorders::name(const PartEdge& edge) const
 {
     const FlatPart& part = parts_[edge.part];
     return sorted_ends(part.original[origin(part.surface.triangles, edge.halfedge)],
                        part.original[target(part.surface.triangles, edge.halfedge)]);
 }
 
-EdgeEnds PartBorders::image(const RimEdge& edge) const
+EdgeEnds PartBorders::image(const PartEdge& edge) const
 {
     const FlatPart& part = parts_[edge.part];
     return sorted_ends(part.image[origin(part.surface.triangles, edge.halfedge)],
                        part.image[target(part.surface.triangles, edge.halfedge)]);
 }
 
-const std::vector<RimEdge>* PartBorders::find(const EdgeEnds& name) const
+const std::vector<PartEdge>* PartBorders::find(const EdgeEnds& name) const
 {
     const auto found = edges_.find(name);
     if (found == edges_.end() || found->second.size() != 2 || found->second[0].part == found->second[1].part) return {};
@@ -58,17 +58,17 @@ const std::vector<RimEdge>* PartBorders::find(const EdgeEnds& name) const
 }
 
 /// The same edge in the other part.
-std::optional<RimEdge> PartBorders::beyond(const RimEdge& edge) const
+std::optional<PartEdge> PartBorders::beyond(const PartEdge& edge) const
 {
-    const std::vector<RimEdge>* both = find(name(edge));
+    const std::vector<PartEdge>* both = find(name(edge));
     if (!both) return {};
     return (*both)[(*both)[0].part == edge.part ? 1 : 0];
 }
 
 /// The next edge of the same border, in the direction of this part's boundary.
-std::optional<RimEdge> PartBorders::after(const RimEdge& edge) const
+std::optional<PartEdge> PartBorders::after(const PartEdge& edge) const
 {
-    const RimEdge next{edge.part, leaving_[edge.part][target(parts_[edge.part].surface.triangles, edge.halfedge)]};
+    const PartEdge next{edge.part, leaving_[edge.part][target(parts_[edge.part].surface.triangles, edge.halfedge)]};
     const auto here = beyond(edge), there = beyond(next);
     if (!there || there->part != here->part) return {};
     const Triangles& triangles = parts_[there->part].surface.triangles;
@@ -76,16 +76,16 @@ std::optional<RimEdge> PartBorders::after(const RimEdge& edge) const
     return next;
 }
 
-PartBorder PartBorders::border_through(const RimEdge& edge) const
+PartBorder PartBorders::border_through(const PartEdge& edge) const
 {
     // Back to its first edge: in the other part the border runs the other way.
-    RimEdge start = edge;
+    PartEdge start = edge;
     while (const auto before = after(*beyond(start))) {
         start = *beyond(*before);
         if (start.halfedge == edge.halfedge) break;
     }
     PartBorder border{edge.part, beyond(edge)->part, {}, {}, false};
-    for (RimEdge own = start;;) {
+    for (PartEdge own = start;;) {
         border.of_first.push_back(own.halfedge);
         border.of_second.push_back(beyond(own)->halfedge);
         const auto next = after(own);

@@ -11,7 +11,7 @@
 namespace koebe {
 
 /// An edge on the boundary of a part.
-struct RimEdge {
+struct PartEdge {
     std::size_t part = 0;
     Index halfedge = no_twin;
 };
@@ -36,20 +36,20 @@ public:
     std::pair<Index, Index> vertices_at(const PartBorder& border, std::size_t place) const;
 
     /// The edge as it is named in the whole, and its mirror image, of a part that has one.
-    EdgeEnds name(const RimEdge& edge) const;
-    EdgeEnds image(const RimEdge& edge) const;
+    EdgeEnds name(const PartEdge& edge) const;
+    EdgeEnds image(const PartEdge& edge) const;
 
     /// The two places of an edge that lies between two parts; empty if it does not.
-    const std::vector<RimEdge>* find(const EdgeEnds& name) const;
+    const std::vector<PartEdge>* find(const EdgeEnds& name) const;
 
 private:
-    std::optional<RimEdge> beyond(const RimEdge& edge) const;
-    std::optional<RimEdge> after(const RimEdge& edge) const;
-    PartBorder border_through(const RimEdge& edge) const;
+    std::optional<PartEdge> beyond(const PartEdge& edge) const;
+    std::optional<PartEdge> after(const PartEdge& edge) const;
+    PartBorder border_through(const PartEdge& edge) const;
 
     const std::vector<FlatPart>& parts_;
-    std::vector<std::vector<Index>> leaving_;         // (parts, V) the half-edge of the boundary that leaves a vertex
-    std::map<EdgeEnds, std::vector<RimEdge>> edges_;  // of all boundaries
+    std::vector<std::vector<Index>> leaving_;          // (parts, V) the half-edge of the boundary that leaves a vertex
+    std::map<EdgeEnds, std::vector<PartEdge>> edges_;  // of all boundaries
     std::vector<PartBorder> borders_;
 };
 

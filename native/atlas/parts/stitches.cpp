@@ -27,12 +27,12 @@ constexpr double most_of_ring = 0.8;     // of a closed border
 constexpr double dense = 4.0;            // times its own area: such a face wastes texels
 
 /// The edges of a stretch, named by their vertices in the whole.
-using Stretch = std::vector<EdgeEnds>;
+using BorderStretch = std::vector<EdgeEnds>;
 
 struct Stitch {
-    std::vector<Stretch> stretches;  ///< one, or one and its mirror image
-    double saved = 0.0;              ///< what the cut and the island cost
-    double forecast = 0.0;           ///< of what is won
+    std::vector<BorderStretch> stretches;  ///< one, or one and its mirror image
+    double saved = 0.0;                    ///< what the cut and the island cost
+    double forecast = 0.0;                 ///< of what is won
 };
 
 /// What the islands of a layout look like.
@@ -234,9 +234,9 @@ private:
     /// The stitch along a stretch, and along its mirror image where that is another one.
     std::optional<Stitch> with_image(const PartBorder& border, Window window, Stitch stitch) const
     {
-        Stretch own, image;
+        BorderStretch own, image;
         for (std::size_t i = window.from; i < window.to; ++i) {
-            const RimEdge edge{border.first, border.of_first[i]};
+            const PartEdge edge{border.first, border.of_first[i]};
             own.push_back(borders_.name(edge));
             if (!parts_[border.first].image.empty()) image.push_back(borders_.image(edge));
         }
@@ -325,13 +325,13 @@ std::optional<FlatPart> joined(const FlatPart& first, const FlatPart& second,
 }
 
 /// Joins the two parts beside a stretch. @param changed (parts) kept in step @return whether that is a surface
-bool join_along(const Stretch& stretch, std::vector<FlatPart>& parts, std::vector<char>& changed)
+bool join_along(const BorderStretch& stretch, std::vector<FlatPart>& parts, std::vector<char>& changed)
 {
     const PartBorders borders(parts);
     std::vector<std::pair<Index, Index>> halfedges;
     std::pair<std::size_t, std::size_t> own;
     for (const EdgeEnds& edge : stretch) {
-        const std::vector<RimEdge>* both = borders.find(edge);
+        const std::vector<PartEdge>* both = borders.find(edge);
         if (!both) return false;
         const std::pair found((*both)[0].part, (*both)[1].part);
         if (halfedges.empty()) own = found;
@@ -357,7 +357,7 @@ std::optional<std::vector<FlatPart>> stitched(std::vector<FlatPart> parts, const
                                               ExecutionContext& context)
 {
     std::vector<char> changed(parts.size(), 0);
-    for (const Stretch& stretch : stitch.stretches)
+    for (const BorderStretch& stretch : stitch.stretches)
         if (!join_along(stretch, parts, changed)) return {};
     for (std::size_t k = 0; k < parts.size(); ++k) {
         if (!changed[k]) continue;
@@ -394,7 +394,7 @@ bool stitch_parts(std::vector<HeldPart>& held, double even, const ThroughPrice& 
             parts = std::move(*trial);
             any = true;
         } else {
-            for (const Stretch& stretch : stitch->stretches) refused.insert(stretch[stretch.size() / 2]);
+            for (const BorderStretch& stretch : stitch->stretches) refused.insert(stretch[stretch.size() / 2]);
         }
     }
     held.clear();
