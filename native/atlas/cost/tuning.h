@@ -99,8 +99,8 @@ inline constexpr double new_dart = 0.03;
 inline constexpr double released_share = 0.25;
 /// energy over area | a region of faces above it may be released by one cut | wasted texels of 3 models: 8 to 14 -> 0 %
 inline constexpr double strained = 1.0;
-/// energy over area | a part with more gets darts that have no mirror image, if no other help | chosen
-inline constexpr double unsymmetric = 0.25;
+/// energy over area | a part with more is stuck: it is mapped anew, or gets darts without a mirror image | chosen
+inline constexpr double stuck = 0.25;
 /// of a length | a cut unloads the surface beside it so far | chosen
 inline constexpr double cut_reach = 0.25;
 /// length | between tips of darts, and between through cuts, that are opened together | chosen

@@ -269,7 +269,7 @@ private:
             const FlatPart& flat = parts_[k].flat;
             const double area = face_areas(flat.vertices, flat.surface.triangles).sum();
             if (unpaired[k].darts.empty() || !trials_[k].darts.empty() || flat.image.empty() ||
-                !(energy_[k].sum() > tuning::unsymmetric * area))
+                !(energy_[k].sum() > tuning::stuck * area))
                 continue;
             trials_[k] = unpaired[k];
             const std::set<Index> own(flat.original.begin(), flat.original.end());

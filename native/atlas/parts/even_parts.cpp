@@ -175,13 +175,10 @@ public:
         const auto done = [&](std::vector<std::size_t> worse) {
             return EvenParts{worse.size() < bounds.most.size() ? even : 0.0, left_, std::move(worse)};
         };
-        const double asked = even;  // parts that are far from it get the time before E becomes smaller
         for (auto next = less_even_with_darts.begin();;) {
             relax_cut(even, look);
             start_stuck_anew(even);
             if (bounds.exact && angles() > tuning::carried_error * bounds.sum()) bounds = bounds.exact();
-            if (!bounds.most.empty() && even == asked && angles() > tuning::carried_error * bounds.sum())
-                relax_cut(even, EvenEffort{.most_far = far_rounds});
             if (bounds.most.empty() || angles() <= tuning::carried_error * bounds.sum())
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
             if (bounds.most.empty()) return {even, left_};
@@ -242,14 +239,14 @@ private:
             if (!survives_storing(parts_[k].flat)) parts_[k] = before[k];
     }
 
-    /// Maps parts by themselves that are stuck: they have as much energy as a strained region.
+    /// Maps parts by themselves that are stuck far from their minimum.
     void start_stuck_anew(double even)
     {
         const auto energy = [&](const FlatPart& flat) { return forces_in(flat, even).energy.sum(); };
         side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
             FlatPart& flat = parts_[k].flat;
             const double area = face_areas(flat.vertices, flat.surface.triangles).sum();
-            if (!flat.is_near || !parts_[k].round.empty() || !(energy(flat) > tuning::strained * area)) return;
+            if (!flat.is_near || !parts_[k].round.empty() || !(energy(flat) > tuning::stuck * area)) return;
             FlatPart anew = flat;
             start_by_itself({}, anew, own);
             make_even(flat_surface(anew, parts_[k].round), even, packed_side, own, {.most_far = far_rounds});

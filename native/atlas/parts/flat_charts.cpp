@@ -253,6 +253,7 @@ private:
     {
         const std::vector<Index> planar = planar_pieces(chart);
         const std::vector<char> curved = curved_vertices(chart);
+        const double small = tuning::small_area * surface_.areas.sum();
         const std::size_t count = static_cast<std::size_t>(std::ranges::max(planar)) + 1;
         std::vector<double> area(count), outline(count, 0.0), largest(count, 0.0);
         std::map<std::pair<Index, Index>, double> borders;
@@ -296,8 +297,7 @@ private:
                 if (looseness(strip, piece) <= tolerance::rolled_outline && settle(strip, 0)) continue;
                 // Large facets between flat vertices are no ball, and stay flat: a cylinder beside faces of any kind.
                 const bool is_flat = curved_share(strip, chart, curved) <= tolerance::rolled_outline;
-                for (const Index f : strip.face)
-                    group_[f] = is_flat && plane(f).area >= tuning::small_area * surface_.areas.sum() ? planar_[f] : -1;
+                for (const Index f : strip.face) group_[f] = is_flat && plane(f).area >= small ? planar_[f] : -1;
                 for (const SeamedMesh& facet : cut_between_groups(strip))
                     if (group_[facet.face.front()] < 0 || !settle(facet, 0))
                         charts_.rest.insert(charts_.rest.end(), facet.face.begin(), facet.face.end());
