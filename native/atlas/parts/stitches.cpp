@@ -132,8 +132,8 @@ private:
         const auto least = std::ranges::min_element(
             border.of_first, {}, [&](Index h) { return seen_length(part, h) / edge_length(part, h); });
         const auto at = least - border.of_first.begin();
-        std::ranges::rotate(border.of_first, border.of_first.begin() + at);
-        std::ranges::rotate(border.of_second, border.of_second.begin() + at);
+        std::rotate(border.of_first.begin(), border.of_first.begin() + at, border.of_first.end());
+        std::rotate(border.of_second.begin(), border.of_second.begin() + at, border.of_second.end());
         return border;
     }
 
