@@ -105,7 +105,6 @@ private:
     /// @param stitch whether parts may be joined again @return E
     double make_all_even(bool stitch)
     {
-        const std::vector<MeshPiece> decided = stitch ? pieces_ : std::vector<MeshPiece>{};
         FineParts fine(pieces_, options_, context_);
         EvenOptions evening = evening_of(options_, options_.roomy, options_.threads);
         evening.stitch = stitch;
@@ -125,12 +124,12 @@ private:
 
         // Make the same parts of the fine surface. Where angles are worse than at 0, go back.
         if (even > 0.0) {
-            fine.carry(std::move(before));
+            fine.carry(before);
             std::vector<FlatPart> parts = together();
             const EvenParts relaxed = relax_carried(parts, even, fine.angle_bounds(), evening, context_);
             take_back(std::move(parts), relaxed);
             if (!fine.can_go_back(relaxed.worse)) {
-                pieces_ = decided;
+                take_decided(std::move(before));
                 return make_all_even(false);
             }
             fine.open_pinholes();
@@ -147,6 +146,18 @@ private:
         result_.not_even.clear();
         evening.darts = 0.0;
         return make_together_even(evening);
+    }
+
+    /// The pieces as they were before their parts were made even.
+    void take_decided(std::vector<std::vector<FlatPart>> parts)
+    {
+        for (std::size_t i = 0; i < pieces_.size(); ++i) {
+            MeshPiece& own = pieces_[i];
+            own.parts = std::move(parts[i]);
+            own.conformal.clear();
+            own.is_fine = !own.proxy;
+            own.is_measured = own.is_joined = false;
+        }
     }
 
     /// The parts of all pieces. An element's name is its number and the number of elements in all pieces before.

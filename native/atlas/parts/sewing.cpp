@@ -155,16 +155,19 @@ private:
         std::map<Index, double> area;
         for (const Index f : faces_) area[seams.before.find(f)] += std::abs(area_in(uv, f));
         const Index largest = std::ranges::max_element(area, {}, [](const auto& one) { return one.second; })->first;
-        RigidFit fit;
+        RigidFit fit;  // about a corner: far from the origin, sums of squares would lose what they differ in
+        const Complex about =
+            complex_at(uv, 3 * *std::ranges::find_if(faces_, [&](Index f) { return seams.before.find(f) == largest; }));
         for (std::size_t i = 0; i < faces_.size(); ++i)
             for (int k = 0; k < 3 && seams.before.find(faces_[i]) == largest; ++k)
-                fit.add(complex_at(uv, 3 * faces_[i] + k), complex_at(made, static_cast<Index>(3 * i) + k));
+                fit.add(complex_at(uv, 3 * faces_[i] + k) - about, complex_at(made, static_cast<Index>(3 * i) + k));
         const double scale = std::sqrt(fit.first_spread() / fit.second_spread());
         if (!std::isfinite(scale) || !(area[largest] > 0.0))
             throw InputError("the islands to sew have no area in the UVs", ElementKind::faces, faces_);
         for (std::size_t i = 0; i < faces_.size(); ++i)
             for (int k = 0; k < 3; ++k)
-                put_complex(uv, 3 * faces_[i] + k, fit.moved(complex_at(made, static_cast<Index>(3 * i) + k), scale));
+                put_complex(uv, 3 * faces_[i] + k,
+                            about + fit.moved(complex_at(made, static_cast<Index>(3 * i) + k), scale));
     }
 
     std::vector<Index> faces_, edges_;  // edges: pairs of vertices of the mesh

@@ -124,6 +124,7 @@ private:
         const Index a = origin(part.surface.triangles, h), b = target(part.surface.triangles, h);
         return price_of_edge(part.shown, a, b) * edge_length(part, h);
     }
+
     /// A closed border begins where it is least seen.
     PartBorder opened(PartBorder border) const
     {
@@ -376,6 +377,7 @@ bool stitch_parts(std::vector<HeldPart>& held, double even, const ThroughPrice& 
 {
     std::vector<FlatPart> parts;
     for (HeldPart& part : held) parts.push_back(std::move(part.flat));
+    LayoutState now(parts, even);
     std::set<EdgeEnds> refused;
     bool any = false;
     for (int tried = 0; tried < most_stitches_tried; ++tried) {
@@ -383,12 +385,12 @@ bool stitch_parts(std::vector<HeldPart>& held, double even, const ThroughPrice& 
         const auto stitch = StitchSearch(parts, price, refused).best();
         if (!stitch) break;
         auto trial = stitched(parts, *stitch, even, context);
-        const LayoutState before(parts, even);
         bool pays = false;
         if (trial) {
             const LayoutState after(*trial, even);
-            const double cost = after.energy - before.energy + roundness_loss(before.compactness, after.compactness);
-            pays = cost < stitch->saved && after.wasted < before.wasted + tuning::wasted_texels;
+            const double cost = after.energy - now.energy + roundness_loss(now.compactness, after.compactness);
+            pays = cost < stitch->saved && after.wasted < now.wasted + tuning::wasted_texels;
+            if (pays) now = after;
         }
         if (pays) {
             parts = std::move(*trial);
