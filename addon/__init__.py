@@ -17,6 +17,8 @@ bl_info = {
 def _parts() -> tuple[ModuleType, ...]:
     """The modules that register something. Imported late, as the rest of the package needs no bpy."""
     from .operators import (
+        arrange,
+        bake_texture,
         carry_texture,
         checker,
         compare_shapes,
@@ -50,6 +52,7 @@ def _parts() -> tuple[ModuleType, ...]:
         run_report,
         saved_report,
         shape_report,
+        trims,
     )
     from .ui import (
         circle_overlay,
@@ -60,15 +63,17 @@ def _parts() -> tuple[ModuleType, ...]:
         panels,
         preferences,
         preset_menu,
+        trim_overlay,
     )
 
     return (
         option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
-        density_report,
+        density_report, trims,
         unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
         compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, sew, live, flat_copy, even_slider,
-        render_layer, texel_density, lift, node_groups, hole_rings,
-        distortion_legend, outline_overlay, circle_overlay, circle_tool, preset_menu, panels, menus, preferences,
+        render_layer, texel_density, arrange, bake_texture, lift, node_groups, hole_rings,
+        distortion_legend, outline_overlay, trim_overlay, circle_overlay, circle_tool, preset_menu, panels, menus,
+        preferences,
     )  # fmt: skip
 
 

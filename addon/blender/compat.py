@@ -247,6 +247,20 @@ def enable_nodes(material: bpy.types.Material) -> None:
         material.use_nodes = True
 
 
+def used_nodes(material: bpy.types.Material) -> list[Any]:
+    """The nodes that a material is drawn with. Before 5.0 a material can have nodes and not use them."""
+    if material.node_tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
+        return []
+    return list(material.node_tree.nodes)
+
+
+def image_pixels(image: bpy.types.Image) -> np.ndarray:
+    """The numbers (4 for each pixel) of an image."""
+    values = np.empty(len(image.pixels), dtype=np.float32)  # type: ignore[arg-type]
+    image.pixels.foreach_get(values)
+    return values
+
+
 def add_socket(tree: Any, side: str, kind: str, name: str, default: Any = None, description: str = "") -> None:
     """Give geometry nodes an input or output. @param side "INPUT" or "OUTPUT", @param kind as in NodeSocketFloat"""
     if hasattr(tree, "interface"):  # from 4.0 on

@@ -101,6 +101,12 @@ def _world_positions(obj: MeshObject, mesh: bpy.types.Mesh) -> np.ndarray:
     return np.einsum("ij,kj->ik", positions, to_world)
 
 
+def face_materials(obj: MeshObject) -> np.ndarray:
+    """Number of the material slot of each face (P,), as in `read_surface`."""
+    with arrays(obj) as mesh:
+        return compat.read(mesh.polygons, "material_index", np.int32)
+
+
 def read_mark(obj: MeshObject) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Arrays that change whenever the mesh's faces, their directions or its vertices' places change.
 

@@ -2,27 +2,23 @@
 """The operators that measure, set and copy the texel density of a UV layer."""
 
 import bpy
-from bpy.props import BoolProperty, StringProperty
+from bpy.props import BoolProperty
 
 from ..blender import edit_mode
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.noted_properties import note_group
-from ..blender.targets import attempt, target_objects, with_own_meshes
+from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.density_job import DensityLayer
 from ..maps.uv_density import island_density
 from ..state.density_report import density_of, density_words
 from ..state.option_properties import option, settings_of, shown_number
-from ..state.run_report import forget
-from .answers import finished, refused
-from .modal_run import OperatorBase, redraw
+from .answers import refused
+from .layer_run import EACH_LAYER, NO_MESH, LayerEdit
+from .modal_run import redraw
 from .polls import has_targets, in_object_mode
 from .tooltip import tooltip
-
-LAYER = "UV layer. Without a name, the active layer"
-NO_MESH = "Select a mesh object with UVs, in Object Mode or in Edit Mode"
-NOTHING = "no density was set."
 
 
 class UV_OT_koebe_measure_density(bpy.types.Operator):
@@ -34,7 +30,7 @@ class UV_OT_koebe_measure_density(bpy.types.Operator):
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
-    layer: StringProperty(name="UV Layer", description=LAYER)
+    layer: EACH_LAYER
     take: BoolProperty(
         name="Take It", description="Set Pixels per Unit to the density of the selected faces, else of the whole object"
     )
@@ -69,30 +65,17 @@ class UV_OT_koebe_measure_density(bpy.types.Operator):
         return {"FINISHED"}
 
 
-class SetsDensity(OperatorBase):
+class SetsDensity(LayerEdit):
     """Mixin of operators that give islands a density."""
 
-    bl_options = {"REGISTER", "UNDO"}
+    nothing, not_done = "no density was set.", "no density was set"
 
-    def _set(self, context: bpy.types.Context, objects: list[MeshObject], layer: str, density: float) -> set[str]:
+    def _set(self, context: bpy.types.Context, objects: list[MeshObject], density: float) -> set[str]:
         """Scale the islands of the objects; in Edit Mode those with a selected face."""
-        problems: list[str] = []
-        done: list[str] = []
-        editing = context.mode == "EDIT_MESH"
-        with transaction() as run:
-            with edit_mode.left_if_faster(run, context):
-                for obj in with_own_meshes(objects):
-                    with attempt(run, obj.name, problems):
-                        found = DensityLayer.of(obj, layer, editing)
-                        done.append(found.set_density(run, density))
-                        forget(run, context, obj.name, found.name)
-            if not done:
-                return refused(self, NOTHING, problems)
-            redraw(context)
-            edit_mode.undo_all(context)
-            for line in done:
-                self.report({"INFO"}, line)
-            return finished(self, "no density was set", problems)
+        layer, editing = self.layer, context.mode == "EDIT_MESH"
+        return self._edit(
+            context, objects, lambda run, obj: DensityLayer.of(obj, layer, editing).set_density(run, density)
+        )
 
 
 class UV_OT_koebe_set_density(SetsDensity, bpy.types.Operator):
@@ -103,7 +86,7 @@ class UV_OT_koebe_set_density(SetsDensity, bpy.types.Operator):
     bl_label = "Koebe Set Texel Density"
     bl_description = tooltip(__doc__)
 
-    layer: StringProperty(name="UV Layer", description=LAYER)
+    layer: EACH_LAYER
     density: option("density")
     pixels: option("pixels")
 
@@ -112,8 +95,7 @@ class UV_OT_koebe_set_density(SetsDensity, bpy.types.Operator):
         return has_targets(cls, context, NO_MESH)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        context.evaluated_depsgraph_get()  # updates the objects' world matrices
-        return self._set(context, target_objects(context), self.layer, shown_number(self.density) / self.pixels)
+        return self._set(context, target_objects(context), shown_number(self.density) / self.pixels)
 
 
 class UV_OT_koebe_copy_density(SetsDensity, bpy.types.Operator):
@@ -123,7 +105,7 @@ class UV_OT_koebe_copy_density(SetsDensity, bpy.types.Operator):
     bl_label = "Koebe Copy Texel Density"
     bl_description = tooltip(__doc__)
 
-    layer: StringProperty(name="UV Layer", description=LAYER)
+    layer: EACH_LAYER
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -137,8 +119,8 @@ class UV_OT_koebe_copy_density(SetsDensity, bpy.types.Operator):
             if not density > 0.0:
                 raise TransferError(f"{source.name}: its UVs have no area")
         except TransferError as error:
-            return refused(self, NOTHING, [str(error)])
-        return self._set(context, [obj for obj in others if obj.data != source.data], self.layer, density)
+            return refused(self, self.nothing, [str(error)])
+        return self._set(context, [obj for obj in others if obj.data != source.data], density)
 
 
 CLASSES = (UV_OT_koebe_measure_density, UV_OT_koebe_set_density, UV_OT_koebe_copy_density)

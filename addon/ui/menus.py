@@ -7,8 +7,11 @@ import bpy
 
 from ..blender import checker
 from ..blender.mesh_object import mesh_objects
+from ..maps.arrange import MODES
 from ..maps.option_table import ROWS
 from ..maps.presets import PRESETS
+from ..operators.arrange import UV_OT_koebe_arrange, UV_OT_koebe_trims
+from ..operators.bake_texture import UV_OT_koebe_bake_texture
 from ..operators.carry_texture import UV_OT_koebe_carry_texture
 from ..operators.checker import UV_OT_koebe_checker
 from ..operators.compare_shapes import UV_OT_koebe_compare_shapes
@@ -81,9 +84,16 @@ class KOEBE_MT_tools(bpy.types.Menu):
             button = layout.operator(UV_OT_koebe_distortion.bl_idname, text=text)
             button.kind, button.layer = kind, settings.layer
         layout.operator(UV_OT_koebe_use_for_rendering.bl_idname, text="Use for Rendering").layer = settings.layer
+        bake = layout.operator(UV_OT_koebe_bake_texture.bl_idname, text="Bake to New UVs")
+        bake.layer, bake.margin = settings.layer, settings.margin
         layout.operator(UV_OT_koebe_measure_density.bl_idname, text="Measure Texel Density")
         button = layout.operator(UV_OT_koebe_set_density.bl_idname, text="Set Texel Density")
         button.density, button.pixels = settings.density, settings.pixels
+        layout.separator()
+        for mode, (label, _) in MODES.items():
+            button = layout.operator(UV_OT_koebe_arrange.bl_idname, text=f"Arrange: {label}")
+            button.mode, button.margin, button.pixels = mode, settings.margin, settings.pixels
+        layout.operator(UV_OT_koebe_trims.bl_idname, text="Make Trim Grid").action = "GRID"
         for group in TOOLS:
             layout.separator()
             for operator, text in group:

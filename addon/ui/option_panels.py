@@ -8,6 +8,7 @@ import bpy
 from ..blender.targets import target_objects
 from ..maps.domains import DOMAINS
 from ..maps.option_table import ROWS
+from ..operators.bake_texture import UV_OT_koebe_bake_texture
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes
 from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg
 from ..operators.hole_rings import MESH_OT_koebe_loops_around_holes
@@ -138,6 +139,8 @@ class LayerPanel(ClosedPanel):
             draw_option(column, settings, name, context)
         if len(target_objects(context)) > 1:
             draw_option(column, settings, "checker_even", context)
+        bake = column.operator(UV_OT_koebe_bake_texture.bl_idname, text="Bake to New UVs", icon="RENDER_STILL")
+        bake.layer, bake.margin = settings.layer, settings.margin
 
 
 class ToolsPanel(ClosedPanel):

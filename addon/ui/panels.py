@@ -15,6 +15,7 @@ from ..operators.run_operator import is_used
 from ..operators.unwrap import MAPS
 from ..state.option_properties import KoebeSettings, option_names, settings_of
 from ..state.run_report import report_of
+from .arrange_panel import ArrangePanel, KOEBE_UL_trims
 from .circle_tool import CIRCLES_TOOL
 from .lift_panel import LiftPanel
 from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, SequencePanel, ToolsPanel
@@ -123,6 +124,7 @@ CHILDREN = {
     "parts": PartsPanel,
     "domains": DomainsPanel,
     "packing": PackingPanel,
+    "arrange": ArrangePanel,
     "layer": LayerPanel,
     "tools": ToolsPanel,
     "lift": LiftPanel,
@@ -149,6 +151,7 @@ def _child(parent: str, editor: type, end: str, part: type) -> type:
 
 CLASSES = (
     KOEBE_UL_islands,
+    KOEBE_UL_trims,
     VIEW3D_PT_koebe,
     *children(VIEW3D_PT_koebe, View3D),
     IMAGE_PT_koebe,

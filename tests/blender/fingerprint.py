@@ -259,6 +259,7 @@ def _surroundings():
     values = {"mode": bpy.context.mode, "report": group(manager.koebe_uv), "shapes": group(manager.koebe_shapes)}
     for scene in bpy.data.scenes:
         values[f"{scene.name} settings"] = group(scene.koebe_uv)
+        values[f"{scene.name} trims"] = group(scene.koebe_trims)
         values[f"{scene.name} select mode"] = tuple(scene.tool_settings.mesh_select_mode)
         for layer in scene.view_layers:
             active = layer.objects.active

@@ -247,6 +247,10 @@ class RandomRun:
                     "height": one([0.0, -0.05])}  # fmt: skip
         if name in ("object.koebe_flat_copy", "uv.koebe_symmetrize", "uv.koebe_pack", "uv.koebe_sew"):
             return {"layer": layer}
+        if name == "uv.koebe_arrange":
+            return {"layer": layer, "mode": one(["LEFT", "ROW", "SIZE", "MATERIAL", "PART", "TRIM", "MIRROR"])}
+        if name == "uv.koebe_trims":
+            return {"action": one(["GRID", "ADD", "REMOVE"])}
         return {"loop": int(self._random.integers(4))} if name == "uv.koebe_select_loop" else {}
 
     def _call(self):
@@ -260,6 +264,7 @@ class RandomRun:
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
             "uv.koebe_select_torn",
             "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize", "uv.koebe_pack", "uv.koebe_sew",
+            "uv.koebe_arrange", "uv.koebe_trims",
         ])  # fmt: skip
         options, fault = self._options(name), None
         if self._random.random() < 0.5:

@@ -152,6 +152,25 @@ def mapped_in_edit_mode():
     bpy.ops.uv.koebe_uniformize(checker=False)
 
 
+def textured():
+    """A mapped object with an image by its old UVs."""
+    states.new_file()
+    obj = states.layered("Textured")
+    scenes.select(obj)
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    material = bpy.data.materials.new("Paint")
+    if material.node_tree is None:
+        material.use_nodes = True
+    tree = material.node_tree
+    node = tree.nodes.new("ShaderNodeTexImage")
+    node.image = bpy.data.images.new("Paint", 8, 8)
+    shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
+    tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
+    obj.data.materials.append(material)
+    states.consistent([obj])
+    scenes.select(obj)
+
+
 def even(name="Even"):
     """A panel that is its own mirror image, mapped."""
     holes = ((0.026, 0.101, 0.35, 0.65), (0.401, 0.476, 0.35, 0.65), (0.651, 0.851, 0.45, 0.62))
@@ -276,6 +295,10 @@ RUNS = {
     "copy density": (carried, "uv.koebe_copy_density", {}),
     "pack": (mapped, "uv.koebe_pack", {}),
     "pack in Edit Mode": (mapped_in_edit_mode, "uv.koebe_pack", {"layer": "Koebe", "average_scale": True}),
+    "arrange": (mapped, "uv.koebe_arrange", {"mode": "SIZE"}),
+    "arrange in Edit Mode": (mapped_in_edit_mode, "uv.koebe_arrange", {"mode": "LEFT", "in_square": True}),
+    "bake": (textured, "uv.koebe_bake_texture", {"layer": "Koebe", "margin": 2}),
+    "trim sheet": (mapped, "uv.koebe_trims", {"action": "GRID"}),
     "sew": (sewable, "uv.koebe_sew", {}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
     "lift": (panels_and_closed, "object.koebe_lift", {"size": 0.4}),

@@ -165,7 +165,7 @@ def test_each_part_of_the_panel_opens_the_guide_at_a_heading(addon, folder):
     ids = set(re.findall(r'id="([^"]*)"', Path(folder, "guide.html").read_text(encoding="utf-8")))
     panels = addon("ui.panels").CLASSES
     parts = [panel for panel in panels if issubclass(panel, bpy.types.Panel)]
-    assert len(parts) == 2 * 13 and {panel.help_at for panel in parts} <= ids
+    assert len(parts) == 2 * 14 and {panel.help_at for panel in parts} <= ids
 
     class Layout:
         """Notes the buttons that are drawn."""

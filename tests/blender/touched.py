@@ -135,7 +135,16 @@ class Touched:
     def _moebius(self, owner, what):
         return (owner, what) == ("file", "report") or self._writes_uv(owner, what)
 
-    _symmetrize = _pack = _moebius
+    _symmetrize = _pack = _arrange = _moebius
+
+    def _bake_texture(self, owner, what):
+        """New images and materials, in the slots."""
+        return owner in ("names of images", "names of materials") or what in (*SLOTS, "materials") or (
+            owner.startswith("material ") and what in ("users", "fake user") or " Koebe" in owner
+        )
+
+    def _trims(self, owner, what):
+        return owner == "file" and what.endswith(" trims")
 
     def _flat_copy(self, owner, what):
         """New data, selected; the copy shares the materials."""

@@ -14,9 +14,10 @@ WIDTH, HEIGHT = 1280, 800
 START_SECONDS = 90
 TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to the tab Koebe, below Blender's own
 PARTS = (  # of the panel, that are closed at first
-    "disk", "parts", "domains", "packing", "layer", "tools", "lift", "shapes", "sequence", "accuracy",
+    "disk", "parts", "domains", "packing", "arrange", "layer", "tools", "lift", "shapes", "sequence", "accuracy",
 )  # fmt: skip
 FIRST_PART, PART = 315, 26  # pixels from a sidebar's top to the first title before any run, and from title to title
+CIRCLES = 46  # pixels of what only the UV Editor's panel has: the tool Koebe Circles
 SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
 
 
@@ -218,10 +219,10 @@ class Window:
                 return
         raise AssertionError(f"no tab Koebe in {area}")
 
-    def open_part(self, part):
-        """Open a part of the panel in the 3D View that is closed at first: in Object Mode, the report empty."""
-        x, top, _, _ = self.region("VIEW_3D", "UI")
-        self.click(x + 70, top + FIRST_PART + PART * PARTS.index(part))
+    def open_part(self, part, area="VIEW_3D"):
+        """Open a part of the panel in an area that is closed at first, the report empty."""
+        x, top, _, _ = self.region(area, "UI")
+        self.click(x + 70, top + FIRST_PART + CIRCLES * (area == "IMAGE_EDITOR") + PART * PARTS.index(part))
 
     def choose(self, **options):
         """Set options of the panel, and let it be drawn again: a button has the options of when it was drawn."""
