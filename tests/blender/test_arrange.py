@@ -182,12 +182,14 @@ def test_pins_and_uvs_that_are_not_finite_stay():
     obj = scattered_cube()
     scenes.pin(obj.data, "Old", [True] * 4 + [False] * 20)
     uv = scenes.corner_uv(obj.data, "Old")
-    uv[4:8], uv[8:12] = np.nan, [[0, 0], [3e38, 0], [3e38, 3e38], [0, 3e38]]
+    uv[4:8] = np.nan
     obj.data.uv_layers["Old"].data.foreach_set("uv", uv.ravel())
     assert bpy.ops.uv.koebe_arrange(mode="RIGHT", in_square=True) == {"FINISHED"}
     after = scenes.corner_uv(obj.data, "Old")
     assert np.array_equal(after[:4], uv[:4]) and np.isnan(after[4:8]).all()
-    assert np.isfinite(after[8:]).all() and np.allclose(after[12:].reshape(3, 4, 2).max(axis=1)[:, 0], 1.0, atol=1e-5)
+    assert np.isfinite(after[8:]).all() and np.allclose(after[8:].reshape(4, 4, 2).max(axis=1)[:, 0], 1.0, atol=1e-5)
+    assert bpy.ops.uv.koebe_arrange(mode="TOP") == {"FINISHED"}
+    assert np.ptp(scenes.corner_uv(obj.data, "Old")[12:].reshape(3, 4, 2).max(axis=1)[:, 1]) < 1e-5
     obj.data.uv_layers["Old"].data.foreach_set("uv", np.full(48, np.nan, np.float32))
     with pytest.raises(RuntimeError, match="nothing was arranged. Cube: 1 island with pinned UVs and 5 islands whose"):
         bpy.ops.uv.koebe_arrange(mode="LEFT")

@@ -163,11 +163,14 @@ def test_mapped_vectors_named_layers_and_two_slots_with_one_image():
     round_it = tree.nodes.new("ShaderNodeTexCoord").outputs["Object"]
     tree.links.new(add_texture(one, other, round_it).outputs["Color"], one_shader.inputs["Metallic"])
     two.node_tree.links.new(add_texture(two, image).outputs["Color"], two_shader.inputs["Base Color"])
+    again = add_texture(one, image)  # the same image, not moved: another new image
+    tree.links.new(again.outputs["Color"], one_shader.inputs["Specular" if "Specular" in one_shader.inputs else "IOR"])
     obj = painted(one, two, faces=2)
     assert bpy.ops.uv.koebe_bake_texture(layer="New", margin=0) == {"FINISHED"}
     made = [slot.material for slot in obj.material_slots]
     found = [textures(material)["Base Color"].image for material in made]
-    assert found[0] == found[1] and [material.name for material in made] == ["One New", "Two New"]
+    other_place = next(node.image for node in made[0].node_tree.nodes if node.name == again.name)
+    assert found[0] == found[1] != other_place and [material.name for material in made] == ["One New", "Two New"]
     assert textures(made[0])["Roughness"].image == other and textures(made[0])["Metallic"].image == other
     assert layer_of(textures(made[0])["Roughness"]) == "New"
     # A face is half of the square: in the new UVs u' = (1 - v) / 2 or more by a half, and v' = 2 u.
