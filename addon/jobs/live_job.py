@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Unwraps again the islands of an edited mesh whose seams or pins have changed."""
+"""Lets the islands of an edited mesh follow whose seams, pins or vertices have changed."""
 
 import dataclasses
 from typing import Any
@@ -11,9 +11,9 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import transaction
-from ..maps.live import LiveState
+from ..maps.live import LiveState, follow
 from ..maps.outcomes import Progress, Task
-from ..maps.parts import PartsOutcome, cut_into_parts, move_parts
+from ..maps.parts import PartsIsland, cut_into_parts, move_parts
 from ..maps.wording import explain
 from . import native_package
 
@@ -32,10 +32,18 @@ class LiveJob:
 
     faces   (P,) bool, of these islands
     choice  a `PartsChoice`
+    even    E of the layer, if it is known. Where the angles are kept, finding it takes most of the time
     """
 
     def __init__(
-        self, obj: MeshObject, layer: str, before: LiveState, state: LiveState, faces: np.ndarray, choice: Any
+        self,
+        obj: MeshObject,
+        layer: str,
+        before: LiveState,
+        state: LiveState,
+        faces: np.ndarray,
+        choice: Any,
+        even: float | None,
     ) -> None:
         self.koebe = native_package.load()
         self.cancel_token = self.koebe.CancelToken()
@@ -47,19 +55,45 @@ class LiveJob:
         pins = np.where(np.repeat(faces, surface.face_size)[:, None], state.pins, np.nan)
         has_pins = bool(np.isfinite(pins).any())
         self._task = Task(obj.name, surface, old_uv=before.uv, rest=state.uv, pins=pins if has_pins else None)
-        self._outcome: PartsOutcome | None = None
+        self.even = even if choice.keep_angles else choice.even
+        self._grown = state.has_cleared(before, faces)
+        self._made: tuple[np.ndarray, np.ndarray] | None = None
 
     def compute(self, progress: Progress | None = None) -> None:
-        """Touches no Blender data. Raises koebe.Cancelled."""
-        self._outcome = cut_into_parts(self.koebe, self._task, self._choice, progress, self.cancel_token)
-        move_parts(self.koebe, self._outcome, self._choice, True, self.cancel_token)
+        """Touches no Blender data. Raises MapError, koebe.Cancelled."""
+        start = self._start(progress)
+        if start is not None and self.even is not None:
+            self._made = follow(self.koebe, self._task, start, self.even, self.cancel_token)
+        if self._made is None:
+            one = self._anew(self._task, self._choice, progress)
+            self._made, self.even = (one.corners, one.uv), one.result.even
+
+    def _start(self, progress: Progress | None) -> np.ndarray | None:
+        """UVs (C, 2) that the islands follow from: where they lie, or a conformal map if they have grown together."""
+        assert self._task.old_uv is not None
+        if self.even is None or not self._grown:
+            return self._task.old_uv
+        conformal = dataclasses.replace(self._choice, keep_angles=False, even=0.0)
+        try:
+            one = self._anew(dataclasses.replace(self._task, pins=None, rest=None), conformal, progress)
+        except TransferError:
+            return None
+        start = self._task.old_uv.copy()
+        start[one.corners] = one.uv
+        return start
+
+    def _anew(self, task: Task, choice: Any, progress: Progress | None) -> PartsIsland:
+        """A map of its own. Raises TransferError."""
+        outcome = cut_into_parts(self.koebe, task, choice, progress, self.cancel_token)
+        move_parts(self.koebe, outcome, choice, True, self.cancel_token)
+        (one,) = outcome.islands
+        if one.error is not None:
+            raise TransferError(f"{task.name}: {explain(one.error)}")
+        return one
 
     def write(self) -> None:
-        """Write the islands. Raises TransferError, also if they could not be mapped; then nothing is changed."""
-        assert self._outcome is not None
-        (one,) = self._outcome.islands
-        if one.error is not None:
-            raise TransferError(f"{self._task.name}: {explain(one.error)}")
+        """Write the islands. Raises TransferError; then nothing is changed."""
+        assert self._made is not None
         with transaction() as run:
-            plan = map_writing.plan(self._target, self._layer, self._task.surface, one.corners, one.uv)
+            plan = map_writing.plan(self._target, self._layer, self._task.surface, *self._made)
             map_writing.write(run, plan, select=False)

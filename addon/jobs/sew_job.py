@@ -14,13 +14,13 @@ from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
 from ..maps.beside import new_overlaps
 from ..maps.errors import MapError
+from ..maps.live import LEAST_EVEN
 from ..maps.outcomes import Progress, Task, share_of
 from ..maps.pins import join_pins
 from ..maps.surface import Surface, next_corners
 from ..maps.wording import counted
 
 SEWN_OVER = ". Islands lie over each other: Pack Only makes room"
-LEAST_EVEN = 0.1  # E around pins if the angles are kept
 
 
 @dataclasses.dataclass

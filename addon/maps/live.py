@@ -1,12 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which islands a change of seams or pins concerns."""
+"""Which islands a change of seams, pins or vertices concerns, and how they follow from where they are."""
 
 import dataclasses
+import functools
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 
+from .even_drag import STILL
 from .islands import cut_into_islands
-from .surface import Surface
+from .outcomes import Task
+from .packing import fit_placement
+from .pins import has_pins, pin_island
+from .surface import Island, Surface
+from .triangles import signed_areas
+from .uv_islands import uv_cuts, vertex_uv
+
+MOST_STEPS = 60  # Newton steps until a warm map has settled. Ten are many
+LEAST_EVEN = 0.1  # E around pins if the angles are kept
 
 
 @dataclasses.dataclass(frozen=True)
@@ -29,14 +41,92 @@ class LiveState:
         )
 
     def concerned(self, before: "LiveState") -> np.ndarray:
-        """The faces (P,) bool of all islands at which a seam or a pin has changed. @param before of the same mesh"""
+        """The faces (P,) bool of all islands at which a seam, a pin or a vertex has changed.
+
+        before  of the same mesh
+        """
         surface = self.surface
         changed = (surface.seam != before.surface.seam)[surface.corner_edge]
         changed |= ~((self.pins == before.pins) | (np.isnan(self.pins) & np.isnan(before.pins))).all(axis=1)
-        found = np.zeros(len(surface.face_size), dtype=bool)
+        changed |= (surface.positions != before.surface.positions).any(axis=1)[surface.corner_vertex]
         if not changed.any():
-            return found
-        touched = np.add.reduceat(changed, surface.face_start) > 0
-        for island in cut_into_islands(surface):
-            found[island.faces] = touched[island.faces].any()
-        return found
+            return np.zeros(len(surface.face_size), dtype=bool)
+        if np.array_equal(surface.seam, before.surface.seam):
+            self.__dict__["island_of_face"] = before.island_of_face  # it is kept while seams stay
+        touched = np.zeros(len(surface.face_size), dtype=bool)
+        touched[self.island_of_face[np.add.reduceat(changed, surface.face_start) > 0]] = True
+        return np.asarray(touched[self.island_of_face])
+
+    @functools.cached_property
+    def island_of_face(self) -> np.ndarray:
+        """The number (P,) of each face's island, between seams."""
+        number = np.zeros(len(self.surface.face_size), dtype=np.int32)
+        for k, island in enumerate(cut_into_islands(self.surface)):
+            number[island.faces] = k
+        return number
+
+    def has_cleared(self, before: "LiveState", faces: np.ndarray) -> bool:
+        """Whether an edge of some faces (P,) bool is no seam any more, so that islands grow together."""
+        surface = self.surface
+        cleared = before.surface.seam & ~surface.seam
+        return bool(cleared[surface.corner_edge[np.repeat(faces, surface.face_size)]].any())
+
+
+def follow(
+    koebe: ModuleType, task: Task, start: np.ndarray, even: float, cancel: Any = None
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """The selected islands, relaxed from UVs that they have, in milliseconds: corners (m,) and UVs (m, 2) in 32 bits.
+
+    start  (C, 2) where the islands lie. Seams of the task's surface are new cuts of them
+    even   E of the islands, and how they bend about their pins
+
+    None if the islands do not follow from there, as they are turned over, or would lie over themselves. Raises
+    MapError for pins that are in the way, and koebe.Cancelled.
+    """
+    surface = task.surface
+    uv = start.astype(np.float64)
+    pieces = cut_into_islands(dataclasses.replace(surface, seam=surface.seam | uv_cuts(surface, start)))
+    for piece in pieces:
+        places = vertex_uv(piece, uv)
+        try:
+            made = _relaxed(koebe, piece, places, task.pins, even, cancel)
+        except koebe.Cancelled:
+            raise
+        except koebe.KoebeError:
+            return None
+        if made is None:
+            return None
+        uv[piece.corners] = made[piece.corner_vertex]
+    corners = np.sort(np.concatenate([piece.corners for piece in pieces]))
+    stored = uv.astype(np.float32)
+    return None if _is_spoiled(koebe, surface, stored) else (corners, stored[corners])
+
+
+def _relaxed(
+    koebe: ModuleType, piece: Island, places: np.ndarray, pins: np.ndarray | None, even: float, cancel: Any
+) -> np.ndarray | None:
+    """The places (n, 2) of a piece's vertices after it has settled; None if it does not."""
+    dial = koebe.EvenDial(piece.vertices, piece.triangles, uv=places, round=False)
+    if pins is not None and has_pins(piece, pins):
+        return pin_island(koebe, dial, piece, pins, even or LEAST_EVEN, cancel)
+    before = places
+    for _ in range(MOST_STEPS):
+        made = dial.move(even, steps=1, cancel=cancel)
+        if not dial.moved or np.abs(made - before).max() < STILL * np.ptp(places, axis=0).max():
+            placement = fit_placement(made, places)
+            return None if placement is None else placement.apply(made)
+        before = made
+    return None
+
+
+def _is_spoiled(koebe: ModuleType, surface: Surface, uv: np.ndarray) -> bool:
+    """Whether a selected triangle has no area in the UVs (C, 2) as they are stored, or an island lies over itself."""
+    chosen = surface.selected[surface.triangle_face]
+    at = surface.triangle_corners[chosen]
+    if not (signed_areas(uv, at) > 0.0).all():
+        return True
+    found = koebe.pack(
+        surface.positions, surface.corner_vertex[at], uv=uv[at].astype(np.float64),
+        polygon=surface.triangle_face[chosen], locked=np.ones(len(at), dtype=bool),
+    )  # fmt: skip
+    return bool(found.overlaps)

@@ -46,20 +46,31 @@ def join_pins(
     held = np.zeros(len(layer), dtype=bool)
     surface = dataclasses.replace(task.surface, selected=is_new[task.surface.face_start])
     for island in uv_islands(surface, layer):
-        pins = _pins_of(island, task.pins)
-        if not pins:
+        if not has_pins(island, task.pins):
             continue
-        places = vertex_uv(island, layer)
-        try:
-            dial = koebe.EvenDial(island.vertices, island.triangles, uv=places, round=False)
-            made = dial.pin(pins, even=even, cancel=cancel)
-        except (koebe.SolverError, koebe.InputError) as error:
-            if error.of != "vertices":
-                raise
-            raise MapError(_blocked(error, island)) from error
-        layer[island.corners] = made[island.corner_vertex]
+        dial = koebe.EvenDial(island.vertices, island.triangles, uv=vertex_uv(island, layer), round=False)
+        layer[island.corners] = pin_island(koebe, dial, island, task.pins, even, cancel)[island.corner_vertex]
         held[island.corners] = True
     return JoinedPins(layer[corners], held[corners])
+
+
+def has_pins(island: Island, pins: np.ndarray) -> bool:
+    """Whether an island has pinned UVs. @param pins (C, 2), NaN at other corners"""
+    return bool(np.isfinite(pins[island.corners]).all(axis=1).any())
+
+
+def pin_island(koebe: ModuleType, dial: Any, island: Island, pins: np.ndarray, even: float, cancel: Any) -> np.ndarray:
+    """The island's vertices (n, 2) with its pins in their places. @param dial `koebe.EvenDial` of its UVs
+
+    Raises as `join_pins`.
+    """
+    try:
+        made: np.ndarray = dial.pin(_pins_of(island, pins), even=even, cancel=cancel)
+    except (koebe.SolverError, koebe.InputError) as error:
+        if error.of != "vertices":
+            raise
+        raise MapError(_blocked(error, island)) from error
+    return made
 
 
 def _blocked(error: Any, island: Island) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live: the islands of the edited mesh are unwrapped again when a seam or a pin changes."""
+"""Live: the islands of the edited mesh follow when a seam, a pin or a vertex changes."""
 
 import time
 from typing import Any
@@ -15,6 +15,7 @@ from ..maps.options import OptionError
 from ..solver.errors import NativeError
 from ..solver.worker import Worker
 from ..state.option_properties import choice_of, settings_of
+from ..state.run_report import even_of
 from .modal_run import redraw
 
 QUIET_SECONDS = 0.15  # without a change, before anything is computed: not during a drag
@@ -35,6 +36,7 @@ class _Live:
         self.message = ""
         self._key: tuple[str, str] | None = None  # object and layer
         self._state: LiveState | None = None
+        self._even: float | None = None  # E of the layer's last map
         self._next: LiveState | None = None  # as the running job read it
         self._job: LiveJob | None = None
         self._worker: Worker | None = None
@@ -69,6 +71,8 @@ class _Live:
         key, now = (obj.name, obj.data.uv_layers.active.name), read_state(obj, obj.data.uv_layers.active.name)
         before = self._state
         is_new = self._is_new or key != self._key or before is None or not now.is_same_mesh(before)
+        if key != self._key:
+            self._even = even_of(bpy.context, *key)
         self._key, self._is_new = key, False
         if is_new or before is None:
             self._state = now
@@ -78,7 +82,7 @@ class _Live:
             self._state = now
             return None
         self._next = now
-        self._job = LiveJob(obj, key[1], before, now, faces, choice_of("parts", settings_of(bpy.context)))
+        self._job = LiveJob(obj, key[1], before, now, faces, choice_of("parts", settings_of(bpy.context)), self._even)
         self._worker = Worker(self._job.compute)
         return POLL_SECONDS
 
@@ -91,6 +95,7 @@ class _Live:
             return
         try:
             worker.result()
+            self._even = job.even
             job.write()
         except (KnownError, TransferError) as error:
             self.message = str(error)
@@ -177,8 +182,8 @@ def register() -> None:
     manager: Any = bpy.types.WindowManager
     manager.koebe_live = BoolProperty(
         name="Live",
-        description="In Edit Mode unwrap an island again when one of its seams is marked or cleared, or one of its "
-        "pins is moved. It stays where it lies, and the other islands are not touched",
+        description="In Edit Mode let an island follow when one of its seams is marked or cleared, one of its pins "
+        "is moved, or its vertices are. It stays where it lies, and the other islands are not touched",
         options={"SKIP_SAVE"},
         update=_switched,
     )

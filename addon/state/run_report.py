@@ -175,6 +175,12 @@ def forget(run: Transaction, context: bpy.types.Context, name: str, layer: str) 
     report.active = min(report.active, max(len(report.islands) - 1, 0))
 
 
+def even_of(context: bpy.types.Context, name: str, layer: str) -> float | None:
+    """E with which the parts of an object's layer were made, if the report knows it."""
+    entries = report_of(context).islands
+    return next((one.even for one in entries if (one.object_name, one.layer) == (name, layer) and one.parts), None)
+
+
 def names_of_active(context: bpy.types.Context) -> set[str]:
     """Names of the active object and of the others with its mesh: the report on one is about all of them."""
     obj: Any = context.active_object

@@ -100,6 +100,107 @@ def test_a_moved_pin_is_followed(live):
     assert np.allclose(one[1:] - one[1], other[1:] - other[1], atol=1e-3)  # one pin moves the island
 
 
+def test_a_moved_vertex_is_followed_and_other_islands_stay(live):
+    obj = edited()
+    bpy.context.window_manager.koebe_live = True
+    follow(live)
+    before = uv_of(obj)
+    mesh = bmesh.from_edit_mesh(obj.data)
+    mesh.verts.ensure_lookup_table()
+    mesh.verts[3 * 13 + 6].co.z += 0.3
+    bmesh.update_edit_mesh(obj.data)
+    follow(live)
+    after = uv_of(obj)
+    assert live.live.message == "" and np.array_equal(after[72:], before[72:])
+    assert np.abs(after[:72] - before[:72]).max() > 1e-3
+
+
+def warm_and_cold(addon, live, monkeypatch, change):
+    """The UVs of the edited sheet after a change, as Live has them from where they were, and mapped anew."""
+    found = []
+    settings = bpy.context.scene.koebe_uv
+    settings.keep_angles, settings.even = False, 0.5  # else a new map looks for an E of its own
+    for is_warm in (True, False):
+        obj = edited()
+        bpy.context.window_manager.koebe_live = True
+        follow(live)
+        change(obj)
+        job = addon("jobs.live_job")
+        with monkeypatch.context() as patch:
+            other = (job.LiveJob, "_anew") if is_warm else (job, "follow")
+            patch.setattr(*other, lambda *_: None)  # which would be an error, or lead to a new map
+            follow(live)
+        assert live.live.message == ""
+        found.append(uv_of(obj))
+        bpy.context.window_manager.koebe_live = False
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects.remove(obj)
+    return found
+
+
+def pinned(obj):
+    """Four pins, of which two are moved, so that the island bends."""
+    mesh = bmesh.from_edit_mesh(obj.data)
+    layer = mesh.loops.layers.uv["Koebe"]
+    mesh.verts.ensure_lookup_table()
+    for vertex, way in ((0, 0.02), (12, 0.0), (5 * 13, 0.0), (3 * 13 + 6, 0.01)):
+        for corner in mesh.verts[vertex].link_loops:
+            corner[layer].pin_uv = True
+            corner[layer].uv = corner[layer].uv[0] + way, corner[layer].uv[1]
+    bmesh.update_edit_mesh(obj.data)
+
+
+@pytest.mark.parametrize("change, far", [(lambda obj: mark(obj, 3, True), 0.002), (pinned, 0.01)])
+def test_what_follows_is_the_map_that_a_new_one_would_be(addon, live, monkeypatch, change, far):
+    warm, cold = warm_and_cold(addon, live, monkeypatch, change)
+    assert np.abs(warm - cold).max() < far * np.ptp(cold.reshape(-1, 2), axis=0).max()
+
+
+def test_random_seams_and_pins_leave_islands_one_to_one(live):
+    """Each island is one to one after each change, pins are where they were set, and other islands stay."""
+    random = np.random.default_rng(3)
+    obj = edited((4, 8))
+    bpy.context.window_manager.koebe_live = True
+    follow(live)
+    followed = 0
+    for _ in range(25):
+        mesh = bmesh.from_edit_mesh(obj.data)
+        layer = mesh.loops.layers.uv["Koebe"]
+        before = uv_of(obj)
+        mesh.edges.ensure_lookup_table()
+        mesh.verts.ensure_lookup_table()
+        edge, vertex = mesh.edges[random.integers(len(mesh.edges))], mesh.verts[random.integers(len(mesh.verts))]
+        if random.random() < 0.5:
+            for other in (edge, *(one for vert in edge.verts for one in vert.link_edges)):
+                other.seam = bool(random.random() < 0.8)
+        else:
+            way = random.normal(size=2) * 0.003
+            for corner in vertex.link_loops:
+                corner[layer].pin_uv = True
+                corner[layer].uv = corner[layer].uv[0] + way[0], corner[layer].uv[1] + way[1]
+        bmesh.update_edit_mesh(obj.data)
+        asked = uv_of(obj)
+        follow(live)
+        after = uv_of(obj)
+        if live.live.message:
+            assert np.array_equal(after, asked)
+            for face in mesh.faces:
+                for corner in face.loops:
+                    corner[layer].pin_uv = False
+            bmesh.update_edit_mesh(obj.data)
+            follow(live)
+            continue
+        followed += not np.array_equal(after, before)
+        x, y = np.moveaxis(after, -1, 0)
+        for a, b, c in ((0, 1, 2), (0, 2, 3)):
+            area = (x[:, b] - x[:, a]) * (y[:, c] - y[:, a]) - (x[:, c] - x[:, a]) * (y[:, b] - y[:, a])
+            other = (x[:, 1] - x[:, 0]) * (y[:, 3] - y[:, 0]) - (x[:, 3] - x[:, 0]) * (y[:, 1] - y[:, 0])
+            assert ((area > 0) | (other > 0)).all()  # whichever way Blender cuts a quadrilateral
+        pins = np.array([[corner[layer].pin_uv for corner in face.loops] for face in mesh.faces])
+        assert np.array_equal(after[pins], asked[pins])
+    assert followed > 12
+
+
 def test_what_cannot_be_mapped_is_told_and_stays(live):
     obj = edited()
     bpy.context.window_manager.koebe_live = True
