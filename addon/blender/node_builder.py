@@ -81,6 +81,27 @@ class NodeBuilder:
         return self.node("GeometryNodeInputNamedAttribute", "Attribute", {"Name": name}, data_type="FLOAT_VECTOR")
 
 
+def store_uv(build: NodeBuilder, layer: Any, uv: Any) -> None:
+    """Let the tree write UVs into a UV map of its geometry, and end with that. @param layer its name"""
+    stored = build.node(
+        "GeometryNodeStoreNamedAttribute", "Geometry",
+        {"Geometry": build.node("NodeGroupInput", "Geometry"), "Name": layer, "Value": uv},
+        data_type=compat.stored_uv_type(), domain="CORNER",
+    )  # fmt: skip
+    build.node("NodeGroupOutput", None, {0: stored})
+
+
+def played(build: NodeBuilder, layer: Any, attribute: Any) -> Any:
+    """The UVs that an attribute of that name holds, and those of the layer where it has none, or (0, 0)."""
+    now = build.named(attribute)
+    length = build.node("ShaderNodeVectorMath", "Value", {0: now}, operation="LENGTH")
+    is_there = build.node("FunctionNodeCompare", "Result", {0: length, 1: 0.0}, operation="GREATER_THAN")
+    return build.node(
+        "GeometryNodeSwitch", "Output", {"Switch": is_there, "False": build.named(layer), "True": now},
+        input_type="VECTOR",
+    )  # fmt: skip
+
+
 def enabled(sockets: Any, name: str) -> Any:
     """The socket of that name that is in use; others have other data types."""
     return next(socket for socket in sockets if socket.name == name and socket.enabled)

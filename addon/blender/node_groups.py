@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from . import compat
-from .node_builder import NodeBuilder, enabled_inputs
+from .node_builder import NodeBuilder, enabled_inputs, played, store_uv
 from .transaction import Transaction
 
 KEY = "koebe_group"  # a custom property with the name under which a group was made
@@ -233,6 +233,7 @@ DISK_INPUTS = (
     ("Float", "Radius", 0.5, "Radius of the disk in the UVs"),
 )
 FIELD, CIRCLES, LIFT, SCATTER = "Koebe Moebius", "Koebe Move Circles", "Koebe Bend onto Surface", "Koebe Scatter"
+PLAYED = "Koebe UV by Attribute"
 
 
 def _moebius(build: NodeBuilder) -> None:
@@ -286,12 +287,19 @@ def _circles(build: NodeBuilder) -> None:
     build.tree.links.new(build.named(layer), group.inputs["UV"])
     for _, name, *_ in DISK_INPUTS:
         build.tree.links.new(build.given(name), group.inputs[name])
-    stored = build.node(
-        "GeometryNodeStoreNamedAttribute", 0,
-        {"Geometry": build.given("Geometry"), "Name": layer, "Value": group.outputs["UV"]},
-        data_type=compat.stored_uv_type(), domain="CORNER",
-    )  # fmt: skip
-    build.node("NodeGroupOutput", None, {0: stored})
+    store_uv(build, layer, group.outputs["UV"])
+
+
+def _by_attribute(build: NodeBuilder) -> None:
+    """The attribute's UVs in the UV map, as far as the factor says."""
+    build.modifier_sockets()
+    build.input("String", "Attribute", "Koebe_0001", "Name of the attribute with UVs, as Unwrap Sequence makes them")
+    build.input("String", "UV Map", "Koebe", "Name of the UV map that shows them")
+    build.input("Float", "Factor", 1.0, "0: the UV map as it is. 1: the attribute. Between them the UVs move")
+    layer = build.given("UV Map")
+    own = build.named(layer)
+    way = build.vector_math("SUBTRACT", played(build, layer, build.given("Attribute")), own)
+    store_uv(build, layer, build.vector_math("ADD", own, build.scaled(way, build.given("Factor"))))
 
 
 GROUPS: dict[str, tuple[Callable[[NodeBuilder], None], str]] = {
@@ -299,4 +307,5 @@ GROUPS: dict[str, tuple[Callable[[NodeBuilder], None], str]] = {
     SCATTER: (_scatter, "Scatters instances over a mapped surface, as large as the map is there"),
     FIELD: (_moebius, "A Möbius map of a disk in the UVs: circles stay circles"),
     CIRCLES: (_circles, "Moves the circles of a UV map: drag a point of the disk to the middle, and turn it"),
+    PLAYED: (_by_attribute, "Plays UVs that an attribute holds in a UV map, or goes from one to the other"),
 }

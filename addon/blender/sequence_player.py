@@ -5,9 +5,8 @@ from typing import Any
 
 import bpy
 
-from . import compat
 from .mesh_object import MeshObject
-from .node_builder import NodeBuilder, enabled
+from .node_builder import NodeBuilder, enabled, played, store_uv
 from .transaction import Transaction
 
 NAME = "Koebe Sequence"  # of the modifier and its nodes
@@ -83,19 +82,7 @@ def _restore(obj: MeshObject, names: list[str], groups: set[str], old: tuple[Any
 def _nodes(layer: str, prefix: str, frames: range) -> Any:
     build = NodeBuilder(NAME)
     build.modifier_sockets()
-    now = build.named(_attribute_name(build, prefix, frames))
-    length = build.node("ShaderNodeVectorMath", "Value", {0: now}, operation="LENGTH")
-    is_there = build.node("FunctionNodeCompare", "Result", {0: length, 1: 0.0}, operation="GREATER_THAN")
-    uv = build.node(
-        "GeometryNodeSwitch", "Output", {"Switch": is_there, "False": build.named(layer), "True": now},
-        input_type="VECTOR",
-    )  # fmt: skip
-    stored = build.node(
-        STORE, "Geometry",
-        {"Geometry": build.node("NodeGroupInput", "Geometry"), "Name": layer, "Value": uv},
-        data_type=compat.stored_uv_type(), domain="CORNER",
-    )  # fmt: skip
-    build.node("NodeGroupOutput", None, {0: stored})
+    store_uv(build, layer, played(build, layer, _attribute_name(build, prefix, frames)))
     return build.tree
 
 

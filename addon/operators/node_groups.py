@@ -16,7 +16,8 @@ from .tooltip import tooltip
 
 class NODE_OT_koebe_add_groups(bpy.types.Operator):
     """Add node groups for Geometry Nodes, as assets of this file: Koebe Bend onto Surface bends geometry onto a mapped
-    surface, Koebe Scatter puts instances on it, Koebe Move Circles moves its circles"""
+    surface, Koebe Scatter puts instances on it, Koebe Move Circles moves its circles, Koebe UV by Attribute
+    plays stored UVs"""
 
     bl_idname = "node.koebe_add_groups"
     bl_label = "Add Koebe Node Groups"

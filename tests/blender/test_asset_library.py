@@ -29,7 +29,8 @@ def test_the_groups_are_in_a_library_and_not_in_this_file(without_library):
     with bpy.data.libraries.load(str(path), assets_only=True) as (inside, chosen):
         names = set(inside.node_groups)
         chosen.node_groups = ["Koebe Scatter"]
-    assert names == {"Koebe Bend onto Surface", "Koebe Scatter", "Koebe Move Circles", "Koebe Moebius"}
+    assert names == {"Koebe Bend onto Surface", "Koebe Scatter", "Koebe Move Circles", "Koebe Moebius",
+                     "Koebe UV by Attribute"}
     assert "Koebe Scatter" in bpy.data.node_groups
     assert bpy.ops.node.koebe_remove_library() == {"FINISHED"}
     assert not ours() and not path.exists() and not bpy.ops.node.koebe_remove_library.poll()

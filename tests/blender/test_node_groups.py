@@ -6,7 +6,8 @@ import pytest
 import scenes
 
 EXACT = 1e-5
-NAMES = ["Koebe Bend onto Surface", "Koebe Moebius", "Koebe Move Circles", "Koebe Scatter"]
+NAMES = ["Koebe Bend onto Surface", "Koebe Moebius", "Koebe Move Circles", "Koebe Scatter",
+         "Koebe UV by Attribute"]
 
 
 def add():
@@ -173,6 +174,23 @@ def test_moved_circles_are_the_operators(addon):
     assert np.isfinite(shown_uv(live)).all()
 
 
+@pytest.mark.parametrize("factor", [0.0, 0.25, 1.0])
+def test_uvs_of_an_attribute_are_played(factor):
+    obj = scenes.add_panel(size=12)
+    bpy.ops.uv.koebe_uniformize(checker=False)
+    before = scenes.corner_uv(obj.data, "Koebe")
+    stored = np.column_stack([before + [0.5, 0.25], np.zeros(len(before))]).astype(np.float32)
+    stored[:8] = 0.0  # no UVs there
+    obj.data.attributes.new("Koebe_0007", "FLOAT_VECTOR", "CORNER").data.foreach_set("vector", stored.ravel())
+    put(obj, "Koebe UV by Attribute", Attribute="Koebe_0007", Factor=factor)
+    expected = before + factor * np.array([0.5, 0.25])
+    expected[:8] = before[:8]
+    assert np.abs(shown_uv(obj) - expected).max() < EXACT
+    obj.modifiers.clear()
+    put(obj, "Koebe UV by Attribute", Attribute="None of that name")
+    assert np.abs(shown_uv(obj) - before).max() < EXACT
+
+
 def test_groups_come_as_assets_and_go():
     assert not bpy.ops.node.koebe_remove_groups.poll()
     assert add() == {"FINISHED"} and add() == {"CANCELLED"}
@@ -190,7 +208,7 @@ def test_groups_come_as_assets_and_go():
 
 def test_names_that_are_taken_stay_the_users():
     own = bpy.data.node_groups.new("Koebe Bend onto Surface", "GeometryNodeTree")
-    assert add() == {"FINISHED"} and len(bpy.data.node_groups) == 5
+    assert add() == {"FINISHED"} and len(bpy.data.node_groups) == 6
     assert bpy.ops.node.koebe_remove_groups() == {"FINISHED"}
     assert list(bpy.data.node_groups) == [own]
 
