@@ -75,13 +75,15 @@ class _Stage:
         }  # fmt: skip
         try:
             with bpy.context.temp_override(**context):
-                bpy.ops.object.bake(
+                answer = bpy.ops.object.bake(
                     type="NORMAL" if normal else "EMIT", uv_layer=self.layer, margin=self.margin, use_clear=True,
                     save_mode="INTERNAL", target="IMAGE_TEXTURES", normal_space="TANGENT", normal_r="POS_X",
                     normal_g="POS_Y", normal_b="POS_Z", use_selected_to_active=False,
                 )  # fmt: skip
         except RuntimeError as error:
             raise TransferError(f"Blender's bake failed: {str(error).removeprefix('Error: ').strip()}") from error
+        if answer != {"FINISHED"}:
+            raise TransferError("Blender's bake failed: it was cancelled")
 
 
 def carry(run: Transaction, obj: MeshObject, layer: str, margin: int) -> list[bpy.types.Image]:
@@ -113,7 +115,7 @@ def carry(run: Transaction, obj: MeshObject, layer: str, margin: int) -> list[bp
             material_slots.set_own(run, obj, index, copies[material])
         else:
             material_slots.set_of_mesh(run, mesh, index, copies[material])
-    for material in copies:
+    for material in (one for one in copies if one.library is None):
         run.before_write(setattr, material, "use_fake_user", material.use_fake_user)
         material.use_fake_user = True
     return list(made.values())

@@ -51,7 +51,7 @@ def is_used(options: Any, name: str) -> bool:
     return name not in NEEDS or NEEDS[name](options)
 
 
-LABELS = {"evenness": "More Parts"}  # where a field beside it leaves no room for the whole label
+SLIDERS = ("evenness",)  # over the whole width, with their names inside, as in the panel
 
 
 def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bpy.types.Context) -> None:
@@ -59,10 +59,12 @@ def draw_option(layout: bpy.types.UILayout, options: Any, name: str, context: bp
     row = layout.row()
     row.active = is_used(options, name)
     obj = context.active_object
+    if name in SLIDERS:
+        row.use_property_split = False
     if ROWS[name].kind == "weights" and obj is not None and obj.type == "MESH":
         row.prop_search(options, name, obj, "vertex_groups")
     else:
-        row.prop(options, name, text=LABELS.get(name, ROWS[name].blender["label"]))
+        row.prop(options, name, slider=name in SLIDERS)
 
 
 def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:

@@ -178,5 +178,8 @@ def test_the_redo_panel_is_short_and_its_labels_have_room(addon):
     for shape, rows in unwrap.ROWS.items():
         assert len(("shape", *rows)) <= 8, shape
         for name in rows:
-            label = run.LABELS.get(name, run.ROWS[name].blender["label"])
-            assert len(label) <= (20 if run.ROWS[name].kind == "flag" else 14), label
+            label = run.ROWS[name].blender["label"]
+            assert len(label) <= (20 if run.ROWS[name].kind == "flag" or name in run.SLIDERS else 14), label
+    for shape in ("AUTO", "PARTS"):
+        assert {"evenness", "margin"} < set(unwrap.ROWS[shape])
+    assert "cut_hard" in unwrap.ROWS["PARTS"]
