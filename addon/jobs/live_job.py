@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lets the islands of an edited mesh follow whose seams, pins or vertices have changed."""
 
+import contextlib
 import dataclasses
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,8 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import transaction
-from ..maps.live import LiveState, follow
+from ..maps.errors import MapError
+from ..maps.live import LiveState, follow, joined
 from ..maps.outcomes import Progress, Task
 from ..maps.parts import PartsIsland, cut_into_parts, move_parts
 from ..maps.wording import explain
@@ -56,31 +59,36 @@ class LiveJob:
         has_pins = bool(np.isfinite(pins).any())
         self._task = Task(obj.name, surface, old_uv=before.uv, rest=state.uv, pins=pins if has_pins else None)
         self.even = even if choice.keep_angles else choice.even
-        self._grown = state.has_cleared(before, faces)
+        self._cleared = before.surface.seam & ~state.surface.seam
         self._made: tuple[np.ndarray, np.ndarray] | None = None
 
     def compute(self, progress: Progress | None = None) -> None:
-        """Touches no Blender data. Raises MapError, koebe.Cancelled."""
-        start = self._start(progress)
-        if start is not None and self.even is not None:
-            self._made = follow(self.koebe, self._task, start, self.even, self.cancel_token)
-        if self._made is None:
-            one = self._anew(self._task, self._choice, progress)
-            self._made, self.even = (one.corners, one.uv), one.result.even
+        """Touches no Blender data. Raises TransferError, koebe.Cancelled."""
+        if self.even is not None:
+            with contextlib.suppress(MapError):  # pins that are in the way there may not be in another map's
+                for start in self._starts(progress):
+                    self._made = follow(self.koebe, self._task, start, self.even, self.cancel_token)
+                    if self._made is not None:
+                        return
+        one = self._anew(self._task, self._choice, progress)
+        self._made, self.even = (one.corners, one.uv), one.result.even
 
-    def _start(self, progress: Progress | None) -> np.ndarray | None:
-        """UVs (C, 2) that the islands follow from: where they lie, or a conformal map if they have grown together."""
+    def _starts(self, progress: Progress | None) -> Iterator[np.ndarray]:
+        """UVs (C, 2) that the islands may follow from: where they lie; if they have grown together, brought together,
+        or a conformal map."""
         assert self._task.old_uv is not None
-        if self.even is None or not self._grown:
-            return self._task.old_uv
+        if not self._cleared.any():
+            yield self._task.old_uv
+            return
+        start = joined(self._task.surface, self._cleared, self._task.old_uv)
+        if start is not None:
+            yield start
         conformal = dataclasses.replace(self._choice, keep_angles=False, even=0.0)
-        try:
+        with contextlib.suppress(TransferError):
             one = self._anew(dataclasses.replace(self._task, pins=None, rest=None), conformal, progress)
-        except TransferError:
-            return None
-        start = self._task.old_uv.copy()
-        start[one.corners] = one.uv
-        return start
+            start = self._task.old_uv.copy()
+            start[one.corners] = one.uv
+            yield start
 
     def _anew(self, task: Task, choice: Any, progress: Progress | None) -> PartsIsland:
         """A map of its own. Raises TransferError."""

@@ -65,12 +65,6 @@ class LiveState:
             number[island.faces] = k
         return number
 
-    def has_cleared(self, before: "LiveState", faces: np.ndarray) -> bool:
-        """Whether an edge of some faces (P,) bool is no seam any more, so that islands grow together."""
-        surface = self.surface
-        cleared = before.surface.seam & ~surface.seam
-        return bool(cleared[surface.corner_edge[np.repeat(faces, surface.face_size)]].any())
-
 
 def follow(
     koebe: ModuleType, task: Task, start: np.ndarray, even: float, cancel: Any = None
@@ -100,6 +94,45 @@ def follow(
     corners = np.sort(np.concatenate([piece.corners for piece in pieces]))
     stored = uv.astype(np.float32)
     return None if _is_spoiled(koebe, surface, stored) else (corners, stored[corners])
+
+
+def joined(surface: Surface, cleared: np.ndarray, uv: np.ndarray) -> np.ndarray | None:
+    """UVs (C, 2) of the selected islands that have grown together: the smaller ones go to the largest, by a similarity
+    that fits the cleared edges, and there the two sides meet half way.
+
+    surface  with its seams as they are now
+    cleared  (E,) bool, edges that were seams
+    uv       (C, 2) as the islands lie
+
+    None if an island has no place beside the others.
+    """
+    start = uv.astype(np.float64)
+    cuts = (surface.seam | uv_cuts(surface, uv)) & ~cleared
+    piece = np.zeros(len(uv), dtype=np.int32)
+    for k, old in enumerate(cut_into_islands(dataclasses.replace(surface, seam=cuts | cleared))):
+        piece[old.corners] = k
+    for island in cut_into_islands(dataclasses.replace(surface, seam=cuts)):
+        at, vertex = island.corners, island.corner_vertex
+        there = np.bincount(piece[at]).argmax()
+        done = piece[at] == there
+        while not done.all():
+            place = np.full((len(island.vertices), 2), np.nan)
+            place[vertex[done]] = start[at[done]]
+            meets = ~done & np.isfinite(place[vertex]).all(axis=1)
+            if not meets.any():
+                return None
+            there = np.bincount(piece[at[meets]]).argmax()
+            chosen = piece[at] == there
+            ends = start[at[meets & chosen]]
+            fit = fit_placement(ends, place[vertex[meets & chosen]]) if np.ptp(ends, axis=0).any() else None
+            if fit is None:
+                return None
+            start[at[chosen]] = fit.apply(start[at[chosen]])
+            done |= chosen
+        count = np.bincount(vertex)
+        middle = np.stack([np.bincount(vertex, weights=start[at, axis]) / count for axis in (0, 1)], axis=1)
+        start[at] = middle[vertex]
+    return start
 
 
 def _relaxed(

@@ -45,6 +45,25 @@ def test_a_strip_follows_to_the_map_true_to_size():
     assert np.allclose(uv.mean(axis=0), bent.mean(axis=0), atol=0.02)
 
 
+def test_islands_that_grow_together_follow_from_where_the_larger_lay():
+    task, edges = strip(turn=2.0)
+    surface, vertex = task.surface, task.surface.corner_vertex
+    cut = (edges // 5 == 25).all(axis=1)  # across, nearer to one end
+    beyond = np.repeat(np.arange(160), 4) >= 100
+    apart = task.old_uv.copy()
+    apart[beyond] = 0.5 * apart[beyond] @ np.array([[0.6, 0.8], [-0.8, 0.6]], np.float32) + np.float32(7)
+    start = live.joined(surface, cut, apart)
+    assert np.abs(start - task.old_uv).max() < 1e-5  # by a similarity, as they were
+    corners, uv = live.follow(koebe, task, start, 1.0)
+    assert len(corners) == len(vertex) and np.abs(uv - task.old_uv).max() < 0.01
+    apart[beyond] += np.float32(0.02) * np.sin(vertex[beyond, None].astype(np.float32))  # they do not fit any more
+    rough = live.joined(surface, cut, apart)
+    for one in np.unique(vertex[beyond]):
+        assert np.ptp(rough[vertex == one], axis=0).max() < 1e-5  # and meet nevertheless
+    apart[beyond] = 7.0
+    assert live.joined(surface, cut, apart) is None
+
+
 def test_the_islands_are_as_even_as_asked():
     task, _ = strip(turn=3.0)
     positions = task.surface.positions.copy()
