@@ -10,6 +10,7 @@ import numpy as np
 
 from ..maps.surface import Surface
 from . import compat
+from .errors import TransferError
 from .mesh_object import MeshObject
 
 SAME_NORMAL = 1e-3  # most difference of a coordinate: Blender keeps custom normals in 16 bits
@@ -124,6 +125,14 @@ def read_uv(obj: MeshObject, layer_name: str) -> np.ndarray | None:
     """
     layer = obj.data.uv_layers.get(layer_name) or obj.data.uv_layers.active
     return None if layer is None else read_layer(obj, layer.name)
+
+
+def layer_named(obj: MeshObject, name: str) -> str:
+    """The name of the UV layer of that name, or without a name of the active layer. Raises TransferError without it."""
+    found = name or getattr(obj.data.uv_layers.active, "name", "")
+    if found not in obj.data.uv_layers:
+        raise TransferError(f"{obj.name}: it has no UV layer {found!r}" if found else f"{obj.name}: it has no UVs")
+    return found
 
 
 def read_layer(obj: MeshObject, layer_name: str) -> np.ndarray:

@@ -35,9 +35,7 @@ class IslandLayer:
     def of(cls, obj: MeshObject, layer: str, selected_only: bool) -> Any:
         """The layer of that name, or the active one. Raises TransferError."""
         check_readable(obj)
-        layer = layer or getattr(obj.data.uv_layers.active, "name", "")
-        if layer not in obj.data.uv_layers:
-            raise TransferError(f"{obj.name}: it has no UV layer {layer!r}" if layer else f"{obj.name}: it has no UVs")
+        layer = mesh_reading.layer_named(obj, layer)
         surface = mesh_reading.read_surface(obj, selected_only)
         whole = dataclasses.replace(surface, selected=np.ones_like(surface.selected))
         return cls(obj, layer, whole, surface.selected, mesh_reading.read_layer(obj, layer))

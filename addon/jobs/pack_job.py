@@ -68,9 +68,7 @@ class PackJob:
         """Add an object. Raises TransferError."""
         check_mesh(obj)
         surface = mesh_reading.read_surface(obj, self._selected_only)
-        layer = self._layer or getattr(obj.data.uv_layers.active, "name", "")
-        if layer not in obj.data.uv_layers:
-            raise TransferError(f"{obj.name}: it has no UV layer {layer!r}" if layer else f"{obj.name}: it has no UVs")
+        layer = mesh_reading.layer_named(obj, self._layer)
         selected = surface.selected[surface.triangle_face]
         if not selected.any():
             nothing = "no face is selected" if self._selected_only else "it has no faces"

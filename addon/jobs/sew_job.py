@@ -68,9 +68,7 @@ class SewJob:
     def read(self, obj: MeshObject) -> None:
         """Add an object in Edit Mode, if edges are selected. Raises TransferError."""
         check_mesh(obj)
-        layer = self._layer or getattr(obj.data.uv_layers.active, "name", "")
-        if layer not in obj.data.uv_layers:
-            raise TransferError(f"{obj.name}: it has no UV layer {layer!r}" if layer else f"{obj.name}: it has no UVs")
+        layer = mesh_reading.layer_named(obj, self._layer)
         surface = mesh_reading.read_surface(obj, selected_only=False)
         corners = np.flatnonzero(mesh_reading.selected_edge_corners(obj, layer, self._by_uv, surface.corner_edge))
         if not len(corners):

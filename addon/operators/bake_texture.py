@@ -6,7 +6,7 @@ import bpy
 from ..blender import checker, texture_bake, texture_nodes
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
-from ..blender.mesh_reading import read_layer
+from ..blender.mesh_reading import layer_named, read_layer
 from ..blender.targets import check_mesh, target_objects
 from ..blender.transaction import Transaction
 from ..maps.wording import counted
@@ -41,19 +41,13 @@ class UV_OT_koebe_bake_texture(LayerEdit, bpy.types.Operator):
     def _object(self, run: Transaction, obj: MeshObject) -> str:
         """Bake one object. Returns what was done. Raises TransferError."""
         check_mesh(obj)
-        layer = self.layer or getattr(obj.data.uv_layers.active, "name", "")
-        if layer not in obj.data.uv_layers:
-            raise TransferError(f"{obj.name}: it has no UV layer {layer!r}" if layer else f"{obj.name}: it has no UVs")
+        layer = layer_named(obj, self.layer)
         if checker.is_on(obj):
             raise TransferError(f"{obj.name}: take the checker off first")
         uv = read_layer(obj, layer)
         if not (len(uv) and uv.min() >= -OUTSIDE and uv.max() <= 1.0 + OUTSIDE):
             raise TransferError(f"{obj.name}: the UVs of {layer} are not all in the UV square: press Pack Only first")
-        try:
-            made = texture_bake.carry(run, obj, layer, round(self.margin))
-        except TransferError as error:
-            said = str(error)
-            raise TransferError(said if said.startswith(obj.name) else f"{obj.name}: {said}") from error
+        made = texture_bake.carry(run, obj, layer, round(self.margin))
         left = any(slot.material and texture_nodes.has_other_images(slot.material) for slot in obj.material_slots)
         also = ". Films and images in node groups stay as they were" if left else ""
         return f"{obj.name}: {counted(len(made), 'image')} baked{also}"
