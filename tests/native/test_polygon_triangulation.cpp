@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 
 namespace koebe {
 namespace {
@@ -132,6 +133,23 @@ TEST(PolygonTriangulation, PolygonsKeepTheirAreaConvexOrNot)
         }
         expect_cut(round, counted(n), 0.5 * n * std::sin(2.0 * std::numbers::pi / n));
         expect_cut(star, counted(n), star_area);
+    }
+}
+
+TEST(PolygonTriangulation, NoTriangleOfAFlatPolygonIsTurnedOver)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> number(0.3, 1.0);
+    for (Index n = 17; n < 97; ++n) {
+        SCOPED_TRACE(n);
+        Vertices star(n, 3);
+        double area = 0.0;
+        for (Index i = 0; i < n; ++i)
+            star.row(i) = number(random) * Eigen::RowVector3d(std::cos(2.0 * std::numbers::pi * i / n),
+                                                              std::sin(2.0 * std::numbers::pi * i / n), 0.0);
+        for (Index i = 0; i < n; ++i)
+            area += 0.5 * (star(i, 0) * star((i + 1) % n, 1) - star(i, 1) * star((i + 1) % n, 0));
+        expect_cut(star, counted(n), area);
     }
 }
 

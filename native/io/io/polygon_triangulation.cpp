@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "core/silent_cgal.h"
 #include "execution/thread_share.h"
+#include "planar/divided_polygon.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -27,6 +28,8 @@ using Positions = std::vector<Vector3d>;
 constexpr std::size_t delaunay_corners = 17;
 /// Largest number of corners for the cubic method, the last resort, which then takes a second.
 constexpr std::size_t cubic_corners = 500;
+/// A triangle is turned against its polygon by more than rounding: its area over the polygon's.
+constexpr double turned_area = 1e-9;
 
 /// The corners without immediate repetitions.
 Polygon distinct_corners(std::span<const Index> face)
@@ -95,6 +98,48 @@ std::vector<Triangle> cut_polygon(const Positions& positions)
     return triangles;
 }
 
+/// The polygon's area vector, twice its length.
+Vector3d area_vector(const Positions& p)
+{
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i + 1 < p.size(); ++i) sum += (p[i] - p[0]).cross(p[i + 1] - p[0]);
+    return sum;
+}
+
+/// Whether the polygon, seen along its area vector, has triangles turned over.
+bool has_turned(const Positions& p, const std::vector<Triangle>& triangles)
+{
+    const Vector3d normal = area_vector(p);
+    return std::ranges::any_of(triangles, [&](const Triangle& t) {
+        return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(normal) < -turned_area * normal.squaredNorm();
+    });
+}
+
+/// Cuts the polygon as it is seen along its area vector. @returns none if its sides meet there
+std::vector<Triangle> cut_in_plane(const Positions& positions)
+{
+    const Vector3d normal = area_vector(positions).stableNormalized(), right = normal.unitOrthogonal(),
+                   up = normal.cross(right);
+    std::vector<Complex> places;
+    places.reserve(positions.size());
+    for (const Vector3d& p : positions) places.emplace_back(p.dot(right), p.dot(up));
+    std::vector<Triangle> triangles;
+    const Triangles cut = divided_polygon(places, {}, {});
+    for (Eigen::Index f = 0; f < cut.rows(); ++f) triangles.push_back({cut(f, 0), cut(f, 1), cut(f, 2)});
+    return triangles;
+}
+
+/// CGAL's search does not see that triangles turn over, or leaves the plane's triangles out: then the plane decides.
+std::vector<Triangle> cut_upright(const Positions& positions)
+{
+    std::vector<Triangle> cut = cut_polygon(positions);
+    if (has_turned(positions, cut)) {
+        std::vector<Triangle> in_plane = cut_in_plane(positions);
+        if (in_plane.size() + 2 == positions.size()) return in_plane;
+    }
+    return cut;
+}
+
 bool are_different(Index a, Index b, Index c) { return a != b && b != c && c != a; }
 
 class Triangulator {
@@ -115,7 +160,7 @@ public:
         if (polygon.size() == 3) return add({polygon[0], polygon[1], polygon[2]}, f);
         if (repeats_an_edge(polygon)) return uncut_.push_back(f);
         const Positions positions = normalized_positions(mesh_.vertices, polygon);
-        const std::vector<Triangle> cut = polygon.size() == 4 ? cut_quadrilateral(positions) : cut_polygon(positions);
+        const std::vector<Triangle> cut = polygon.size() == 4 ? cut_quadrilateral(positions) : cut_upright(positions);
         const auto is_triangle = [&polygon](const Triangle& t) {
             return are_different(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
         };
