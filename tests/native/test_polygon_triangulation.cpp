@@ -153,6 +153,23 @@ TEST(PolygonTriangulation, NoTriangleOfAFlatPolygonIsTurnedOver)
     }
 }
 
+TEST(PolygonTriangulation, CornersOnAStraightSideMakeNoTriangle)
+{
+    // A long triangle with more corners on its short side.
+    for (Index n = 4; n < 12; ++n)
+        for (int turn = 0; turn < 20; ++turn) {
+            SCOPED_TRACE(std::to_string(n) + " " + std::to_string(turn));
+            const Complex along = std::polar(1.0, 0.3 * turn);
+            std::vector<std::array<double, 2>> points;
+            for (Index i = 0; i + 1 < n; ++i) points.push_back({along.real() * i, along.imag() * i});
+            points.push_back({-20.0 * along.imag(), 20.0 * along.real()});
+            const Vertices vertices = flat(points);
+            const Triangles cut = triangulate(mesh_of(vertices, {counted(n)})).triangles;
+            ASSERT_EQ(cut.rows(), n - 2);
+            for (Eigen::Index f = 0; f < cut.rows(); ++f) EXPECT_GT(normal_of(vertices, cut, f).z(), 9.9);
+        }
+}
+
 TEST(PolygonTriangulation, APolygonMayGoRoundAHoleThroughASlit)
 {
     const Vertices vertices = flat({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {1, 1}, {1, 2}, {2, 2}, {2, 1}});

@@ -28,8 +28,8 @@ using Positions = std::vector<Vector3d>;
 constexpr std::size_t delaunay_corners = 17;
 /// Largest number of corners for the cubic method, the last resort, which then takes a second.
 constexpr std::size_t cubic_corners = 500;
-/// A triangle is turned against its polygon by more than rounding: its area over the polygon's.
-constexpr double turned_area = 1e-9;
+/// Of a polygon's area: a triangle of less has none, or is turned over.
+constexpr double least_area = 1e-6;
 
 /// The corners without immediate repetitions.
 Polygon distinct_corners(std::span<const Index> face)
@@ -64,7 +64,7 @@ std::vector<Triangle> cut_quadrilateral(const Positions& p)
     const auto side = [&](int a, int b, int c) { return (p[b] - p[a]).cross(p[c] - p[a]).dot(normal); };
     const double worst_02 = std::min(side(0, 1, 2), side(0, 2, 3));
     const double worst_13 = std::min(side(0, 1, 3), side(1, 2, 3));
-    const bool both_fit = worst_02 > 0.0 && worst_13 > 0.0;
+    const bool both_fit = std::min(worst_02, worst_13) > least_area * normal.squaredNorm();
     const bool cut_02 = both_fit ? diagonal_02.squaredNorm() <= diagonal_13.squaredNorm() : worst_02 >= worst_13;
     if (cut_02) return {{0, 1, 2}, {0, 2, 3}};
     return {{0, 1, 3}, {1, 2, 3}};
@@ -106,13 +106,14 @@ Vector3d area_vector(const Positions& p)
     return sum;
 }
 
-/// Whether the polygon, seen along its area vector, has triangles turned over.
-bool has_turned(const Positions& p, const std::vector<Triangle>& triangles)
+/// The least area of triangles over the polygon's, seen along the polygon's area vector; negative: turned over.
+double smallest_share(const Positions& p, const std::vector<Triangle>& triangles)
 {
     const Vector3d normal = area_vector(p);
-    return std::ranges::any_of(triangles, [&](const Triangle& t) {
-        return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(normal) < -turned_area * normal.squaredNorm();
-    });
+    double least = 1.0;
+    for (const Triangle& t : triangles)
+        least = std::min(least, (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(normal) / normal.squaredNorm());
+    return least;
 }
 
 /// Cuts the polygon as it is seen along its area vector. @returns none if its sides meet there
@@ -129,13 +130,15 @@ std::vector<Triangle> cut_in_plane(const Positions& positions)
     return triangles;
 }
 
-/// CGAL's search does not see that triangles turn over, or leaves the plane's triangles out: then the plane decides.
+/// CGAL's search turns triangles over, or makes triangles without area between corners on a straight side, whose long
+/// edge is also a neighbour's. Then the plane decides.
 std::vector<Triangle> cut_upright(const Positions& positions)
 {
     std::vector<Triangle> cut = cut_polygon(positions);
-    if (has_turned(positions, cut)) {
+    const double share = smallest_share(positions, cut);
+    if (share < least_area) {
         std::vector<Triangle> in_plane = cut_in_plane(positions);
-        if (in_plane.size() + 2 == positions.size()) return in_plane;
+        if (in_plane.size() + 2 == positions.size() && smallest_share(positions, in_plane) > share) return in_plane;
     }
     return cut;
 }
