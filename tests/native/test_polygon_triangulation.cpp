@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 
 namespace koebe {
 namespace {
@@ -133,6 +134,40 @@ TEST(PolygonTriangulation, PolygonsKeepTheirAreaConvexOrNot)
         expect_cut(round, counted(n), 0.5 * n * std::sin(2.0 * std::numbers::pi / n));
         expect_cut(star, counted(n), star_area);
     }
+}
+
+TEST(PolygonTriangulation, NoTriangleOfAFlatPolygonIsTurnedOver)
+{
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> number(0.3, 1.0);
+    for (Index n = 17; n < 97; ++n) {
+        SCOPED_TRACE(n);
+        Vertices star(n, 3);
+        double area = 0.0;
+        for (Index i = 0; i < n; ++i)
+            star.row(i) = number(random) * Eigen::RowVector3d(std::cos(2.0 * std::numbers::pi * i / n),
+                                                              std::sin(2.0 * std::numbers::pi * i / n), 0.0);
+        for (Index i = 0; i < n; ++i)
+            area += 0.5 * (star(i, 0) * star((i + 1) % n, 1) - star(i, 1) * star((i + 1) % n, 0));
+        expect_cut(star, counted(n), area);
+    }
+}
+
+TEST(PolygonTriangulation, CornersOnAStraightSideMakeNoTriangle)
+{
+    // A long triangle with more corners on its short side.
+    for (Index n = 4; n < 12; ++n)
+        for (int turn = 0; turn < 20; ++turn) {
+            SCOPED_TRACE(std::to_string(n) + " " + std::to_string(turn));
+            const Complex along = std::polar(1.0, 0.3 * turn);
+            std::vector<std::array<double, 2>> points;
+            for (Index i = 0; i + 1 < n; ++i) points.push_back({along.real() * i, along.imag() * i});
+            points.push_back({-20.0 * along.imag(), 20.0 * along.real()});
+            const Vertices vertices = flat(points);
+            const Triangles cut = triangulate(mesh_of(vertices, {counted(n)})).triangles;
+            ASSERT_EQ(cut.rows(), n - 2);
+            for (Eigen::Index f = 0; f < cut.rows(); ++f) EXPECT_GT(normal_of(vertices, cut, f).z(), 9.9);
+        }
 }
 
 TEST(PolygonTriangulation, APolygonMayGoRoundAHoleThroughASlit)

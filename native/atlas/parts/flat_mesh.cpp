@@ -6,6 +6,7 @@
 #include "cost/costs.h"
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
+#include "parts/divided_faces.h"
 #include "parts/hard_surface.h"
 #include "parts/mesh_parts.h"
 
@@ -13,7 +14,9 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <unordered_set>
@@ -21,6 +24,9 @@
 
 namespace koebe {
 namespace {
+
+constexpr double still_straight = 1e-6;  // in roots of the surface's area
+constexpr int most_divisions = 4;        // of faces, each without the edges that the ones before have torn
 
 /// First into the unit cube, as areas of huge or tiny meshes are beyond the range of a double.
 struct Sized {
@@ -121,6 +127,94 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
     return pieces;
 }
 
+/// The divided edges of faces whose pieces are neither in one hard part nor in none, and edges that are bent in the
+/// plane.
+std::vector<std::array<Index, 2>> torn_edges(const DividedFaces& faces, Eigen::Index undivided,
+                                             const std::vector<FlatPart>& parts,
+                                             const std::vector<LeftOutFace>& left_out)
+{
+    // The part of each piece, and the places of the vertices of divided faces.
+    std::vector<Index> part(faces.face.size(), -1);
+    std::map<std::pair<Index, Index>, Eigen::RowVector2d> places;
+    std::set<Index> divided, torn;
+    for (const DividedEdge& edge : faces.edges) divided.insert(edge.face);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        for (std::size_t i = 0; i < parts[k].faces.size(); ++i) {
+            const Index f = parts[k].faces[i];
+            part[f] = static_cast<Index>(k);
+            if (divided.contains(faces.face[f]))
+                for (const Index v : parts[k].surface.triangles.row(static_cast<Eigen::Index>(i)))
+                    places[{faces.face[f], parts[k].original[v]}] = parts[k].points.row(v);
+        }
+    for (std::size_t i = 0; i < part.size(); ++i)
+        if (part[i] != part[faces.face[i]]) torn.insert(faces.face[i]);
+    for (const LeftOutFace& own : left_out)
+        for (const Index f : {own.face, own.like})
+            if (f >= undivided) torn.insert(faces.face[f]);
+    const auto is_bent = [&](const DividedEdge& edge) {
+        const auto at = [&](Index v) { return places.at({edge.face, v}); };
+        return !(((1.0 - edge.share) * at(edge.from) + edge.share * at(edge.to) - at(edge.middle)).norm() <
+                 still_straight);
+    };
+    std::vector<std::array<Index, 2>> edges;
+    for (const DividedEdge& edge : faces.edges)
+        if (torn.contains(edge.face) || (part[edge.face] >= 0 && is_bent(edge))) edges.push_back({edge.from, edge.to});
+    return edges;
+}
+
+/// @param faces the surface. Outside hard parts its divided faces are whole
+/// @param kept gets the edges that must not be divided @return no value if there are any
+std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& vertices, const Triangles& undivided,
+                                     const PartsOptions& given, std::vector<std::array<Index, 2>>& kept,
+                                     ExecutionContext& context)
+{
+    context.begin_stage("topology", 0.0, 0.05);
+    const Triangles& triangles = faces.triangles;
+    PartsOptions options = given;
+    options.polygon = faces.polygon;
+    const bool hard_first = options.cut && may_unfold(options);
+    const OpenOptions opening{
+        .polygon = options.polygon, .seams = options.cuts, .slit_beside_handles = false, .open = !hard_first};
+    OpenedSurface opened =
+        options.cut ? open_surface(vertices, triangles, opening, context) : strict_surface(vertices, triangles);
+    // Flat and rolled regions of hard surfaces first.
+    FlatMesh mesh;
+    PartsLayout& layout = mesh.layout;
+    layout.vertices = of_area_one(vertices, triangles).vertices;
+    layout.triangles = triangles;
+    std::vector<FlatPart> hard;
+    if (hard_first)
+        opened =
+            opened_without_hard_parts(vertices, undivided, layout.vertices, std::move(opened), options, hard, context);
+    if (!faces.face.empty()) {
+        const auto torn = torn_edges(faces, undivided.rows(), hard, opened.left_out);
+        kept.insert(kept.end(), torn.begin(), torn.end());
+        if (!torn.empty()) return {};
+        std::vector<char> is_hard(faces.face.size(), 0);
+        for (const FlatPart& part : hard)
+            for (const Index f : part.faces) is_hard[f] = 1;
+        for (Index f = 0; f < static_cast<Index>(undivided.rows()); ++f)
+            if (!is_hard[f]) layout.triangles.row(f) = undivided.row(f);
+        mesh.undivided = undivided;
+        mesh.face = faces.face;
+    }
+    mesh.polygon = options.polygon;
+    layout.handles_cut = opened.handles;
+    // Then the parts of the other pieces. With importance hard parts are stretched, too.
+    std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, options);
+    if (!hard.empty() && !options.importance.empty())
+        pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
+    MeshParts parts = mesh_parts(std::move(pieces), options, context);
+    layout.even = parts.even;
+    layout.not_even = std::move(parts.not_even);
+    layout.maps = parts.maps;
+    mesh.parts = std::move(parts.parts);
+    std::ranges::move(hard, std::back_inserter(mesh.parts));  // they are exact: nothing relaxes or cuts them
+    sum_cuts(mesh);
+    mesh.left_out = std::move(opened.left_out);
+    return mesh;
+}
+
 }  // namespace
 
 std::vector<Index> first_in_place(const Vertices& vertices)
@@ -142,35 +236,16 @@ double root_of_area(const Vertices& vertices, const Triangles& triangles)
 FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const PartsOptions& options,
                    ExecutionContext& context)
 {
-    context.begin_stage("topology", 0.0, 0.05);
-    const bool hard_first = options.cut && may_unfold(options);
-    const OpenOptions opening{
-        .polygon = options.polygon, .seams = options.cuts, .slit_beside_handles = false, .open = !hard_first};
-    OpenedSurface opened =
-        options.cut ? open_surface(vertices, triangles, opening, context) : strict_surface(vertices, triangles);
-    // Flat and rolled regions of hard surfaces first.
-    FlatMesh mesh;
-    PartsLayout& layout = mesh.layout;
-    layout.vertices = of_area_one(vertices, triangles).vertices;
-    layout.triangles = triangles;
-    std::vector<FlatPart> hard;
-    if (hard_first)
-        opened =
-            opened_without_hard_parts(vertices, triangles, layout.vertices, std::move(opened), options, hard, context);
-    layout.handles_cut = opened.handles;
-    // Then the parts of the other pieces. With importance hard parts are stretched, too.
-    std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, options);
-    if (!hard.empty() && !options.importance.empty())
-        pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
-    MeshParts parts = mesh_parts(std::move(pieces), options, context);
-    layout.even = parts.even;
-    layout.not_even = std::move(parts.not_even);
-    layout.maps = parts.maps;
-    mesh.parts = std::move(parts.parts);
-    std::ranges::move(hard, std::back_inserter(mesh.parts));  // they are exact: nothing relaxes or cuts them
-    sum_cuts(mesh);
-    mesh.left_out = std::move(opened.left_out);
-    return mesh;
+    // Faces of flat regions may be laid flat in pieces, so that cracks without width separate nothing.
+    std::vector<std::array<Index, 2>> kept = options.cuts;
+    const bool may_divide = options.cut && may_unfold(options) && options.importance.empty();
+    for (int attempt = 0; may_divide && attempt < most_divisions; ++attempt) {
+        const DividedFaces divided = divided_faces(vertices, triangles, options.polygon, kept);
+        if (divided.face.empty()) break;
+        if (std::optional<FlatMesh> mesh = flat_mesh_of(divided, vertices, triangles, options, kept, context))
+            return std::move(*mesh);
+    }
+    return *flat_mesh_of({triangles, options.polygon, {}, {}}, vertices, triangles, options, kept, context);
 }
 
 }  // namespace koebe

@@ -64,6 +64,7 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
     }
     if (are_worth_their_number(roomier, parts)) parts = std::move(roomier);
     // All other faces, opened as if they were the input.
+    std::erase_if(rest, [&](Index f) { return f >= static_cast<Index>(triangles.rows()); });
     if (!rest.empty()) {
         std::ranges::sort(rest);
         opened = open_surface(

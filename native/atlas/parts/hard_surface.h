@@ -18,7 +18,8 @@ bool may_unfold(const PartsOptions& options);
 UnfoldOptions unfolding_of(const PartsOptions& options);
 
 /// @param vertices, triangles of the input @param scaled the vertices, so that all areas sum to 1
-/// @param connected the input's surfaces, not opened (OpenOptions::open). Hard surfaces lose their parts (unfolding.h)
+/// @param connected the input's surfaces, not opened (OpenOptions::open). Hard surfaces lose their parts (unfolding.h).
+/// Faces may be divided (divided_faces.h), and are whole in the rest
 /// @param parts takes the hard parts, by numbers of the input
 /// @return the other faces, opened. Its handles are those of all surfaces
 OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,

@@ -29,6 +29,33 @@ void place_left_out(const std::vector<LeftOutFace>& left_out, PartsLayout& layou
     }
 }
 
+/// The layout of the undivided faces. All pieces of a face are in one part, and lie as the face does.
+void join_pieces(const std::vector<Index>& face, const Triangles& undivided, PartsLayout& layout)
+{
+    const Index count = static_cast<Index>(undivided.rows());
+    const Triangles pieces = layout.triangles;
+    const PlanarPoints uv = layout.uv;
+    const std::vector<Index> part = layout.part;
+    layout.triangles.conservativeResize(count, 3);
+    layout.uv.conservativeResize(3 * count, 2);
+    layout.part.resize(static_cast<std::size_t>(count));
+    for (std::size_t i = layout.part.size(); i < face.size(); ++i)
+        if (part[i] >= 0) layout.triangles.row(face[i]) = undivided.row(face[i]);
+    for (const Index f : layout.turned)
+        if (f < count && layout.triangles.row(f) == undivided.row(f))
+            std::swap(layout.triangles(f, 1), layout.triangles(f, 2));
+    // Each corner is where a piece has it. Outside hard parts no piece has a part.
+    for (std::size_t i = 0; i < face.size(); ++i)
+        for (int k = 0; k < 3 && part[i] >= 0; ++k)
+            for (int c = 0; c < 3; ++c)
+                if (layout.triangles(face[i], k) == pieces(static_cast<Index>(i), c))
+                    layout.uv.row(3 * face[i] + k) = uv.row(3 * static_cast<Eigen::Index>(i) + c);
+    const auto is_piece = [&](Index f) { return f >= count; };
+    for (std::vector<Index>* const faces : {&layout.reoriented, &layout.turned, &layout.crossing, &layout.not_even})
+        std::erase_if(*faces, is_piece);
+    for (PartReport& own : layout.parts) std::erase_if(own.faces, is_piece);
+}
+
 }  // namespace
 
 void sum_cuts(FlatMesh& mesh)
@@ -75,6 +102,7 @@ PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places, co
     std::ranges::sort(layout.turned);
     std::ranges::sort(layout.crossing);
     place_left_out(mesh.left_out, layout);
+    if (!mesh.face.empty()) join_pieces(mesh.face, mesh.undivided, layout);
     return layout;
 }
 

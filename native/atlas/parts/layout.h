@@ -34,11 +34,16 @@ struct FlatMesh {
     PartsLayout layout;  ///< what is known before the parts have their places
     std::vector<FlatPart> parts;
     std::vector<LeftOutFace> left_out;
+    std::vector<Index> polygon;  ///< (F') of the faces in the parts
+    /// The faces in the parts are pieces of the input's (divided_faces.h); empty: they are the input's.
+    std::vector<Index> face;
+    Triangles undivided;  ///< (F, 3) the input's faces; empty as well
 };
 
 /// Sums the parts' slits and darts for the layout.
 void sum_cuts(FlatMesh& mesh);
 
+/// Divided faces are whole again.
 /// @param places (V, 2) of each part's vertices, the UVs of the layout
 /// @param mirrored of each part 1 if it lies there with its back to the front; empty: no part does
 PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places, const std::vector<char>& mirrored = {});

@@ -210,6 +210,7 @@ std::vector<Index> faces_anew(const FlatMesh& mesh, const PackedParts& packed)
     std::vector<Index> anew;
     for (std::size_t k = 0; k < mesh.parts.size(); ++k)
         if (packed.anew[k]) anew.insert(anew.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());
+    if (!mesh.face.empty()) std::erase_if(anew, [&](Index f) { return f >= mesh.undivided.rows(); });
     std::ranges::sort(anew);
     return anew;
 }
@@ -272,7 +273,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     // Cut the mesh into flat parts, alike where pieces are alike.
     FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
     if (options.show.empty() && options.importance.empty() && options.slits.empty()) cut_alike(mesh);
-    mend_rims(options.polygon, mesh.parts, options.threads, context);
+    mend_rims(mesh.polygon, mesh.parts, options.threads, context);
 
     // Pack them.
     const double unit = length_of_unit();

@@ -3,6 +3,7 @@
 #include "core/errors.h"
 #include "core/silent_cgal.h"
 #include "execution/thread_share.h"
+#include "planar/divided_polygon.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
@@ -27,6 +28,8 @@ using Positions = std::vector<Vector3d>;
 constexpr std::size_t delaunay_corners = 17;
 /// Largest number of corners for the cubic method, the last resort, which then takes a second.
 constexpr std::size_t cubic_corners = 500;
+/// Of a polygon's area: a triangle of less has none, or is turned over.
+constexpr double least_area = 1e-6;
 
 /// The corners without immediate repetitions.
 Polygon distinct_corners(std::span<const Index> face)
@@ -61,7 +64,7 @@ std::vector<Triangle> cut_quadrilateral(const Positions& p)
     const auto side = [&](int a, int b, int c) { return (p[b] - p[a]).cross(p[c] - p[a]).dot(normal); };
     const double worst_02 = std::min(side(0, 1, 2), side(0, 2, 3));
     const double worst_13 = std::min(side(0, 1, 3), side(1, 2, 3));
-    const bool both_fit = worst_02 > 0.0 && worst_13 > 0.0;
+    const bool both_fit = std::min(worst_02, worst_13) > least_area * normal.squaredNorm();
     const bool cut_02 = both_fit ? diagonal_02.squaredNorm() <= diagonal_13.squaredNorm() : worst_02 >= worst_13;
     if (cut_02) return {{0, 1, 2}, {0, 2, 3}};
     return {{0, 1, 3}, {1, 2, 3}};
@@ -95,6 +98,51 @@ std::vector<Triangle> cut_polygon(const Positions& positions)
     return triangles;
 }
 
+/// The polygon's area vector, twice its length.
+Vector3d area_vector(const Positions& p)
+{
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i + 1 < p.size(); ++i) sum += (p[i] - p[0]).cross(p[i + 1] - p[0]);
+    return sum;
+}
+
+/// The least area of triangles over the polygon's, seen along the polygon's area vector; negative: turned over.
+double smallest_share(const Positions& p, const std::vector<Triangle>& triangles)
+{
+    const Vector3d normal = area_vector(p);
+    double least = 1.0;
+    for (const Triangle& t : triangles)
+        least = std::min(least, (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).dot(normal) / normal.squaredNorm());
+    return least;
+}
+
+/// Cuts the polygon as it is seen along its area vector. @returns none if its sides meet there
+std::vector<Triangle> cut_in_plane(const Positions& positions)
+{
+    const Vector3d normal = area_vector(positions).stableNormalized(), right = normal.unitOrthogonal(),
+                   up = normal.cross(right);
+    std::vector<Complex> places;
+    places.reserve(positions.size());
+    for (const Vector3d& p : positions) places.emplace_back(p.dot(right), p.dot(up));
+    std::vector<Triangle> triangles;
+    const Triangles cut = divided_polygon(places, {}, {});
+    for (Eigen::Index f = 0; f < cut.rows(); ++f) triangles.push_back({cut(f, 0), cut(f, 1), cut(f, 2)});
+    return triangles;
+}
+
+/// CGAL's search turns triangles over, or makes triangles without area between corners on a straight side, whose long
+/// edge is also a neighbour's. Then the plane decides.
+std::vector<Triangle> cut_upright(const Positions& positions)
+{
+    std::vector<Triangle> cut = cut_polygon(positions);
+    const double share = smallest_share(positions, cut);
+    if (share < least_area) {
+        std::vector<Triangle> in_plane = cut_in_plane(positions);
+        if (in_plane.size() + 2 == positions.size() && smallest_share(positions, in_plane) > share) return in_plane;
+    }
+    return cut;
+}
+
 bool are_different(Index a, Index b, Index c) { return a != b && b != c && c != a; }
 
 class Triangulator {
@@ -115,7 +163,7 @@ public:
         if (polygon.size() == 3) return add({polygon[0], polygon[1], polygon[2]}, f);
         if (repeats_an_edge(polygon)) return uncut_.push_back(f);
         const Positions positions = normalized_positions(mesh_.vertices, polygon);
-        const std::vector<Triangle> cut = polygon.size() == 4 ? cut_quadrilateral(positions) : cut_polygon(positions);
+        const std::vector<Triangle> cut = polygon.size() == 4 ? cut_quadrilateral(positions) : cut_upright(positions);
         const auto is_triangle = [&polygon](const Triangle& t) {
             return are_different(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
         };

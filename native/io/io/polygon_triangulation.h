@@ -18,9 +18,11 @@ struct Triangulation {
 /// Cuts every polygon into triangles without new vertices.
 ///
 /// A vertex repeated at once (1 2 2 3) counts once. A quadrilateral is cut along the diagonal that leaves both
-/// triangles on the polygon's side; if both diagonals do, along the shorter. Larger polygons, flat or not, convex or
-/// not, get the triangulation of least bend and area [Liepa, Filling Holes in Meshes, 2003; CGAL
-/// triangulate_hole_polyline]. A polygon may go round a hole through a slit, whose two vertices it names twice.
+/// triangles on the polygon's side, with an area; if both diagonals do, along the shorter. Larger polygons, flat or
+/// not, convex or not, get the triangulation of least bend and area [Liepa, Filling Holes in Meshes, 2003; CGAL
+/// triangulate_hole_polyline]. If a triangle of it, seen along the polygon's area vector, is turned over or has no
+/// area, they get the constrained Delaunay triangulation of that view, unless their sides meet there. A polygon may go
+/// round a hole through a slit, whose two vertices it names twice.
 ///
 /// @param mesh with finite vertices and indices in range
 /// @param refuse false: a polygon that cannot be cut gets no triangles

@@ -200,7 +200,8 @@ FlattenResult compute(const Vertices& vertices, const Triangles& triangles, cons
     FlatMesh mesh = cut_and_flat(vertices, triangles, options, context);
     const double unit = millimetres(options.units) * length_of_unit();
     std::vector<FlatPart>& parts = mesh.parts;
-    const std::vector<Index> tiny = leave_out_tiny_pieces(parts, unit);
+    std::vector<Index> tiny = leave_out_tiny_pieces(parts, unit);
+    std::erase_if(tiny, [&](Index f) { return f >= static_cast<Index>(triangles.rows()); });
     // Allowances around the pieces, places on the pages, and seams that both sides show.
     context.begin_stage("pack", 0.9, 1.0);
     side_by_side(parts.size(), options.threads, context,
