@@ -29,6 +29,7 @@ TEST_F(Promise, a_circle_domain_keeps_it)
 {
     uv *= 1.0 - 1e-15;
     EXPECT_FALSE(faults().any());
+    EXPECT_FALSE(loops_cross(domain.loops, uv, 0.0));
 }
 
 TEST_F(Promise, what_is_not_finite_is_named)
@@ -69,6 +70,7 @@ TEST_F(Promise, a_loop_that_crosses_another_is_found)
     const Complex far = 1.9 * domain.circles[2].center - 0.9 * Complex(uv(v, 0), uv(v, 1));
     uv.row(v) << far.real(), far.imag();
     ASSERT_FALSE(faults().crossings.empty());
+    EXPECT_TRUE(loops_cross(domain.loops, uv, 0.0));
 }
 
 TEST_F(Promise, a_hole_turned_over_is_found_however_narrow_but_not_below_resolution)

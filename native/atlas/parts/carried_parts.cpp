@@ -95,6 +95,12 @@ bool take_places_in(const std::vector<FlatPart>& uncut, FlatPart& piece)
     return true;
 }
 
+/// Whether two pieces have the same faces, joined in the same way.
+bool are_same(const FlatPart& a, const FlatPart& b)
+{
+    return a.faces == b.faces && a.original == b.original && a.surface.triangles == b.surface.triangles;
+}
+
 /// A piece of the fine surface for each part.
 class Carrying {
 public:
@@ -104,7 +110,8 @@ public:
     {
     }
 
-    std::vector<FlatPart> pieces(int threads, ExecutionContext& context)
+    /// @param before the pieces along other paths, or empty: where one is the same, so is its place
+    std::vector<FlatPart> pieces(const std::vector<FlatPart>& before, int threads, ExecutionContext& context)
     {
         const FlatPart whole = whole_part(proxy_.fine.whole);
         SeamedMesh mesh = seamed(whole, whole.shown);
@@ -122,7 +129,13 @@ public:
         if (part_of_.empty()) return {};
         note_lengths(pieces, piece_of);
         side_by_side(pieces.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
-            pieces[k].is_near = take_places(proxy_, net_, near_, parts_[part_of_[k]], part_of_[k], pieces[k], own);
+            const int part = part_of_[k];
+            if (!before.empty() && are_same(pieces[k], before[part])) {
+                pieces[k].points = before[part].points;
+                pieces[k].is_near = before[part].is_near;
+            } else {
+                pieces[k].is_near = take_places(proxy_, net_, near_, parts_[part], part, pieces[k], own);
+            }
         });
         std::vector<FlatPart> sorted(pieces.size());
         for (std::size_t k = 0; k < pieces.size(); ++k) sorted[part_of_[k]] = std::move(pieces[k]);
@@ -199,13 +212,13 @@ std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPa
     if (!net) return {};
     const std::vector<CarriedPath> paths = carried_paths(proxy, *net, context);
     std::vector<FlatPart> straight =
-        Carrying(proxy, parts, *net, straightened(proxy, paths, context)).pieces(threads, context);
+        Carrying(proxy, parts, *net, straightened(proxy, paths, context)).pieces({}, threads, context);
     const auto placed = [](const std::vector<FlatPart>& pieces) {
         return std::ranges::count_if(pieces, &FlatPart::is_near);
     };
     if (!straight.empty() && placed(straight) == std::ssize(straight)) return straight;
     // Where a piece finds no place with straight cuts, they stay as they were.
-    std::vector<FlatPart> bent = Carrying(proxy, parts, *net, paths).pieces(threads, context);
+    std::vector<FlatPart> bent = Carrying(proxy, parts, *net, paths).pieces(straight, threads, context);
     return placed(bent) > placed(straight) ? bent : straight;
 }
 

@@ -5,6 +5,7 @@
 #include "core/errors.h"
 #include "foldover/turn_upright.h"
 #include "linear/sparse_cholesky.h"
+#include "parts/common_sequence.h"
 #include "parts/dart_rounds.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
@@ -16,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -287,8 +289,17 @@ private:
             if (taken[k]) continue;
             std::vector<Index> rim;
             for (const Index v : part_.surface.loops[k]) rim.push_back(part_.original[v]);
+            const auto turned = [](std::vector<Index> list, std::size_t first) {
+                std::rotate(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(first), list.end());
+                return list;
+            };
             for (const std::size_t first : starts(names, rim)) {
-                auto pairs = common_sequence(names, first, rim, std::ranges::find(rim, names[first]) - rim.begin());
+                const std::size_t there = std::ranges::find(rim, names[first]) - rim.begin();
+                auto pairs = common_sequence(turned(names, first), turned(rim, there));
+                for (auto& [i, j] : pairs) {
+                    i = (i + first) % names.size();
+                    j = (j + there) % rim.size();
+                }
                 if (pairs.size() > best.pairs.size()) best = {k, std::move(pairs)};
             }
         }
@@ -300,35 +311,17 @@ private:
     /// Some names that stand once in both lists, spread over the names; else the first one in both.
     static std::vector<std::size_t> starts(const std::vector<Index>& names, const std::vector<Index>& rim)
     {
+        std::unordered_map<Index, std::pair<int, int>> counts;  // of a name, in both lists
+        for (const Index name : names) ++counts[name].first;
+        for (const Index name : rim) ++counts[name].second;
         std::vector<std::size_t> all, some;
         for (std::size_t i = 0; i < names.size(); ++i)
-            if (std::ranges::count(names, names[i]) == 1 && std::ranges::count(rim, names[i]) == 1) all.push_back(i);
+            if (counts.at(names[i]) == std::pair(1, 1)) all.push_back(i);
         for (std::size_t i = 0; i < names.size() && all.empty(); ++i)
-            if (std::ranges::count(rim, names[i]) > 0) all.push_back(i);
+            if (counts.at(names[i]).second > 0) all.push_back(i);
         for (std::size_t i = 0; i < std::min(most_starts, all.size()); ++i)
             some.push_back(all[i * all.size() / std::min(most_starts, all.size())]);
         return some;
-    }
-
-    /// The longest sequence that both lists have in this order, from a common start on round each of them.
-    static std::vector<std::pair<std::size_t, std::size_t>>
-    common_sequence(const std::vector<Index>& a, std::size_t start_a, const std::vector<Index>& b, std::size_t start_b)
-    {
-        const std::size_t m = a.size(), n = b.size();
-        const auto same = [&](std::size_t i, std::size_t j) { return a[(start_a + i) % m] == b[(start_b + j) % n]; };
-        Eigen::MatrixXi longest =
-            Eigen::MatrixXi::Zero(static_cast<Index>(m + 1), static_cast<Index>(n + 1));  // from i and j on
-        for (std::size_t i = m; i-- > 0;)
-            for (std::size_t j = n; j-- > 0;)
-                longest(i, j) = same(i, j) ? longest(i + 1, j + 1) + 1 : std::max(longest(i + 1, j), longest(i, j + 1));
-        std::vector<std::pair<std::size_t, std::size_t>> pairs;
-        for (std::size_t i = 0, j = 0; i < m && j < n;) {
-            if (same(i, j) && longest(i, j) == longest(i + 1, j + 1) + 1)
-                pairs.emplace_back((start_a + i++) % m, (start_b + j++) % n);
-            else
-                (longest(i + 1, j) >= longest(i, j + 1) ? i : j) += 1;
-        }
-        return pairs;
     }
 
     const Proxy& proxy_;

@@ -358,7 +358,7 @@ std::vector<double> off_round(const FlatPart& part, const PlanarPoints& uv)
 bool loops_apart(const FlatPart& part, const PlanarPoints& uv)
 {
     const PlanarPoints stored = uv.unaryExpr(&as_stored);
-    return crossing_boundary_edges(part.surface.loops, stored, tolerance::drawn_edge).empty() &&
+    return !loops_cross(part.surface.loops, stored, tolerance::drawn_edge) &&
            turned_loops(part.surface.loops, stored, tolerance::drawn_edge).empty();
 }
 
@@ -367,8 +367,7 @@ bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points)
     if (!points.allFinite()) return false;
     for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
         if (!(signed_area(points, part.surface.triangles, f) > 0.0)) return false;
-    return crossing_boundary_edges(part.surface.loops, points, 0.0).empty() &&
-           turned_loops(part.surface.loops, points, 0.0).empty();
+    return !loops_cross(part.surface.loops, points, 0.0) && turned_loops(part.surface.loops, points, 0.0).empty();
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
+#include <exception>
 
 namespace koebe {
 namespace {
@@ -14,10 +15,13 @@ struct LoopEdge {
 
 using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, LoopEdge>;
 
-}  // namespace
+/// Ends CGAL's search.
+struct CrossingFound : std::exception {};
 
-std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<VertexLoop>& loops,
-                                                             const PlanarPoints& points, double shortest)
+/// Calls visit(e, f) for all pairs of loop edges that meet without sharing a vertex.
+template <typename Visit>
+void visit_crossings(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest,
+                     const Visit& visit)
 {
     const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
     std::vector<EdgeBox> boxes;
@@ -30,15 +34,33 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
             double high[2] = {std::max(a.real(), b.real()), std::max(a.imag(), b.imag())};
             boxes.emplace_back(low, high, edge);
         }
-    std::vector<std::pair<Index, Index>> crossings;
     detail::visit_meeting_boxes(boxes, [&](const EdgeBox& first, const EdgeBox& second) {
         const LoopEdge e = first.info(), f = second.info();
         if (e.from == f.from || e.from == f.to || e.to == f.from || e.to == f.to) return;
-        if (segments_meet(at(e.from), at(e.to), at(f.from), at(f.to)))
-            crossings.emplace_back(std::minmax(e.from, f.from));
+        if (segments_meet(at(e.from), at(e.to), at(f.from), at(f.to))) visit(e, f);
     });
+}
+
+}  // namespace
+
+std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<VertexLoop>& loops,
+                                                             const PlanarPoints& points, double shortest)
+{
+    std::vector<std::pair<Index, Index>> crossings;
+    visit_crossings(loops, points, shortest,
+                    [&](LoopEdge e, LoopEdge f) { crossings.emplace_back(std::minmax(e.from, f.from)); });
     std::sort(crossings.begin(), crossings.end());
     return crossings;
+}
+
+bool loops_cross(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest)
+{
+    try {
+        visit_crossings(loops, points, shortest, [](LoopEdge, LoopEdge) { throw CrossingFound(); });
+    } catch (const CrossingFound&) {
+        return true;
+    }
+    return false;
 }
 
 double enclosed_area(const VertexLoop& loop, const PlanarPoints& points)

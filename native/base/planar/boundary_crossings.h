@@ -15,6 +15,10 @@ namespace koebe {
 std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<VertexLoop>& loops,
                                                              const PlanarPoints& points, double shortest);
 
+/// Whether there is such a pair. It ends with the first one: where needles lie over each other, there are as many as
+/// the square of their number.
+bool loops_cross(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest);
+
 /// The enclosed area, positive for a counter-clockwise loop.
 double enclosed_area(const VertexLoop& loop, const PlanarPoints& points);
 

@@ -61,9 +61,9 @@ std::vector<Cdt::Vertex_handle> insert(Cdt& cdt, const std::vector<Complex>& pol
 /// Marks the faces that the polygon's sides divide from the infinite face by 1, the others by 0.
 void mark_inside(Cdt& cdt, const std::set<EndPair>& sides)
 {
-    for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info() = 1;
+    for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info().state = 1;
     std::vector<Cdt::Face_handle> front{cdt.infinite_face()};
-    front.front()->info() = 0;
+    front.front()->info().state = 0;
     while (!front.empty()) {
         const Cdt::Face_handle face = front.back();
         front.pop_back();
@@ -71,8 +71,8 @@ void mark_inside(Cdt& cdt, const std::set<EndPair>& sides)
             const Cdt::Vertex_handle a = face->vertex(Cdt::cw(i)), b = face->vertex(Cdt::ccw(i));
             if (!cdt.is_infinite(a) && !cdt.is_infinite(b) && sides.contains(ends_of(a->info(), b->info()))) continue;
             const Cdt::Face_handle next = face->neighbor(i);
-            if (next->info() == 0) continue;
-            next->info() = 0;
+            if (next->info().state == 0) continue;
+            next->info().state = 0;
             front.push_back(next);
         }
     }
@@ -123,7 +123,7 @@ Triangles divided_polygon(const std::vector<Complex>& polygon, const std::vector
     mark_inside(cdt, sides);
     std::vector<Index> corners;
     for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f)
-        if (f->info() == 1)
+        if (f->info().state == 1)
             for (int i = 0; i < 3; ++i) corners.push_back(f->vertex(i)->info());
     return Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
 }

@@ -15,6 +15,7 @@
 namespace koebe {
 namespace {
 
+using detail::FaceNote;
 using detail::PlanarRegion;
 using detail::to_complex;
 using detail::to_point;
@@ -24,7 +25,7 @@ using Cdt = PlanarRegion::Cdt;
 /// wanted size has 0.577; splitting at 0.76 leaves edges whose mean is the wanted length.
 constexpr double split_ratio = 0.76;
 
-/// What is known of a face inside: its info. A new face starts as unseen.
+/// The state of a face inside. A new face starts as unseen.
 enum FaceState : char {
     unseen = 1,      ///< not yet looked at
     pending,         ///< too large; both of its places may be tried
@@ -34,7 +35,8 @@ enum FaceState : char {
 
 struct Candidate {
     Complex place;
-    double excess;  ///< circumradius over wanted size; 0 for a centroid
+    double spacing;  ///< from it to the vertices, at least
+    double excess;   ///< circumradius over wanted size; 0 for a centroid
     Cdt::Face_handle face;
 };
 
@@ -71,24 +73,28 @@ Insertion judge(const PlanarRegion& region, Complex z, double spacing, Cdt::Face
 
 /// Triangles that are too large, by their circumcentres, largest first. Then the same triangles by their centroids,
 /// where the circumcentre is not allowed.
-std::vector<Candidate> candidates(const PlanarRegion& region, const SizeField& size)
+std::vector<Candidate> candidates(PlanarRegion& region, const SizeField& size)
 {
     std::vector<Candidate> result;
-    const Cdt& cdt = region.cdt();
+    Cdt& cdt = region.cdt();
     for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
-        if (!region.inside(f) || f->info() == done) continue;
+        FaceNote& note = f->info();
+        if (!region.inside(f) || note.state == done) continue;
         const Complex a = to_complex(f->vertex(0)->point());
         const Complex u = to_complex(f->vertex(1)->point()) - a, v = to_complex(f->vertex(2)->point()) - a;
         const Complex centroid = a + (u + v) / 3.0;
         const Complex arm = Complex(0.0, 1.0) * (u * std::norm(v) - v * std::norm(u)) / (2.0 * cross(u, v));
-        const double radius = distance(arm, 0.0), wanted = size(centroid);
-        if (radius <= split_ratio * wanted) {
-            f->info() = done;
+        const double radius = distance(arm, 0.0);
+        const bool is_new = note.state == unseen;
+        if (is_new) note.wanted = size(centroid);
+        if (radius <= split_ratio * note.wanted) {
+            note.state = done;
             continue;
         }
-        if (f->info() == unseen) f->info() = std::isfinite(radius) ? pending : without_center;
-        if (f->info() == pending) result.push_back({a + arm, radius / wanted, f});
-        result.push_back({centroid, 0.0, f});
+        if (is_new) note.state = std::isfinite(radius) ? pending : without_center;
+        if (is_new && note.state == pending) note.there = size(a + arm);
+        if (note.state == pending) result.push_back({a + arm, split_ratio * note.there, radius / note.wanted, f});
+        result.push_back({centroid, split_ratio * note.wanted, 0.0, f});
     }
     std::stable_sort(result.begin(), result.end(),
                      [](const Candidate& s, const Candidate& t) { return s.excess > t.excess; });
@@ -105,11 +111,10 @@ void refine(PlanarRegion& region, const SizeField& size, std::vector<Complex>& i
         Cdt::Face_handle hint;
         for (const Candidate& candidate : candidates(region, size)) {
             Cdt::Face_handle found;
-            const Insertion insertion =
-                judge(region, candidate.place, split_ratio * size(candidate.place), hint, found);
+            const Insertion insertion = judge(region, candidate.place, candidate.spacing, hint, found);
             hint = found;
             if (insertion == Insertion::refused_for_ever) {
-                char& state = candidate.face->info();  // of another face, unseen, if this one is gone
+                char& state = candidate.face->info().state;  // of another face, unseen, if this one is gone
                 if (candidate.excess > 0.0 && state == pending)
                     state = without_center;
                 else if (candidate.excess == 0.0 && state == without_center)
@@ -123,7 +128,7 @@ void refine(PlanarRegion& region, const SizeField& size, std::vector<Complex>& i
             // The new faces fill the conflict zone, which lies inside.
             auto face = cdt.incident_faces(vertex);
             const auto first = face;
-            do face->info() = unseen;
+            do face->info().state = unseen;
             while (++face != first);
             hint = first;
         }

@@ -80,23 +80,23 @@ void PlanarRegion::constrain(const std::vector<VectorXcd>& polygons, const std::
 void PlanarRegion::mark_inside()
 {
     constexpr char unknown = -1;
-    for (auto f = cdt_.all_faces_begin(); f != cdt_.all_faces_end(); ++f) f->info() = unknown;
+    for (auto f = cdt_.all_faces_begin(); f != cdt_.all_faces_end(); ++f) f->info().state = unknown;
     std::vector<Cdt::Face_handle> front{cdt_.infinite_face()}, beyond;
     for (char side = 0; !front.empty(); side ^= 1) {
         beyond.clear();
         for (const Cdt::Face_handle face : front)
-            if (face->info() == unknown) face->info() = side;
+            if (face->info().state == unknown) face->info().state = side;
         while (!front.empty()) {
             const Cdt::Face_handle face = front.back();
             front.pop_back();
-            if (face->info() != side) continue;
+            if (face->info().state != side) continue;
             for (int i = 0; i < 3; ++i) {
                 const Cdt::Face_handle neighbor = face->neighbor(i);
-                if (neighbor->info() != unknown) continue;
+                if (neighbor->info().state != unknown) continue;
                 if (face->is_constrained(i)) {
                     beyond.push_back(neighbor);
                 } else {
-                    neighbor->info() = side;
+                    neighbor->info().state = side;
                     front.push_back(neighbor);
                 }
             }

@@ -12,13 +12,20 @@
 
 namespace koebe::detail {
 
-/// Vertices hold their index, faces hold 1 inside the region and 0 outside. Predicates are exact.
+/// What refinement knows of a face.
+struct FaceNote {
+    char state = 0;       ///< not 0 inside the region
+    double wanted = 0.0;  ///< edge length at its centroid,
+    double there = 0.0;   ///< and at its circumcentre
+};
+
+/// Vertices hold their index. Predicates are exact.
 class PlanarRegion {
 public:
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
-    using FaceBase =
-        CGAL::Triangulation_face_base_with_info_2<char, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+    using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceNote, Kernel,
+                                                               CGAL::Constrained_triangulation_face_base_2<Kernel>>;
     using Cdt =
         CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                    CGAL::No_constraint_intersection_tag>;
@@ -30,7 +37,7 @@ public:
 
     Cdt& cdt() { return cdt_; }
     const Cdt& cdt() const { return cdt_; }
-    bool inside(Cdt::Face_handle face) const { return !cdt_.is_infinite(face) && face->info() != 0; }
+    bool inside(Cdt::Face_handle face) const { return !cdt_.is_infinite(face) && face->info().state != 0; }
 
 private:
     void constrain(const std::vector<VectorXcd>& polygons, const std::vector<Cdt::Vertex_handle>& handles);

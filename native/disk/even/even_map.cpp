@@ -151,8 +151,8 @@ private:
         for (int round = 0, far = 0; round < effort_.most_rounds;) {
             FoldoverProblem problem = surface_problem();
             try {
-                add_void(flat_.loops, void_weight / static_cast<double>(flat_.triangles.rows()), least_gap * extent_,
-                         problem);
+                add_void(void_mesh(flat_.loops, problem.points),
+                         void_weight / static_cast<double>(flat_.triangles.rows()), least_gap * extent_, problem);
             } catch (const InputError&) {
                 return;
             }
@@ -234,10 +234,9 @@ private:
     {
         if (flat_.periods)
             return std::ranges::all_of(flat_.loops, [&](const VertexLoop& loop) {
-                return enclosed_area(loop, points) < 0.0 && crossing_boundary_edges({loop}, points, shortest).empty();
+                return enclosed_area(loop, points) < 0.0 && !loops_cross({loop}, points, shortest);
             });
-        return crossing_boundary_edges(flat_.loops, points, shortest).empty() &&
-               turned_loops(flat_.loops, points, shortest).empty();
+        return !loops_cross(flat_.loops, points, shortest) && turned_loops(flat_.loops, points, shortest).empty();
     }
 
     /// The same when points are rounded more coarsely than they will be stored, on two grids half a cell apart: on one

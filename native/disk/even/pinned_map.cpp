@@ -96,8 +96,7 @@ private:
 
     bool apart(const PlanarPoints& points) const
     {
-        return crossing_boundary_edges(flat_.loops, points, shortest_).empty() &&
-               turned_loops(flat_.loops, points, shortest_).empty();
+        return !loops_cross(flat_.loops, points, shortest_) && turned_loops(flat_.loops, points, shortest_).empty();
     }
 
     FlatSurface flat_;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -45,13 +46,24 @@ public:
 
     bool is_upright(Index f, const PlanarPoints& points) const { return signed_area(points, triangles_, f) > 0.0; }
 
+    /// The space around the present points; none if their loops are not simple and apart.
+    std::optional<VoidMesh> around() const
+    {
+        try {
+            return void_mesh(loops_, points_);
+        } catch (const InputError&) {
+            return {};
+        }
+    }
+
+    /// @param around to be kept upright, too
     /// @return the points after; `right` says whether all faces are upright
-    std::pair<bool, PlanarPoints> moved(int rings, LoopsMay loops_may, RepairEffort& effort,
-                                        const ExecutionContext& context) const
+    std::pair<bool, PlanarPoints> moved(int rings, bool hold_loops, const std::optional<VoidMesh>& around,
+                                        RepairEffort& effort, const ExecutionContext& context) const
     {
         FoldoverProblem problem;
         problem.points = points_;
-        problem.mobility = mobile(rings, loops_may == LoopsMay::stay);
+        problem.mobility = mobile(rings, hold_loops);
         std::vector<Index> faces;
         for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
             if (std::ranges::any_of(triangles_.row(f), [&](Index v) { return problem.mobility[v] != Mobility::held; }))
@@ -59,13 +71,7 @@ public:
         problem.triangles = triangles_(faces, Eigen::all);
         problem.reference = patch_shapes(vertices_, triangles_, points_, faces, PatchShape::surface).references;
         problem.floor = VectorXd::Zero(problem.triangles.rows());
-        if (loops_may == LoopsMay::move_apart) {
-            try {
-                add_void(loops_, void_weight, 0.0, problem);
-            } catch (const InputError&) {  // they are not apart now
-                return {false, points_};
-            }
-        }
+        if (around) add_void(*around, void_weight, 0.0, problem);
         const Eigen::Index all = problem.triangles.rows();
         const int steps = faces.empty() ? 0 : effort.affordable(all);
         if (steps == 0) return {false, points_};
@@ -124,17 +130,21 @@ bool turn_upright(const Vertices& vertices, const Triangles& triangles, const st
     if (first.faces().empty()) return true;
     FallenFaces fallen = first;
     RepairEffort effort(triangles.rows());
-    for (const LoopsMay loops_may : {LoopsMay::stay, LoopsMay::move_apart, LoopsMay::move})
+    for (const LoopsMay loops_may : {LoopsMay::stay, LoopsMay::move_apart, LoopsMay::move}) {
+        const bool apart = loops_may == LoopsMay::move_apart;
+        const FallenFaces& start = loops_may == LoopsMay::move ? first : fallen;
+        const std::optional<VoidMesh> around = apart && !effort.exhausted() ? start.around() : std::nullopt;
+        if (apart && !around) continue;
         for (const int rings : reach) {
-            auto [right, after] =
-                (loops_may == LoopsMay::move ? first : fallen).moved(rings, loops_may, effort, context);
+            auto [right, after] = start.moved(rings, loops_may == LoopsMay::stay, around, effort, context);
             // A void face without area holds nothing apart.
-            if (right && (loops_may != LoopsMay::move_apart || crossing_boundary_edges(loops, after, 0.0).empty())) {
+            if (right && (!apart || !loops_cross(loops, after, 0.0))) {
                 points = std::move(after);
                 return true;
             }
             if (loops_may == LoopsMay::stay) fallen.go_on_from(std::move(after));
         }
+    }
     return false;
 }
 

@@ -12,11 +12,6 @@
 namespace koebe {
 namespace {
 
-struct VoidMesh {
-    PlanarPoints points;  ///< (V + n, 2) points of the surface, four corners of the frame, other points of the void
-    Triangles triangles;  ///< triangles of the void only, counter-clockwise
-};
-
 constexpr double most_widened = 4.0;   // factor by which a narrow triangle wants to be wider
 constexpr double frame_margin = 0.25;  // of the extent, on each side
 constexpr PlanarMeshOptions coarse{.gradation = 1.0, .smoothing = 0};
@@ -40,7 +35,8 @@ VectorXcd frame_of(const PlanarPoints& points)
     return frame;
 }
 
-/// Triangulates the space between a frame and the outer loop, and the inside of each inner loop.
+}  // namespace
+
 VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points)
 {
     const VectorXcd frame = frame_of(points);
@@ -73,11 +69,8 @@ VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& poi
     return mesh;
 }
 
-}  // namespace
-
-void add_void(const std::vector<VertexLoop>& loops, double weight, double gap, FoldoverProblem& problem)
+void add_void(const VoidMesh& around, double weight, double gap, FoldoverProblem& problem)
 {
-    const VoidMesh around = void_mesh(loops, problem.points);
     const Eigen::Index own = problem.triangles.rows(), vertices = problem.points.rows();
     std::vector<Index> kept;
     std::vector<Eigen::Matrix2d> shapes;

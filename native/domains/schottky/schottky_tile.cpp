@@ -322,7 +322,7 @@ SchottkyFaults find_faults(const SchottkyTile& tile)
                          [&](Index f) { return StoredFace(tile.triangles, tile.points, f).below_resolution(); });
     for (std::size_t k = 0; k < tile.loops.size(); ++k)
         faults.boundary |= (enclosed_area(tile.loops[k], tile.points) > 0.0) != (k == 0);
-    faults.boundary |= !crossing_boundary_edges(tile.loops, tile.points, 2.0 * uv_resolution).empty();
+    faults.boundary |= loops_cross(tile.loops, tile.points, 2.0 * uv_resolution);
     return faults;
 }
 

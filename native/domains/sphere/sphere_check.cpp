@@ -42,7 +42,7 @@ std::optional<double> projected_area(const VertexLoop& loop, const Vertices& poi
     }
     VertexLoop order(loop.size());
     std::iota(order.begin(), order.end(), 0);
-    if (!crossing_boundary_edges({order}, plane, 0.0).empty()) return std::nullopt;
+    if (loops_cross({order}, plane, 0.0)) return std::nullopt;
     double area = 0.0;
     for (std::size_t b = 0; b < loop.size(); ++b)
         area += solid_angle(axis, points.row(loop[(b + 1) % loop.size()]), points.row(loop[b]));

@@ -113,7 +113,7 @@ TileFaults find_faults(const PeriodicSurface& domain, const Tile& tile, HoleShap
             } else {
                 VertexLoop order(loop.size());
                 std::iota(order.begin(), order.end(), 0);
-                bad |= area > 0 || !crossing_boundary_edges({order}, points, 2.0 * resolution).empty();
+                bad |= area > 0 || loops_cross({order}, points, 2.0 * resolution);
             }
         }
         if (bad) faults.holes.push_back(static_cast<int>(k));

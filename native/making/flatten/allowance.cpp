@@ -109,7 +109,7 @@ bool fit(const std::vector<PlanarPoints>& rings, const std::vector<VertexLoop>& 
         together.conservativeResize(together.rows() + ring.rows(), 2);
         together.bottomRows(ring.rows()) = ring;
     }
-    if (!crossing_boundary_edges(all, together, shortest_edge * width).empty()) return false;
+    if (loops_cross(all, together, shortest_edge * width)) return false;
     return std::ranges::all_of(loops, [&](const VertexLoop& loop) {
         int turns = 0;
         for (const PlanarPoints& ring : rings) turns += winding(ring, points.row(loop.front()));

@@ -105,8 +105,7 @@ public:
             std::vector<std::pair<Index, VertexLoop>> rims = rims_of(side, part);
             std::vector<VertexLoop> all;
             for (const auto& [number, loop] : rims) all.push_back(loop);
-            bool bad = !crossing_boundary_edges(all, points, 1e-6).empty() || any_nested(side, part, rims) ||
-                       any_sectors_overlap(side);
+            bool bad = loops_cross(all, points, 1e-6) || any_nested(side, part, rims) || any_sectors_overlap(side);
             while (!rims.empty() && !bad) {
                 const Index number = rims.front().first;
                 std::vector<VertexLoop> own;

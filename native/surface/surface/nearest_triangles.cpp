@@ -14,6 +14,8 @@
 namespace koebe {
 namespace {
 
+constexpr double beyond = 1e-9;  // over the largest coordinate
+
 Vertices in_space(const PlanarPoints& points)
 {
     Vertices result = Vertices::Zero(points.rows(), 3);
@@ -85,11 +87,27 @@ PlacesInTriangles nearest(const Vertices& corners, const Triangles& triangles, c
 
     const Eigen::Index count = points.rows();
     PlacesInTriangles places{Eigen::VectorX<Index>(count), Vertices(count, 3), VectorXd(count)};
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const Eigen::RowVector3d p = points.row(i);
-        const Index face = tree.closest_point_and_primitive(TreeKernel::Point_3(p[0], p[1], p[2])).second;
+    const auto corners_of_face = [&](Index face) {
         Eigen::Matrix3d corner;
         for (int k = 0; k < 3; ++k) corner.row(k) = corners.row(triangles(face, k));
+        return corner;
+    };
+    double largest = 0.0;
+    for (const Vertices* some : {&corners, &points})
+        if (some->size() > 0) largest = std::max(largest, some->cwiseAbs().maxCoeff());
+    Index face = 0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Eigen::RowVector3d p = points.row(i);
+        // Beside needles the centroids are far off, and the last face is near: it bounds the search by a point that is
+        // slightly farther than the face, so that of equally near faces the same one is found.
+        const TreeKernel::Point_3 query(p[0], p[1], p[2]);
+        auto hint = tree.best_hint(query);
+        const Eigen::Matrix3d last = corners_of_face(face);
+        const double bound = (nearest_weights(p, last, inner_weights(p, last)) * last - p).norm() + beyond * largest;
+        if (bound * bound < CGAL::squared_distance(query, hint.first))
+            hint = {TreeKernel::Point_3(p[0] + bound, p[1], p[2]), face};
+        face = tree.closest_point_and_primitive(query, hint).second;
+        const Eigen::Matrix3d corner = corners_of_face(face);
         const Eigen::RowVector3d weights = nearest_weights(p, corner, inner_weights(p, corner));
         places.face[i] = face;
         places.weights.row(i) = weights;
