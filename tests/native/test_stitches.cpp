@@ -82,6 +82,29 @@ std::vector<HeldPart> halves(double height)
     return parts;
 }
 
+/// The hill in one piece, cut open from below to `length` squares, and relaxed.
+FlatPart slit_hill(double height, int length)
+{
+    const FlatPart whole = hill(height);
+    Triangles triangles = whole.surface.triangles;
+    std::vector<Index> source(whole.original);
+    // The faces on the right of the slit get copies of its vertices, but for the last one.
+    for (int j = 0; j < length; ++j) source.push_back(at(squares / 2, j));
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+        double x = 0.0;
+        for (const Index v : triangles.row(f)) x += whole.vertices(v, 0) / 3.0;
+        if (x < whole.vertices(at(squares / 2, 0), 0)) continue;
+        for (Index& v : triangles.row(f))
+            for (int j = 0; j < length; ++j)
+                if (v == at(squares / 2, j)) v = static_cast<Index>(whole.original.size()) + j;
+    }
+    FlatPart part = opened_piece(whole, whole.faces, triangles, source).value();
+    part.tips = {at(squares / 2, length)};
+    part.dart_length = static_cast<double>(length) / squares;
+    relax(part);
+    return part;
+}
+
 double energy_of(const std::vector<HeldPart>& parts)
 {
     double sum = 0.0;
@@ -110,6 +133,29 @@ TEST(Stitches, two_halves_become_one_where_it_costs_less_than_the_cut)
             EXPECT_LT((joined.vertices.row(static_cast<Index>(v)) - whole.vertices.row(joined.original[v])).norm(),
                       1e-12);
     }
+}
+
+TEST(Stitches, a_slit_closes_where_it_costs_less_than_the_cut)
+{
+    std::vector<HeldPart> parts{{slit_hill(0.3, squares / 2), {}}};
+    ASSERT_GT(parts.front().flat.surface.vertex_count, static_cast<Index>((squares + 1) * (squares + 1)));
+    ExecutionContext context;
+    EXPECT_TRUE(stitch_parts(parts, even, {0.2, {}}, context));
+    ASSERT_EQ(parts.size(), 1u);
+    const FlatPart& closed = parts.front().flat;
+    EXPECT_EQ(closed.surface.vertex_count, static_cast<Index>((squares + 1) * (squares + 1)));
+    EXPECT_EQ(closed.surface.loops.size(), 1u);
+    EXPECT_LT(closed.dart_length, 1e-12);
+    EXPECT_TRUE(closed.tips.empty());
+    EXPECT_TRUE(lies_one_to_one(closed, closed.points));
+
+    // At a low price most of it stays where the hill needs it.
+    std::vector<HeldPart> steep{{slit_hill(1.5, squares / 2), {}}};
+    stitch_parts(steep, even, {1e-4, {}}, context);
+    const FlatPart& open = steep.front().flat;
+    EXPECT_GT(open.surface.vertex_count, closed.surface.vertex_count + squares / 4);
+    EXPECT_EQ(open.tips.size(), 1u);
+    EXPECT_TRUE(lies_one_to_one(open, open.points));
 }
 
 TEST(Stitches, a_cut_that_is_cheap_stays_where_the_surface_is_bent)
@@ -149,6 +195,20 @@ TEST(PartBorders, the_border_of_two_halves_is_one_run_of_edges)
     for (int j = 0; j <= squares; ++j) EXPECT_EQ(names[j], at(squares / 2, j));
 }
 
+TEST(PartBorders, a_slit_is_a_border_of_a_part_with_itself)
+{
+    constexpr int length = 5;
+    const std::vector<FlatPart> parts{slit_hill(0.2, length)};
+    const PartBorders borders(parts);
+    ASSERT_EQ(borders.all().size(), 1u);
+    const PartBorder& border = borders.all().front();
+    EXPECT_EQ(border.first, border.second);
+    ASSERT_EQ(border.edges(), static_cast<std::size_t>(length));
+    EXPECT_FALSE(border.is_ring);
+    for (std::size_t i = 0; i < border.edges(); ++i)
+        EXPECT_EQ(borders.name({0, border.of_first[i]}), borders.name({0, border.of_second[i]}));
+}
+
 TEST(RigidFit, it_finds_a_turn_and_a_shift_and_what_is_left)
 {
     const Complex turn = std::polar(1.0, 0.7), shift(3.0, -2.0);
@@ -163,6 +223,10 @@ TEST(RigidFit, it_finds_a_turn_and_a_shift_and_what_is_left)
         EXPECT_LT(own.misfit(), 1e-12);
         EXPECT_LT(std::abs(own.moved({0.2, 0.3}) - (turn * Complex(0.2, 0.3) + shift)), 1e-12);
     }
+    EXPECT_GT(fit.distance(), 1.0);
+    RigidFit apart;
+    for (const Complex z : places) apart.add(z + Complex(0.3, 0.4), z);
+    EXPECT_NEAR(apart.distance(), 0.25, 1e-12);
     // Two pairs, one unit longer on one side: half a unit is left at either end.
     RigidFit longer;
     longer.add({0.0, 0.0}, {0.0, 0.0});

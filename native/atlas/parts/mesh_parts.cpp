@@ -107,7 +107,7 @@ private:
     {
         FineParts fine(pieces_, options_, context_);
         EvenOptions evening = evening_of(options_, options_.roomy, options_.threads);
-        evening.stitch = stitch;
+        evening.stitch = stitch && options_.slits.empty();  // slits that were chosen stay open
         const bool by_proxy = std::ranges::any_of(pieces_, [](const MeshPiece& own) { return own.proxy.has_value(); });
         if (by_proxy && (options_.even == 0.0 || evening.loops != LoopForm::free))
             for (MeshPiece& own : pieces_)

@@ -26,6 +26,8 @@ PartBorders::PartBorders(const std::vector<FlatPart>& parts) : parts_(parts)
             if (!other || other->part < k) continue;
             borders_.push_back(border_through({k, h}));
             for (const Index own : borders_.back().of_first) taken.emplace(k, own);
+            if (other->part == k)
+                for (const Index own : borders_.back().of_second) taken.emplace(k, own);
         }
 }
 
@@ -53,7 +55,7 @@ EdgeEnds PartBorders::image(const PartEdge& edge) const
 const std::vector<PartEdge>* PartBorders::find(const EdgeEnds& name) const
 {
     const auto found = edges_.find(name);
-    if (found == edges_.end() || found->second.size() != 2 || found->second[0].part == found->second[1].part) return {};
+    if (found == edges_.end() || found->second.size() != 2) return {};
     return &found->second;
 }
 
@@ -62,7 +64,8 @@ std::optional<PartEdge> PartBorders::beyond(const PartEdge& edge) const
 {
     const std::vector<PartEdge>* both = find(name(edge));
     if (!both) return {};
-    return (*both)[(*both)[0].part == edge.part ? 1 : 0];
+    const PartEdge& first = (*both)[0];
+    return (*both)[first.part == edge.part && first.halfedge == edge.halfedge ? 1 : 0];
 }
 
 /// The next edge of the same border, in the direction of this part's boundary.
@@ -70,7 +73,7 @@ std::optional<PartEdge> PartBorders::after(const PartEdge& edge) const
 {
     const PartEdge next{edge.part, leaving_[edge.part][target(parts_[edge.part].surface.triangles, edge.halfedge)]};
     const auto here = beyond(edge), there = beyond(next);
-    if (!there || there->part != here->part) return {};
+    if (!there || there->part != here->part || next.halfedge == here->halfedge) return {};
     const Triangles& triangles = parts_[there->part].surface.triangles;
     if (target(triangles, there->halfedge) != origin(triangles, here->halfedge)) return {};
     return next;

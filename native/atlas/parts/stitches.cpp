@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/connectivity.h"
+#include "cut/disjoint_sets.h"
 #include "even/even_map.h"
 #include "parts/carried_parts.h"
 #include "parts/part_borders.h"
@@ -191,6 +192,8 @@ private:
     /// What a stretch saves: its cut, and one island where the neck is as wide as the smaller part.
     double saved_by(const PartBorder& border, const BorderSums& sums, Window window) const
     {
+        if (border.first == border.second)
+            return stitch_saving({price_.length, {}}, sums.cost[window.to] - sums.cost[window.from], 0.0);
         const double small = std::sqrt(std::min(looks_[border.first].area, looks_[border.second].area));
         return stitch_saving(price_, sums.cost[window.to] - sums.cost[window.from],
                              (sums.length[window.to] - sums.length[window.from]) / small);
@@ -199,12 +202,13 @@ private:
     /// What a stretch wins: what it saves, less what bends and what compactness is lost.
     double won_by(const PartBorder& border, const BorderSums& sums, Window window) const
     {
+        const RigidFit fit = sums.fit_of(window.from, window.to);
+        if (border.first == border.second) return saved_by(border, sums, window) - tuning::bent_border * fit.distance();
         const Look &a = looks_[border.first], &b = looks_[border.second];
         const Look both{a.area + b.area,
                         a.length + b.length - 2.0 * (sums.length[window.to] - sums.length[window.from])};
         const double loss = roundness_loss((a.compact_area() + b.compact_area()) / area_, both.compact_area() / area_);
-        return saved_by(border, sums, window) - loss -
-               tuning::bent_border * sums.fit_of(window.from, window.to).misfit();
+        return saved_by(border, sums, window) - loss - tuning::bent_border * fit.misfit();
     }
 
     std::optional<Stitch> best_along(const PartBorder& closed) const
@@ -273,6 +277,8 @@ FlatPart beside(const FlatPart& first, const FlatPart& second, const RigidFit& f
     append(both.image, second.image);
     append(both.held, second.held);
     append(both.shown, second.shown);
+    both.slit += second.slit;  // lengths are summed over all parts
+    both.dart_length += second.dart_length;
     const Index count = first.surface.vertex_count, more = second.surface.vertex_count;
     both.vertices.conservativeResize(count + more, 3);
     both.vertices.bottomRows(more) = second.vertices;
@@ -281,56 +287,80 @@ FlatPart beside(const FlatPart& first, const FlatPart& second, const RigidFit& f
     return both;
 }
 
-/// Two parts as one, joined along pairs of half-edges. The vertices of the border lie in the middle of their places.
+/// Vertices where a slit ends: the edges before and after them are one edge of the whole.
+std::vector<Index> tips_of(const FlatPart& part)
+{
+    std::vector<Index> tips;
+    for (const VertexLoop& loop : part.surface.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            if (part.original[loop[(i + loop.size() - 1) % loop.size()]] == part.original[loop[(i + 1) % loop.size()]])
+                tips.push_back(loop[i]);
+    return tips;
+}
+
+/// A part with pairs of its boundary's half-edges joined. Their vertices lie in the middle of their places.
 /// @return nothing if that is no surface
-std::optional<FlatPart> joined(const FlatPart& first, const FlatPart& second,
+std::optional<FlatPart> joined(FlatPart part, const Triangles& apart,
                                const std::vector<std::pair<Index, Index>>& halfedges)
 {
-    const Index count = first.surface.vertex_count;
-    std::vector<Index> same(static_cast<std::size_t>(count + second.surface.vertex_count));
-    std::iota(same.begin(), same.end(), 0);
-    RigidFit fit;
+    const auto count = static_cast<Index>(part.vertices.rows());
+    DisjointSets same(static_cast<std::size_t>(count));
     for (const auto& [h, g] : halfedges) {
-        const Triangles &own = first.surface.triangles, &other = second.surface.triangles;
-        for (const auto& [v, w] :
-             {std::pair(origin(own, h), target(other, g)), std::pair(target(own, h), origin(other, g))}) {
-            if (same[count + w] != count + w && same[count + w] != v) return {};
-            same[count + w] = v;
-            fit.add(complex_at(first.points, v), complex_at(second.points, w));
-        }
+        same.join(origin(apart, h), target(apart, g));
+        same.join(target(apart, h), origin(apart, g));
     }
-    FlatPart both = beside(first, second, fit);
-    std::vector<Index> source, number(same.size());
-    for (Index v = 0; v < static_cast<Index>(same.size()); ++v) {
-        if (same[v] == v) {
-            number[v] = static_cast<Index>(source.size());
+    std::vector<Index> source, number(static_cast<std::size_t>(count), -1), copies;
+    PlanarPoints sums = PlanarPoints::Zero(count, 2);
+    for (Index v = 0; v < count; ++v) {
+        Index& own = number[same.find(v)];
+        if (own < 0) {
+            own = static_cast<Index>(source.size());
             source.push_back(v);
-        } else {
-            number[v] = number[same[v]];
-            both.points.row(same[v]) = 0.5 * (first.points.row(same[v]) + both.points.row(v));
+            copies.push_back(0);
         }
+        copies[own] += 1;
+        sums.row(own) += part.points.row(v);
     }
-    Triangles triangles(first.surface.triangles.rows() + second.surface.triangles.rows(), 3);
-    triangles << first.surface.triangles, second.surface.triangles.array() + count;
+    for (Index v = 0; v < count; ++v) number[v] = number[same.find(v)];
+    for (std::size_t v = 0; v < source.size(); ++v)
+        part.points.row(source[v]) = sums.row(static_cast<Index>(v)) / copies[v];
+    Triangles triangles = apart;
     for (Index& corner : triangles.reshaped()) corner = number[corner];
-    std::vector<Index> order(both.faces.size());
+    std::vector<Index> order(part.faces.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::sort(order, {}, [&](Index f) { return both.faces[f]; });
-    auto piece = opened_piece(both, order, triangles(order, Eigen::all), source);
+    std::ranges::sort(order, {}, [&](Index f) { return part.faces[f]; });
+    auto piece = opened_piece(part, order, triangles(order, Eigen::all), source);
     if (!piece) return {};
-    for (const Index tip : first.tips) piece->tips.push_back(number[tip]);
-    for (const Index tip : second.tips) piece->tips.push_back(number[count + tip]);
-    piece->slit = first.slit + second.slit;  // lengths are summed over all parts
-    piece->dart_length = first.dart_length + second.dart_length;
+    piece->tips = tips_of(*piece);
+    piece->slit = part.slit;
+    piece->dart_length = part.dart_length;
     return piece;
 }
 
-/// Joins the two parts beside a stretch. @param changed (parts) kept in step @return whether that is a surface
+/// Two parts as one, joined along pairs of half-edges, one of each.
+std::optional<FlatPart> joined(const FlatPart& first, const FlatPart& second,
+                               std::vector<std::pair<Index, Index>> halfedges)
+{
+    RigidFit fit;
+    for (auto& [h, g] : halfedges) {
+        const Triangles &own = first.surface.triangles, &other = second.surface.triangles;
+        fit.add(complex_at(first.points, origin(own, h)), complex_at(second.points, target(other, g)));
+        fit.add(complex_at(first.points, target(own, h)), complex_at(second.points, origin(other, g)));
+        g += static_cast<Index>(own.size());
+    }
+    Triangles triangles(first.surface.triangles.rows() + second.surface.triangles.rows(), 3);
+    triangles << first.surface.triangles, second.surface.triangles.array() + first.surface.vertex_count;
+    return joined(beside(first, second, fit), triangles, halfedges);
+}
+
+/// Joins the sides of a stretch: of two parts, or of a slit of one part.
+/// @param changed (parts) kept in step @return whether that is a surface
 bool join_along(const BorderStretch& stretch, std::vector<FlatPart>& parts, std::vector<char>& changed)
 {
     const PartBorders borders(parts);
     std::vector<std::pair<Index, Index>> halfedges;
     std::pair<std::size_t, std::size_t> own;
+    double length = 0.0;
     for (const EdgeEnds& edge : stretch) {
         const std::vector<PartEdge>* both = borders.find(edge);
         if (!both) return false;
@@ -338,18 +368,26 @@ bool join_along(const BorderStretch& stretch, std::vector<FlatPart>& parts, std:
         if (halfedges.empty()) own = found;
         if (found != own) return false;
         halfedges.emplace_back((*both)[0].halfedge, (*both)[1].halfedge);
+        length += edge_length(parts[own.first], halfedges.back().first);
     }
-    auto piece = joined(parts[own.first], parts[own.second], halfedges);
+    const auto [first, second] = own;
+    const bool is_slit = first == second;
+    auto piece = is_slit ? joined(parts[first], parts[first].surface.triangles, halfedges)
+                         : joined(parts[first], parts[second], halfedges);
     if (!piece) return false;
-    // The rest of their borders is a slit now.
-    for (const PartBorder& border : borders.all())
-        if (std::minmax(border.first, border.second) == std::minmax(own.first, own.second))
-            for (const Index h : border.of_first) piece->slit += edge_length(parts[border.first], h);
-    for (const auto& [h, g] : halfedges) piece->slit -= edge_length(parts[own.first], h);
-    parts[own.first] = std::move(*piece);
-    changed[own.first] = 1;
-    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(own.second));
-    changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(own.second));
+    // The rest of the border of two parts is a slit now.
+    if (!is_slit)
+        for (const PartBorder& border : borders.all())
+            if (std::minmax(border.first, border.second) == std::minmax(first, second))
+                for (const Index h : border.of_first) piece->slit += edge_length(parts[border.first], h);
+    const double of_slit = std::min(length, piece->slit);
+    piece->slit -= of_slit;
+    piece->dart_length = std::max(0.0, piece->dart_length - (length - of_slit));
+    parts[first] = std::move(*piece);
+    changed[first] = 1;
+    if (is_slit) return true;
+    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(second));
+    changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(second));
     return true;
 }
 
