@@ -41,6 +41,13 @@ VectorXd visibility_factors(const VectorXd& seen, const VectorXd& areas)
     return (tuning::least_seen + seen.array()) / mean;
 }
 
+VectorXd detail_factors(const VectorXd& density, const VectorXd& areas)
+{
+    const VectorXd fineness = density.cwiseMax(0.0).cwiseSqrt();
+    const double mean = std::max(fineness.dot(areas) / areas.sum(), std::numeric_limits<double>::min());
+    return (fineness / mean).cwiseMax(1.0).cwiseMin(tuning::most_detailed);
+}
+
 double crack_energy(double pull, double even) { return compliance(even) * pull * pull; }
 
 double beam_energy(Complex force, double moment, double length, double even)

@@ -91,6 +91,15 @@ inline double price_of_edge(const std::vector<double>& shown, Index a, Index b)
 /// @param seen (V) share of the directions from which a vertex is seen @param areas (V) weights of the mean
 VectorXd visibility_factors(const VectorXd& seen, const VectorXd& areas);
 
+/// Factors by detail, from 1 to most_detailed: the modeller spent vertices where people look. The root of the density,
+/// over its mean, is about an edge's length over the edges' lengths there.
+/// @param density (V) of vertices, per area @param areas (V) weights of the mean
+VectorXd detail_factors(const VectorXd& density, const VectorXd& areas);
+
+/// The weight of the energy of a face: what nobody sees may be uneven. min(1, shown / seen_well), at least
+/// hidden_weight. @param shown as in CutSurface, in the mean of the face's corners
+inline double weight_of_face(double shown) { return std::clamp(shown / tuning::seen_well, tuning::hidden_weight, 1.0); }
+
 /// The factor on an edge whose mean curvature is so many standard deviations above the mean: hollows hide a cut.
 /// exp(hollow_strength deviations), with deviations held to hollow_deviation
 inline double hollow_factor(double deviations)

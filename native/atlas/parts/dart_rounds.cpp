@@ -330,6 +330,7 @@ private:
 FlatSurface flat_surface(FlatPart& flat, std::vector<RoundLoop>& round)
 {
     FlatSurface surface{flat.vertices, flat.surface.triangles, flat.surface.loops, flat.points, round};
+    surface.weights = weights_of_faces(flat);
     surface.sizes = Eigen::Map<const VectorXd>(flat.sizes.data(), static_cast<Eigen::Index>(flat.sizes.size()));
     return surface;
 }

@@ -6,6 +6,7 @@
 #include "parts/pinholes.h"
 #include "parts/unfolding.h"
 #include "surface/ambient_visibility.h"
+#include "surface/local_density.h"
 #include "surface/mirror.h"
 #include "surface/mirror_plane.h"
 
@@ -24,21 +25,36 @@ constexpr Index least_mirrored =
     1500;  // faces of a mesh without a proxy that is its mirror image but for its faces: it
 constexpr double mirrored_share = 0.6;  // gets a mirrored proxy with this share of its faces
 
-/// Makes cuts dearer where they are seen from more directions, and cheaper where from fewer: in the mean as dear.
-void price_by_visibility(PieceInput& input)
+/// Makes cuts dearer where they are seen from more directions, and cheaper where from fewer: in the mean as dear. Then
+/// makes them dearer where the mesh is fine. @param count (V) vertices of the input at each vertex
+void price_by_sight(PieceInput& input, const VectorXd& count)
 {
     const SurfacePiece& piece = input.piece;
-    const VectorXd own = ambient_visibility(piece.vertices, piece.triangles);
-    VectorXd seen = own;
     const std::vector<Index> image = find_mirror(piece.vertices, piece.triangles, input.polygon).vertex;
-    for (std::size_t v = 0; v < image.size(); ++v)
-        if (image[v] >= 0) seen[v] = 0.5 * (own[v] + own[image[v]]);
+    const auto mirrored = [&](VectorXd own) {
+        const VectorXd before = own;
+        for (std::size_t v = 0; v < image.size(); ++v)
+            if (image[v] >= 0) own[v] = 0.5 * (before[v] + before[image[v]]);
+        return own;
+    };
+    const VectorXd seen = mirrored(ambient_visibility(piece.vertices, piece.triangles));
     VectorXd areas = VectorXd::Zero(seen.size());
     const VectorXd faces = face_areas(piece.vertices, piece.triangles);
     for (Eigen::Index c = 0; c < piece.triangles.size(); ++c) areas[piece.triangles.data()[c]] += faces[c / 3];
     if (input.shown.empty()) input.shown.assign(static_cast<std::size_t>(seen.size()), 1.0);
-    const VectorXd factor = visibility_factors(seen, areas);
+    const VectorXd fineness =
+        mirrored(local_density(piece.vertices, piece.triangles, count, areas, tuning::detail_scale));
+    const VectorXd factor = visibility_factors(seen, areas).cwiseProduct(detail_factors(fineness, areas));
     for (Eigen::Index v = 0; v < factor.size(); ++v) input.shown[v] *= factor[v];
+}
+
+/// (V) How many vertices of the fine surface went to each vertex of the proxy.
+VectorXd vertices_of_proxy(const Proxy& proxy)
+{
+    VectorXd fine = VectorXd::Zero(static_cast<Eigen::Index>(proxy.coarse.vertex.size()));
+    for (const Index v : proxy.coarse.vertex_at)
+        if (v >= 0) fine[v] += 1.0;
+    return fine(proxy.input.piece.source_vertex);
 }
 
 /// Whether a piece is its own mirror image, but not its triangulation.
@@ -83,7 +99,7 @@ void decide_parts(MeshPiece& own, Eigen::Index total, const PartsOptions& option
     const Index faces = static_cast<Index>(own.input.piece.triangles.rows());
     const Index coarse = std::max(least_proxy, static_cast<Index>(proxy_faces * static_cast<double>(faces) / total));
     const bool by_proxy = total > proxy_from && faces > coarse && options.slits.empty();
-    if (!by_proxy && faces <= proxy_from) price_by_visibility(own.input);
+    if (!by_proxy && faces <= proxy_from) price_by_sight(own.input, VectorXd::Ones(own.input.piece.vertices.rows()));
     PieceSurface surface = surface_of(own.input);
 
     // Unfold it. With few cuts nothing else is tried.
@@ -101,7 +117,7 @@ void decide_parts(MeshPiece& own, Eigen::Index total, const PartsOptions& option
 
     // Split it, on the proxy or on itself.
     if (own.proxy) {
-        price_by_visibility(own.proxy->input);
+        price_by_sight(own.proxy->input, vertices_of_proxy(*own.proxy));
         own.is_fine = false;
         PieceSurface judged = surface_of(own.proxy->input);
         judged.whole.purpose = MapPurpose::judging;

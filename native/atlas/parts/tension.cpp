@@ -44,9 +44,27 @@ SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown)
     return seamed(flat.vertices, flat.surface, flat.polygon, shown);
 }
 
+VectorXd weights_of_faces(const FlatPart& flat)
+{
+    if (flat.shown.empty()) return {};
+    VectorXd weights(flat.surface.triangles.rows());
+    for (Index f = 0; f < static_cast<Index>(weights.size()); ++f) {
+        double shown = 0.0;
+        for (const Index v : flat.surface.triangles.row(f)) shown += flat.shown[v] / 3.0;
+        weights[f] = weight_of_face(shown);
+    }
+    return weights;
+}
+
 EvenForces forces_in(const FlatPart& flat, double even)
 {
-    return even_forces(flat.vertices, flat.surface.triangles, flat.points, even, sizes_of(flat));
+    EvenForces forces = even_forces(flat.vertices, flat.surface.triangles, flat.points, even, sizes_of(flat));
+    const VectorXd weights = weights_of_faces(flat);
+    for (Index f = 0; f < static_cast<Index>(weights.size()); ++f) {
+        forces.energy[f] *= weights[f];
+        for (Complex& pull : forces.pull[f]) pull *= weights[f];
+    }
+    return forces;
 }
 
 bool is_true_to_size(const FlatPart& flat)

@@ -16,7 +16,10 @@ SeamedMesh seamed(const Vertices& vertices, const Surface& surface, const std::v
                   const std::vector<double>& shown);
 SeamedMesh seamed(const FlatPart& flat, const std::vector<double>& shown = {});
 
-/// The forces in a part relaxed for this E (even/even_forces.h), with the sizes that its faces should have.
+/// (F) The weights of the energies of a part's faces, by how well they are seen; empty: 1.
+VectorXd weights_of_faces(const FlatPart& flat);
+
+/// The forces in a part relaxed for this E (even/even_forces.h), with the sizes and weights of its faces.
 EvenForces forces_in(const FlatPart& flat, double even);
 
 /// Whether a part is flat in truth (even/even_map.h): it needs no cuts.

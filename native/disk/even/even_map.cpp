@@ -266,6 +266,8 @@ private:
         return WantedShape(reference).map_to(at[1] - at[0], at[2] - at[0]);
     }
 
+    double weight_of(Eigen::Index f) const { return flat_.weights.size() > 0 ? flat_.weights[f] : 1.0; }
+
     double mean_area() const { return shapes_.areas.sum() / static_cast<double>(shapes_.areas.size()); }
 
     FoldoverProblem surface_problem() const
@@ -282,7 +284,7 @@ private:
             const double wanted = std::clamp(shapes_.areas[f], now / longest_approach, now * longest_approach);
             problem.reference[f] *= std::sqrt(wanted / shapes_.areas[f]);
             const FaceMap map = face_map(problem.reference[f], f);
-            problem.weight[f] *= std::min(1.0, hopeless * map.determinant() / map.squared_norm());
+            problem.weight[f] *= weight_of(f) * std::min(1.0, hopeless * map.determinant() / map.squared_norm());
             const double least = 0.5 * area_rounding * extent_ * longest_edge(at);
             problem.floor[f] = std::min(now, wanted) > ample_face * least ? 0.0 : std::min(least, 0.5 * now) / wanted;
         }
@@ -323,13 +325,16 @@ private:
     /// E_t of the surface, per area.
     double energy() const
     {
+        const VectorXd& weights = flat_.weights;
+        const double area = weights.size() > 0 ? weights.dot(shapes_.areas) : shapes_.areas.sum();
         double sum = 0.0;
         for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
             const FaceMap map = face_map(shapes_.references[f], f);
             const double d = map.determinant();
-            sum += shapes_.areas[f] * (std::min(map.squared_norm() / d, hopeless) + weight_ * (d + 1.0 / d));
+            sum += weight_of(f) * shapes_.areas[f] *
+                   (std::min(map.squared_norm() / d, hopeless) + weight_ * (d + 1.0 / d));
         }
-        return sum / shapes_.areas.sum() - 2.0 * (1.0 + weight_);
+        return sum / area - 2.0 * (1.0 + weight_);
     }
 
     FlatSurface flat_;

@@ -51,7 +51,8 @@ struct FlatSurface {
     std::vector<Complex>* periods = nullptr;
     /// Refuses steps that leave the domain, for example if circles would meet; empty: refuses no step.
     std::function<bool(const FoldoverPlaces&)> refuses = {};
-    VectorXd sizes = {};  ///< (F) factor of the area that each face should have; empty: 1 (surface/importance.h)
+    VectorXd sizes = {};    ///< (F) factor of the area that each face should have; empty: 1 (surface/importance.h)
+    VectorXd weights = {};  ///< (F) factor of each face's energy; empty: 1
     std::vector<Index> held = {};  ///< vertices that stay where they are
     PlacePull pull = {};           ///< vertices that are drawn to places; not for tiles
 };
@@ -70,11 +71,11 @@ struct EvenMap {
 };
 
 /// Minimizes E_t = sum A ((s1^2 + s2^2) / (s1 s2) - 2 + t (s1 s2 + 1 / (s1 s2) - 2)) over the faces. s1 and s2 are the
-/// singular values of a face's map, and A is its area, times its factor in `sizes`. The map is from the face in this
-/// size. The first term measures angles (Hormann and Greiner 2000), the
-/// second areas (Degener, Meseth and Klein 2003). No step turns a face over, makes circles of round loops meet, or
-/// makes loops cross. If a step would make loops cross, the void around the map and in its holes is triangulated and
-/// takes part: its faces want to keep their shapes (Jiang, Schaefer and Panozzo 2017).
+/// singular values of a face's map, and A is its area, times its factor in `sizes` and its weight. The map is from the
+/// face in this size. The first term measures angles (Hormann and Greiner 2000), the second areas (Degener, Meseth and
+/// Klein 2003). No step turns a face over, makes circles of round loops meet, or makes loops cross. If a step would
+/// make loops cross, the void around the map and in its holes is triangulated and takes part: its faces want to keep
+/// their shapes (Jiang, Schaefer and Panozzo 2017).
 ///
 /// A map that is_true_to_size stays as it is, and counts as moved.
 /// Faces that are not upright are turned back first (foldover/turn_upright.h). A map that is not one to one even then
