@@ -121,6 +121,7 @@ public:
     /// @return whether anything was cut
     bool relax_with_darts(double even, const EvenEffort& effort)
     {
+        if (!(options_.darts > 0.0)) count_all_faces_alike();
         relax(even, effort);
         if (!(options_.darts > 0.0)) return false;
         const bool joined = cut_through(even, {});
@@ -130,7 +131,8 @@ public:
         const bool is_split = cut_through(even, options_.piece * cut_price());
         const bool is_stitched = stitch(even);
         const bool is_roomy = cut_for_room();
-        if (is_roomy || is_split || is_stitched) relax_cut(even, effort);
+        const bool is_weighted = count_all_faces_alike();
+        if (is_roomy || is_split || is_stitched || is_weighted) relax_cut(even, effort);
         return is_cut || is_split || is_stitched || is_roomy;
     }
 
@@ -151,6 +153,7 @@ public:
             parts_ = before;
         }
         // Without darts, at rising E.
+        count_all_faces_alike();
         double even = 0.0;
         for (double next = first_even; next >= least_even && next <= 1.0;) {
             const std::vector<HeldPart> last = parts_;
@@ -200,6 +203,18 @@ private:
     EvenEffort search() const
     {
         return {.most_steps = search_steps, .most_rounds = options_.rounds, .most_far = far_rounds};
+    }
+
+    /// Once cuts are decided, hidden faces count as all others. @return whether some did not
+    bool count_all_faces_alike()
+    {
+        bool any = false;
+        for (HeldPart& part : parts_) {
+            const VectorXd weights = weights_of_faces(part.flat);
+            any = any || (!options_.judging && weights.size() > 0 && weights.minCoeff() < 1.0);
+            if (!options_.judging) part.flat.shown.clear();
+        }
+        return any;
     }
 
     double cut_price() const { return options_.dearer * dart_price(options_.darts); }

@@ -242,8 +242,14 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     for (int attempt = 0; may_divide && attempt < most_divisions; ++attempt) {
         const DividedFaces divided = divided_faces(vertices, triangles, options.polygon, kept);
         if (divided.face.empty()) break;
-        if (std::optional<FlatMesh> mesh = flat_mesh_of(divided, vertices, triangles, options, kept, context))
-            return std::move(*mesh);
+        try {
+            if (std::optional<FlatMesh> mesh = flat_mesh_of(divided, vertices, triangles, options, kept, context))
+                return std::move(*mesh);
+        } catch (const InputError&) {
+            break;  // an error names faces of the input
+        } catch (const TopologyError&) {
+            break;
+        }
     }
     return *flat_mesh_of({triangles, options.polygon, {}, {}}, vertices, triangles, options, kept, context);
 }

@@ -42,9 +42,12 @@ void price_by_sight(PieceInput& input, const VectorXd& count)
     const VectorXd faces = face_areas(piece.vertices, piece.triangles);
     for (Eigen::Index c = 0; c < piece.triangles.size(); ++c) areas[piece.triangles.data()[c]] += faces[c / 3];
     if (input.shown.empty()) input.shown.assign(static_cast<std::size_t>(seen.size()), 1.0);
-    const VectorXd fineness =
-        mirrored(local_density(piece.vertices, piece.triangles, count, areas, tuning::detail_scale));
-    const VectorXd factor = visibility_factors(seen, areas).cwiseProduct(detail_factors(fineness, areas));
+    VectorXd factor = visibility_factors(seen, areas);
+    // Where vertices are farther apart than the scale, their density says nothing.
+    if (std::sqrt(areas.sum() / (3.0 * count.sum())) < tuning::detail_scale) {
+        const VectorXd density = local_density(piece.vertices, piece.triangles, count, areas, tuning::detail_scale);
+        factor.array() *= detail_factors(mirrored(density), areas).array();
+    }
     for (Eigen::Index v = 0; v < factor.size(); ++v) input.shown[v] *= factor[v];
 }
 
