@@ -297,7 +297,6 @@ RUNS = {
     "pack in Edit Mode": (mapped_in_edit_mode, "uv.koebe_pack", {"layer": "Koebe", "average_scale": True}),
     "arrange": (mapped, "uv.koebe_arrange", {"mode": "SIZE"}),
     "arrange in Edit Mode": (mapped_in_edit_mode, "uv.koebe_arrange", {"mode": "LEFT", "in_square": True}),
-    "bake": (textured, "uv.koebe_bake_texture", {"layer": "Koebe", "margin": 2}),
     "trim sheet": (mapped, "uv.koebe_trims", {"action": "GRID"}),
     "sew": (sewable, "uv.koebe_sew", {}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
@@ -313,6 +312,8 @@ RUNS = {
     "select what a warning speaks of": (flipped, "uv.koebe_select_warning", {}),
     "select what is flipped": (flipped, "uv.koebe_select_flipped", {}),
 }
+if bpy.app.version < (5, 0, 0):
+    RUNS["bake"] = (textured, "uv.koebe_bake_texture", {"layer": "Koebe", "margin": 2})
 
 
 def operator(name):

@@ -211,8 +211,8 @@ private:
         bool any = false;
         for (HeldPart& part : parts_) {
             const VectorXd weights = weights_of_faces(part.flat);
-            any = any || (!options_.judging && weights.size() > 0 && weights.minCoeff() < 1.0);
-            if (!options_.judging) part.flat.shown.clear();
+            any = any || (weights.size() > 0 && weights.minCoeff() < 1.0);
+            part.flat.shown.clear();
         }
         return any;
     }

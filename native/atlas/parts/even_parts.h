@@ -20,10 +20,9 @@ struct EvenOptions {
     double piece = 1.0;                ///< price of one more part, as the length of a cut
     bool roomy = true;                 ///< parts are also cut so that they can be packed more densely
     int threads = 0;
-    int rounds = 20;       ///< as EvenEffort::most_rounds, in the search for E and cuts
-    double dearer = 1.0;   ///< factor of the price of cuts, except those made for packing
-    bool judging = false;  ///< the parts are no result: at the end, too, faces that few directions see count less
-    bool stitch = false;   ///< parts are joined again along stretches of borders (stitches.h)
+    int rounds = 20;      ///< as EvenEffort::most_rounds, in the search for E and cuts
+    double dearer = 1.0;  ///< factor of the price of cuts, except those made for packing
+    bool stitch = false;  ///< parts are joined again along stretches of borders (stitches.h)
 };
 
 struct EvenParts {

@@ -120,7 +120,6 @@ private:
         EvenOptions on_proxy = evening;
         on_proxy.dearer = tuning::proxy_factor;
         on_proxy.rounds = rounds_on_proxy;
-        on_proxy.judging = true;
         double even = make_together_even(on_proxy);
 
         // Make the same parts of the fine surface. Where angles are worse than at 0, go back.
