@@ -117,18 +117,19 @@ std::optional<FlatPart> joined(FlatPart part, const Triangles& apart,
 
 /// Two parts as one, joined along pairs of half-edges, one of each.
 std::optional<FlatPart> joined(const FlatPart& first, const FlatPart& second,
-                               std::vector<std::pair<Index, Index>> halfedges)
+                               const std::vector<std::pair<Index, Index>>& halfedges)
 {
     RigidFit fit;
-    for (auto& [h, g] : halfedges) {
+    std::vector<std::pair<Index, Index>> beside_each_other;
+    for (const auto& [h, g] : halfedges) {
         const Triangles &own = first.surface.triangles, &other = second.surface.triangles;
         fit.add(complex_at(first.points, origin(own, h)), complex_at(second.points, target(other, g)));
         fit.add(complex_at(first.points, target(own, h)), complex_at(second.points, origin(other, g)));
-        g += static_cast<Index>(own.size());
+        beside_each_other.emplace_back(h, g + static_cast<Index>(own.size()));
     }
     Triangles triangles(first.surface.triangles.rows() + second.surface.triangles.rows(), 3);
     triangles << first.surface.triangles, second.surface.triangles.array() + first.surface.vertex_count;
-    return joined(beside(first, second, fit), triangles, halfedges);
+    return joined(beside(first, second, fit), triangles, beside_each_other);
 }
 
 /// Joins the sides of a stretch: of two parts, or of a slit of one part.

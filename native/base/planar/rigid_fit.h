@@ -49,10 +49,7 @@ struct RigidFit {
         return first / weight + scale * turn() * (b - second / weight);
     }
     /// The mean square distance of the first places from the second ones, where they are.
-    double distance() const
-    {
-        return std::max(0.0, first_squares + second_squares - 2.0 * product.real()) / weight;
-    }
+    double distance() const { return std::max(0.0, first_squares + second_squares - 2.0 * product.real()) / weight; }
     /// The mean square distance of the first places from the moved second ones.
     double misfit() const
     {
