@@ -38,6 +38,7 @@ public:
           price_(price),
           even_(even),
           forces_(forces_in(flat, even)),
+          energy_(forces_.energy.sum()),
           tension_(flat, forces_),
           outside_(boundary_mask(flat.surface)),
           mesh_(seamed(flat, flat.shown)),
@@ -136,8 +137,9 @@ private:
             strain_[region_[f]] += forces_.energy[static_cast<Eigen::Index>(f)];
             area[region_[f]] += areas[static_cast<Eigen::Index>(f)];
         }
+        const double most = tolerance::majority * areas.sum();
         for (std::size_t k = 0; k < strain_.size(); ++k)
-            if (area[k] > tolerance::majority * areas.sum()) strain_[k] = 0.0;
+            if (area[k] > most) strain_[k] = 0.0;
     }
 
     /// The more strained of the regions on both sides of an edge.
@@ -164,7 +166,7 @@ private:
                               to.moment - tree_.distance[b] * at_b.imag() - 0.5 * length * force.imag();
         const double released =
             std::max(tuning::released_share * beam_energy(force, moment, length, even_), strain_[region_at(h)]);
-        return std::min(released, forces_.energy.sum()) - price_.of(length, splits(from.end, to.end));
+        return std::min(released, energy_) - price_.of(length, splits(from.end, to.end));
     }
 
     /// Whether a cut between two vertices of the boundary makes one more piece: between two loops it does not.
@@ -235,6 +237,7 @@ private:
     ThroughPrice price_;
     double even_;
     EvenForces forces_;
+    double energy_;  // of all faces
     Tension tension_;
     std::vector<char> outside_;  // (V) 1 on the boundary
     SeamedMesh mesh_;

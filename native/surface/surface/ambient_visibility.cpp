@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -13,7 +14,8 @@
 namespace koebe {
 namespace {
 
-constexpr int directions = 32;
+constexpr double most_directions = 32.0, fewest_directions = 8.0;
+constexpr double most_rays = 1e5;  // in all: of the vertices of a large mesh, which has no coarser one, fewer directions
 constexpr double golden_angle = 2.399963229728653;  // the turn from one direction to the next: they spread evenly
 constexpr double off_surface = 1e-3;                // start of a ray, over the extent
 constexpr int most_looks = 500;                     // at boxes and faces, for a ray: needles that cross have no tree
@@ -75,6 +77,8 @@ VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles
     const Vertices normals = outward_normals(vertices, triangles);
     const std::vector<Index> neighbour = first_neighbours(vertices, triangles);
     const double extent = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
+    const int directions = static_cast<int>(
+        std::clamp(most_rays / static_cast<double>(vertices.rows()), fewest_directions, most_directions));
     VectorXd seen = VectorXd::Ones(vertices.rows());
     for (Index v = 0; v < static_cast<Index>(vertices.rows()); ++v) {
         if (!(normals.row(v).norm() > 0.0)) continue;
