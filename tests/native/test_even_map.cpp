@@ -114,7 +114,8 @@ TEST(EvenMap, faces_get_the_sizes_that_are_asked_for)
     ExecutionContext context;
     FlatSurface flat = band.view(points, round);
     flat.sizes = VectorXd::Ones(band.surface.triangles.rows());
-    flat.sizes.head(flat.sizes.size() / 2).array() = 4.0;  // the first half of the columns
+    for (Eigen::Index f = 0; f < flat.sizes.size(); ++f)
+        if (f / 2 % 80 < 40) flat.sizes[f] = 4.0;  // the first half of the columns
     EXPECT_TRUE(make_even(flat, 1.0, 100.0, context).moved);
     const auto stretch = [&](Index a, Index b) {
         return (points.row(a) - points.row(b)).norm() / (band.flat.row(a) - band.flat.row(b)).norm();

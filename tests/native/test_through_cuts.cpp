@@ -22,8 +22,9 @@ constexpr double even = 0.1;
 FlatPart ring_part(int around, int rows, double (*radius)(double))
 {
     const auto at = [&](int i, int j) { return static_cast<Index>(j * around + i % around); };
-    // Seen from outside: columns run to the left.
-    FlatPart part = test::part_of(test::grid(around, rows, [&](int i, int j) { return at(around - i, j); }));
+    Triangles triangles = test::grid(around, rows, at);
+    triangles.col(1).swap(triangles.col(2));  // seen from inside
+    FlatPart part = test::part_of(triangles);
     part.vertices.resize(around * (rows + 1), 3);
     part.points.resize(part.vertices.rows(), 2);
     for (int j = 0; j <= rows; ++j)
