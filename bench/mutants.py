@@ -60,7 +60,7 @@ MUTANTS = [
     ("native/making/lift/solid.cpp", "{b, a, count + source[a]}", "{a, b, count + source[a]}"),
     ("native/making/lift/meeting_faces.cpp", "way.dot(p - from) > rounding", "way.dot(p - from) > -rounding"),
     ("native/making/lift/sphere_sheets.cpp", "sizes[part[f]] > sizes[largest]", "sizes[part[f]] < sizes[largest]"),
-    ("native/atlas/parts/twins.cpp", "(is > 0.0) == mirrored ? -1.0 : 1.0", "1.0"),
+    ("native/atlas/parts/twins.cpp", "twins[k]->mirrored ? -std::conj(other.up) : other.up", "other.up"),
     ("native/atlas/parts/tile_packing.cpp", "tiles_[fullest()].packing.scale", "tiles_[0].packing.scale"),
     ("native/atlas/parts/through_cuts.cpp", "price_.of(length, splits(from.end, to.end))", "price_.of(length, false)"),
     ("native/labs/certified/capacity_bounds.cpp", "shared = loop >= 0 && !fixed_[i]", "shared = false"),
@@ -73,7 +73,7 @@ MUTANTS = [
     ("native/base/execution/memory_limit.cpp", "if (bytes <= available) return;", "if (bytes >= 0.0) return;"),
     ("native/python/koebe/_options.py", "name not in defaults and name not in positional", "False"),
     ("native/python/koebe/maps/domain_map.py", 'options.polygon = polygons_of(given["polygon"], source)', "pass"),
-    ("native/options/options.json", '{"above": 0}, "default": 0.0037', '{"min": 0}, "default": 0.0037'),
+    ("native/options/options.json", '{"above": 0}, "default": 0.03', '{"min": 0}, "default": 0.03'),
 ]
 
 ENVIRONMENT = os.environ | {

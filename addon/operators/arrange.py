@@ -16,9 +16,9 @@ from ..maps.arrange import FITS, MODES, box
 from ..state.option_properties import option, shown_number
 from ..state.trims import KoebeTrims, active_trim, rectangles, trims_of
 from .answers import refused
-from .layer_run import EACH_LAYER, NO_MESH, LayerEdit
+from .layer_run import EACH_LAYER, LayerEdit
 from .modal_run import redraw
-from .polls import has_targets, native_or_error
+from .polls import OnTargets, native_or_error
 from .tooltip import tooltip
 
 NO_TRIMS = "the trim sheet has no rectangle: press Make Grid, or + beside the list"
@@ -34,7 +34,7 @@ def _items(table: dict[str, tuple[str, str]]) -> list[tuple[str, str, str]]:
     return [(word, label, does[0].upper() + does[1:]) for word, (label, does) in table.items()]
 
 
-class UV_OT_koebe_arrange(LayerEdit, bpy.types.Operator):
+class UV_OT_koebe_arrange(OnTargets, LayerEdit, bpy.types.Operator):
     """Move the islands of the active UV layer: to one line, into sorted rows, into the rectangles of the trim sheet, or
     onto their mirror images. In Edit Mode the islands of the selected faces. Islands with pinned UVs stay"""
 
@@ -68,10 +68,6 @@ class UV_OT_koebe_arrange(LayerEdit, bpy.types.Operator):
         """Each mode has its own tooltip."""
         does = MODES[properties.mode][1]
         return f"{does[0].upper()}{does[1:]}. In Edit Mode the islands of the selected faces. Pinned islands stay"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, NO_MESH)
 
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.use_property_split = True

@@ -13,7 +13,7 @@ from ..blender.targets import attempt, check_mesh, target_objects, with_own_mesh
 from ..blender.transaction import Transaction, transaction
 from ..maps import distortion
 from .answers import finished, refused
-from .polls import has_targets
+from .polls import OnTargets
 
 KINDS = [
     ("none", "Off", "Take the colours off and show the materials again"),
@@ -23,12 +23,12 @@ KINDS = [
 SHADING_KEY = "koebe_shading"  # on the screen: the former surface colours of its 3D Views
 
 
-class UV_OT_koebe_distortion(bpy.types.Operator):
+class UV_OT_koebe_distortion(OnTargets, bpy.types.Operator):
     """Colour the faces of the selected objects by the distortion of their UVs, or take the colours off again"""
 
     bl_idname = "uv.koebe_distortion"
     bl_label = "Koebe Distortion"
-    bl_options = {"REGISTER", "UNDO"}
+    needs = "Select a mesh object, in Object Mode or in Edit Mode"
 
     kind: bpy.props.EnumProperty(
         name="Distortion", items=KINDS, default=distortion.ANGLE, description="Quantity that the colours show"
@@ -39,10 +39,6 @@ class UV_OT_koebe_distortion(bpy.types.Operator):
     def description(cls, context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
         """Each button has its own tooltip."""
         return next(text for kind, _, text in KINDS if kind == properties.kind)
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mesh object, in Object Mode or in Edit Mode")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         with transaction() as run:

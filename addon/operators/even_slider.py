@@ -16,7 +16,7 @@ from ..solver.worker import Worker
 from ..state.option_properties import UNWRAP_OPTION_NAMES, settings_of
 from .answers import refused
 from .modal_run import redraw
-from .polls import has_targets
+from .polls import OnTargets
 from .tooltip import tooltip
 
 POLL_SECONDS = 0.01
@@ -25,7 +25,7 @@ LEAVE = {"ESC", "RIGHTMOUSE"}
 NOT_PARTS = {"DISK", "RING", "TORUS"}  # shapes whose boundaries stay round
 
 
-class UV_OT_koebe_even(bpy.types.Operator):
+class UV_OT_koebe_even(OnTargets, bpy.types.Operator):
     """Drag left or right: the UVs of the active object become more or less even at once. Click or Enter unwraps with
     this Even. Esc or right click puts the UVs back. Shift drags slowly"""
 
@@ -33,6 +33,7 @@ class UV_OT_koebe_even(bpy.types.Operator):
     bl_label = "Koebe Drag Even"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "BLOCKING", "GRAB_CURSOR"}
+    needs, modes = "Select a mapped mesh object, in Object Mode", ("OBJECT",)
     dragged: ClassVar[str] = ""  # the object whose UVs are dragged now: the circles of its report lie elsewhere
 
     @classmethod
@@ -40,7 +41,7 @@ class UV_OT_koebe_even(bpy.types.Operator):
         if settings_of(context).shape == "SPHERE":  # its UVs are no map that the slider could move
             cls.poll_message_set("Set Even and press Unwrap: the UVs of a sphere cannot be dragged")
             return False
-        return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
+        return super().poll(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         self.report({"ERROR"}, "Koebe UV: only a mouse can drag this slider. In a script, set the "

@@ -11,18 +11,18 @@ from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
 from ..maps.wording import counted, few
 from .answers import refused
-from .polls import has_targets, native_or_error
+from .polls import OnTargets, native_or_error
 from .tooltip import tooltip
 
 
-class MESH_OT_koebe_fill_holes(bpy.types.Operator):
+class MESH_OT_koebe_fill_holes(OnTargets, bpy.types.Operator):
     """Fill holes with real faces that continue the surface. The new faces are selected. Their UVs lie inside the circle
     of the hole. This changes the mesh"""
 
     bl_idname = "mesh.koebe_fill_holes"
     bl_label = "Koebe Fill Holes"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
+    needs = "Select a mesh object"
 
     which: bpy.props.EnumProperty(
         name="Boundaries",
@@ -34,10 +34,6 @@ class MESH_OT_koebe_fill_holes(bpy.types.Operator):
         default=hole_filling.HOLES,
         description="Boundary loops to fill",
     )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mesh object")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         koebe = native_or_error(self)

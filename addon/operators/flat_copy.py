@@ -20,7 +20,7 @@ from ..maps.flat_svg import flat_svg
 from ..maps.wording import counted
 from .answers import finished, refused
 from .modal_run import ModalRun
-from .polls import has_targets
+from .polls import OnTargets
 from .tooltip import tooltip
 
 GAP = 0.05  # of a layout's width, between two objects
@@ -42,10 +42,11 @@ def pieces_option() -> Any:
     return EnumProperty(name="Pieces", items=PIECES, default="UVS", description="What is laid flat")
 
 
-class FlatOperator(ModalRun):
+class FlatOperator(OnTargets, ModalRun):
     """The common part of both operators. UV layouts are read at once. Pieces true to size are computed, and Esc ends
     that."""
 
+    needs, modes = "Select a mapped mesh object, in Object Mode", ("OBJECT",)
     pieces: str
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -55,10 +56,6 @@ class FlatOperator(ModalRun):
 
     def _as_they_are(self, context: bpy.types.Context) -> set[str]:
         raise NotImplementedError
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mapped mesh object, in Object Mode", ("OBJECT",))
 
     def _read(self, context: bpy.types.Context, layer: str) -> tuple[list[Flat], list[str]]:
         context.evaluated_depsgraph_get()  # updates the objects' world matrices

@@ -16,18 +16,18 @@ from ..jobs.moebius_job import MoebiusJob
 from ..maps.hole_rings import ring_edges
 from ..maps.offending_elements import EDGES
 from .answers import refused
-from .polls import has_targets, native_or_error
+from .polls import OnTargets, native_or_error
 from .tooltip import tooltip
 
 
-class MESH_OT_koebe_loops_around_holes(bpy.types.Operator):
+class MESH_OT_koebe_loops_around_holes(OnTargets, bpy.types.Operator):
     """Select, in Edit Mode, loops of edges around the holes of the active object: eyes, mouth, armholes. The loops lie
     along circles around each hole. The UVs must have circles as holes"""
 
     bl_idname = "mesh.koebe_loops_around_holes"
     bl_label = "Koebe Edge Loops Around Holes"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
+    needs = "Select a mapped mesh object"
 
     hole: IntProperty(name="Hole", min=0, description="Number of the hole, as in the report. 0: all holes")
     rings: IntProperty(name="Edge Loops", default=3, min=1, soft_max=20, description="Number of loops around each hole")
@@ -36,10 +36,6 @@ class MESH_OT_koebe_loops_around_holes(bpy.types.Operator):
         description="Each circle is so many times as large as the last, beginning with the hole",
     )  # fmt: skip
     layer: StringProperty(name="UV Layer", description="UV layer with the circles. Without a name, the active layer")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mapped mesh object")
 
     def draw(self, context: bpy.types.Context) -> None:
         layout: Any = self.layout

@@ -17,7 +17,6 @@ from ..state.run_report import forget
 from .answers import finished, refused
 from .modal_run import ModalRun, OperatorBase, redraw
 
-NO_MESH = "Select a mesh object with UVs, in Object Mode or in Edit Mode"
 EACH_LAYER = StringProperty(name="UV Layer", description="UV layer. Without a name, the active layer")
 
 

@@ -20,24 +20,20 @@ from ..state.lift_properties import SHOWN, LiftProperties, draw_lift_options, li
 from ..state.option_properties import settings_of
 from .answers import finished, refused
 from .modal_run import ModalRun, redraw
-from .polls import has_targets
+from .polls import OnTargets
 from .tooltip import tooltip
 
 
-class OBJECT_OT_koebe_lift(LiftProperties, ModalRun, bpy.types.Operator):
+class OBJECT_OT_koebe_lift(OnTargets, LiftProperties, ModalRun, bpy.types.Operator):
     """Copy the selected surfaces with a flat pattern on them: holes, a relief, a closed solid. Circles stay circles, as
     the map keeps angles. The copy is a new object, and the original is hidden"""
 
     bl_idname = "object.koebe_lift"
     bl_label = "Koebe Patterned Copy"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
+    needs, modes = "Select a mesh object, in Object Mode", ("OBJECT",)
 
     area: bpy.props.FloatProperty(default=0.0, options={"HIDDEN", "SKIP_SAVE"})
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mesh object, in Object Mode", ("OBJECT",))
 
     def draw(self, context: bpy.types.Context) -> None:
         layout: Any = self.layout

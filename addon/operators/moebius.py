@@ -25,7 +25,7 @@ from ..state import moved_circles
 from ..state.run_report import report_of
 from .answers import refused
 from .modal_run import redraw
-from .polls import has_targets
+from .polls import OnTargets
 from .tooltip import tooltip
 
 NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to hold a hole, longest click, to snap to the middle
@@ -36,7 +36,7 @@ HINTS = {
 }
 
 
-class UV_OT_koebe_moebius(bpy.types.Operator):
+class UV_OT_koebe_moebius(OnTargets, bpy.types.Operator):
     """Move the circles of a map. Drag the disk or a hole, click a hole to make it the rim, or drag outside the disk to
     turn it. Angles are kept and circles stay circles"""
 
@@ -46,7 +46,7 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
     bl_idname = "uv.koebe_moebius"
     bl_label = "Koebe Move Circles"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
+    needs = "Select a mapped mesh object, in Object Mode or in Edit Mode"
 
     object_name: StringProperty(
         name="Object",
@@ -84,10 +84,6 @@ class UV_OT_koebe_moebius(bpy.types.Operator):
         unit="ROTATION",
         description="Angle by which the disk turns at the end, counter-clockwise",
     )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mapped mesh object, in Object Mode or in Edit Mode")
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout

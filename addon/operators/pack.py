@@ -8,18 +8,17 @@ from ..jobs import native_package
 from ..jobs.pack_job import PackJob
 from ..state.option_properties import option, shown_number
 from .layer_run import LayerRun
-from .polls import has_targets
+from .polls import OnTargets
 from .tooltip import tooltip
 
 
-class UV_OT_koebe_pack(LayerRun, bpy.types.Operator):
+class UV_OT_koebe_pack(OnTargets, LayerRun, bpy.types.Operator):
     """Pack the islands of the active UV layer into the UV square, as large as they have room. No island is cut, bent or
     turned over. In Edit Mode the islands of the selected faces are packed. Esc takes the best packing so far"""
 
     bl_idname = "uv.koebe_pack"
     bl_label = "Koebe Pack Only"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
     done = "packed"
 
     layer: StringProperty(name="UV Layer", description="UV layer to pack. Without a name, the active layer")
@@ -29,10 +28,6 @@ class UV_OT_koebe_pack(LayerRun, bpy.types.Operator):
     tiles: option("tiles")
     seconds: option("seconds")
     keep_places: option("keep_places")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mesh object with UVs, in Object Mode or in Edit Mode")
 
     def _job(self, context: bpy.types.Context) -> PackJob:
         options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale,

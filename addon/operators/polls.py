@@ -3,24 +3,32 @@
 
 from collections.abc import Container
 from types import ModuleType
+from typing import ClassVar
 
 import bpy
 
 from ..blender.targets import target_objects
 from ..jobs import native_package
 from ..solver.errors import NativeError
+from .modal_run import OperatorBase
 
-BOTH = ("OBJECT", "EDIT_MESH")
 
+class OnTargets(OperatorBase):
+    """Mixin of operators that work on the selected mesh objects.
 
-def has_targets(
-    cls: type[bpy.types.Operator], context: bpy.types.Context, hint: str, modes: Container[str] = BOTH
-) -> bool:
-    """Whether there is an object to work on, in one of the modes. If not, tells the user what to do."""
-    if context.mode in modes and target_objects(context):
-        return True
-    cls.poll_message_set(hint)
-    return False
+    needs  what the user is told to do if there is no such object, or it is in another mode
+    """
+
+    bl_options = {"REGISTER", "UNDO"}
+    needs: ClassVar[str] = "Select a mesh object with UVs, in Object Mode or in Edit Mode"
+    modes: ClassVar[Container[str]] = ("OBJECT", "EDIT_MESH")
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        if context.mode in cls.modes and target_objects(context):
+            return True
+        cls.poll_message_set(cls.needs)
+        return False
 
 
 def in_object_mode(

@@ -9,23 +9,18 @@ from ..blender.targets import attempt, check_mesh, target_objects, with_own_mesh
 from ..blender.transaction import transaction
 from .answers import finished, refused
 from .modal_run import redraw
-from .polls import has_targets
+from .polls import OnTargets
 from .tooltip import tooltip
 
 
-class UV_OT_koebe_use_for_rendering(bpy.types.Operator):
+class UV_OT_koebe_use_for_rendering(OnTargets, bpy.types.Operator):
     """Make the UV layer the one that Material Preview, renders and bakes use. The other layers stay as they are"""
 
     bl_idname = "uv.koebe_use_for_rendering"
     bl_label = "Koebe Use for Rendering"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
 
     layer: StringProperty(name="UV Layer", description="UV layer that shall render. Without a name, the active layer")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mesh object with UVs, in Object Mode or in Edit Mode")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         problems: list[str] = []

@@ -8,27 +8,23 @@ from ..jobs import native_package
 from ..jobs.sew_job import SewJob
 from ..state.option_properties import option, shown_number
 from .layer_run import LayerRun
-from .polls import has_targets
+from .polls import OnTargets
 from .tooltip import tooltip
 
 
-class UV_OT_koebe_sew(LayerRun, bpy.types.Operator):
+class UV_OT_koebe_sew(OnTargets, LayerRun, bpy.types.Operator):
     """Join the UV islands on both sides of the selected edges, or close a cut inside an island. The new island is
     mapped anew, one to one, and lies where the larger island lay. Pins stay"""
 
     bl_idname = "uv.koebe_sew"
     bl_label = "Koebe Sew"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
     done = "sewn"
+    needs, modes = "In Edit Mode select the edges to sew", ("EDIT_MESH",)
 
     layer: StringProperty(name="UV Layer", description="UV layer to sew. Without a name, the active layer")
     keep_angles: option("keep_angles")
     even: option("even")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "In Edit Mode select the edges to sew", ("EDIT_MESH",))
 
     def _job(self, context: bpy.types.Context) -> SewJob:
         in_uv = getattr(context.area, "type", "") == "IMAGE_EDITOR"

@@ -17,26 +17,22 @@ from ..state.run_report import report_of
 from .answers import finished, refused
 from .modal_run import redraw
 from .moebius import numbered
-from .polls import has_targets, native_or_error
+from .polls import OnTargets, native_or_error
 from .tooltip import tooltip
 
 Done = tuple[MoebiusJob, Symmetry]
 
 
-class UV_OT_koebe_symmetrize(bpy.types.Operator):
+class UV_OT_koebe_symmetrize(OnTargets, bpy.types.Operator):
     """Make the UVs of a mirror-symmetric surface exactly symmetric, about a vertical line. The plane of symmetry is
     found, and circles stay circles. Other surfaces stay as they are"""
 
     bl_idname = "uv.koebe_symmetrize"
     bl_label = "Koebe Symmetrize"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
+    needs = "Select a mapped mesh object, in Object Mode or in Edit Mode"
 
     layer: StringProperty(name="UV Layer", description="UV layer to write. Without a name, the active layer")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Select a mapped mesh object, in Object Mode or in Edit Mode")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.evaluated_depsgraph_get()  # brings the objects' world matrices up to date

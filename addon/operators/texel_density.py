@@ -15,29 +15,24 @@ from ..maps.uv_density import island_density
 from ..state.density_report import density_of, density_words
 from ..state.option_properties import option, settings_of, shown_number
 from .answers import refused
-from .layer_run import EACH_LAYER, NO_MESH, LayerEdit
+from .layer_run import EACH_LAYER, LayerEdit
 from .modal_run import redraw
-from .polls import has_targets, in_object_mode
+from .polls import OnTargets, in_object_mode
 from .tooltip import tooltip
 
 
-class UV_OT_koebe_measure_density(bpy.types.Operator):
+class UV_OT_koebe_measure_density(OnTargets, bpy.types.Operator):
     """Measure the texel density of the active object: of all its faces, of the selected faces in Edit Mode, and of the
     islands with the fewest and the most texels"""
 
     bl_idname = "uv.koebe_measure_density"
     bl_label = "Koebe Measure Texel Density"
     bl_description = tooltip(__doc__)
-    bl_options = {"REGISTER", "UNDO"}
 
     layer: EACH_LAYER
     take: BoolProperty(
         name="Take It", description="Set Pixels per Unit to the density of the selected faces, else of the whole object"
     )
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, NO_MESH)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         context.evaluated_depsgraph_get()  # updates the objects' world matrices
@@ -78,7 +73,7 @@ class SetsDensity(LayerEdit):
         )
 
 
-class UV_OT_koebe_set_density(SetsDensity, bpy.types.Operator):
+class UV_OT_koebe_set_density(OnTargets, SetsDensity, bpy.types.Operator):
     """Scale each island to Pixels per Unit on a texture of Texture Size, each about its own middle. In Edit Mode only
     the islands of the selected faces. Islands with pinned UVs stay"""
 
@@ -89,10 +84,6 @@ class UV_OT_koebe_set_density(SetsDensity, bpy.types.Operator):
     layer: EACH_LAYER
     density: option("density")
     pixels: option("pixels")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, NO_MESH)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         return self._set(context, target_objects(context), shown_number(self.density) / self.pixels)

@@ -36,6 +36,14 @@ def edited(seams=(6,)):
     return obj
 
 
+def live_sheet(live, seams=(6,)):
+    """Such a sheet, with Live switched on."""
+    obj = edited(seams)
+    bpy.context.window_manager.koebe_live = True
+    follow(live)
+    return obj
+
+
 def mark(obj, column, value):
     """Mark or clear the seams of a column of vertices."""
     mesh = bmesh.from_edit_mesh(obj.data)
@@ -60,9 +68,7 @@ def cuts(uv):
 
 
 def test_a_marked_and_a_cleared_seam_are_followed(live):
-    obj = edited()
-    bpy.context.window_manager.koebe_live = True
-    follow(live)
+    obj = live_sheet(live)
     before = uv_of(obj)
     mark(obj, 3, True)
     follow(live)
@@ -81,9 +87,7 @@ def test_a_marked_and_a_cleared_seam_are_followed(live):
 
 
 def test_a_moved_pin_is_followed(live):
-    obj = edited()
-    bpy.context.window_manager.koebe_live = True
-    follow(live)
+    obj = live_sheet(live)
     before = uv_of(obj)
     mesh = bmesh.from_edit_mesh(obj.data)
     layer = mesh.loops.layers.uv["Koebe"]
@@ -101,9 +105,7 @@ def test_a_moved_pin_is_followed(live):
 
 
 def test_a_moved_vertex_is_followed_and_other_islands_stay(live):
-    obj = edited()
-    bpy.context.window_manager.koebe_live = True
-    follow(live)
+    obj = live_sheet(live)
     before = uv_of(obj)
     mesh = bmesh.from_edit_mesh(obj.data)
     mesh.verts.ensure_lookup_table()
@@ -121,9 +123,7 @@ def warm_and_cold(addon, live, monkeypatch, change):
     settings = bpy.context.scene.koebe_uv
     settings.keep_angles, settings.even = False, 0.5  # else a new map looks for an E of its own
     for is_warm in (True, False):
-        obj = edited()
-        bpy.context.window_manager.koebe_live = True
-        follow(live)
+        obj = live_sheet(live)
         change(obj)
         job = addon("jobs.live_job")
         with monkeypatch.context() as patch:
@@ -159,9 +159,7 @@ def test_what_follows_is_the_map_that_a_new_one_would_be(addon, live, monkeypatc
 def test_random_seams_and_pins_leave_islands_one_to_one(live):
     """Each island is one to one after each change, pins are where they were set, and other islands stay."""
     random = np.random.default_rng(3)
-    obj = edited((4, 8))
-    bpy.context.window_manager.koebe_live = True
-    follow(live)
+    obj = live_sheet(live, (4, 8))
     followed = 0
     for _ in range(25):
         mesh = bmesh.from_edit_mesh(obj.data)
@@ -202,9 +200,7 @@ def test_random_seams_and_pins_leave_islands_one_to_one(live):
 
 
 def test_what_cannot_be_mapped_is_told_and_stays(live):
-    obj = edited()
-    bpy.context.window_manager.koebe_live = True
-    follow(live)
+    obj = live_sheet(live)
     mesh = bmesh.from_edit_mesh(obj.data)
     layer = mesh.loops.layers.uv["Koebe"]
     mesh.faces.ensure_lookup_table()

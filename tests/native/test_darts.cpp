@@ -1,6 +1,6 @@
 #include "even/even_forces.h"
 #include "even/even_map.h"
-#include "mesh/topology.h"
+#include "grids.h"
 #include "parts/carried_parts.h"
 #include "parts/dart_rounds.h"
 #include "parts/darts.h"
@@ -24,12 +24,14 @@ constexpr double area_of_cone = 0.25;
 FlatPart cone(double angle)
 {
     const double side = std::sqrt(2.0 * area_of_cone / angle);
-    FlatPart part;
-    const Index count = 1 + rings * around;
-    part.vertices = Vertices::Zero(count, 3);
-    part.points = PlanarPoints::Zero(count, 2);
+    const auto at = [](Index ring, Index k) { return 1 + (ring - 1) * around + k % around; };
     Triangles triangles(around * (2 * rings - 1), 3);
-    const auto at = [](Index ring, Index k) { return ring == 0 ? 0 : 1 + (ring - 1) * around + (k + around) % around; };
+    for (Index k = 0; k < around; ++k) triangles.row(k) << 0, at(1, k), at(1, k + 1);
+    triangles.bottomRows(2 * around * (rings - 1)) =
+        test::grid(rings - 1, around, [&](int i, int j) { return at(i + 1, j); });
+    FlatPart part = test::part_of(triangles);
+    part.vertices = Vertices::Zero(part.surface.vertex_count, 3);
+    part.points = PlanarPoints::Zero(part.surface.vertex_count, 2);
     for (Index ring = 1; ring <= rings; ++ring)
         for (Index k = 0; k < around; ++k) {
             const double r = side * ring / rings, turn = 2.0 * pi * k / around;
@@ -39,17 +41,6 @@ FlatPart cone(double angle)
             part.vertices.row(at(ring, k)) << out * std::cos(turn), out * std::sin(turn), up;
             part.points.row(at(ring, k)) << r * std::cos(turn), r * std::sin(turn);
         }
-    Index f = 0;
-    for (Index k = 0; k < around; ++k) triangles.row(f++) << 0, at(1, k), at(1, k + 1);
-    for (Index ring = 1; ring < rings; ++ring)
-        for (Index k = 0; k < around; ++k) {
-            triangles.row(f++) << at(ring, k), at(ring + 1, k), at(ring + 1, k + 1);
-            triangles.row(f++) << at(ring, k), at(ring + 1, k + 1), at(ring, k + 1);
-        }
-    part.surface = require_bordered_genus_zero(triangles, count);
-    for (Index face = 0; face < f; ++face) part.faces.push_back(face);
-    for (Index v = 0; v < count; ++v) part.original.push_back(v);
-    part.held.assign(static_cast<std::size_t>(count), 0);
     part.rims.push_back(part.surface.loops.front());
     return part;
 }
@@ -174,13 +165,9 @@ TEST(CarriedParts, a_dart_lays_the_fine_cone_flat_too)
     constexpr double even = 0.1;
     FlatPart fine = cone(1.5 * pi);
     const Proxy proxy = proxy_of_cone(fine, 300);
-    FlatPart coarse;
+    FlatPart coarse = test::part_of(proxy.surface.triangles);
     coarse.vertices = proxy.input.piece.vertices;
-    coarse.surface = proxy.surface;
     coarse.points = fine.points(proxy.coarse.vertex, Eigen::all);
-    coarse.held.assign(proxy.coarse.vertex.size(), 0);
-    for (Index f = 0; f < static_cast<Index>(proxy.surface.triangles.rows()); ++f) coarse.faces.push_back(f);
-    for (Index v = 0; v < proxy.surface.vertex_count; ++v) coarse.original.push_back(v);
     relax(fine, even);
     const double before = energy(fine, even);
     ExecutionContext context;

@@ -9,6 +9,7 @@
 #include "planar/divided_polygon.h"
 
 #include "circle_domain.h"
+#include "grids.h"
 
 #include <gtest/gtest.h>
 
@@ -73,18 +74,11 @@ double axis_ratio(const Vertices& vertices, const std::vector<Index>& loop)
 std::pair<Vertices, Triangles> cylinder(int around, int rows, double height)
 {
     Vertices vertices(around * (rows + 1), 3);
-    Triangles triangles(2 * around * rows, 3);
     const auto at = [&](int i, int j) { return static_cast<Index>(j * around + i % around); };
     for (int j = 0; j <= rows; ++j)
         for (int i = 0; i < around; ++i)
             vertices.row(at(i, j)) << std::cos(2 * pi * i / around), std::sin(2 * pi * i / around), height * j / rows;
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < around; ++i) {
-            const Index f = 2 * (j * around + i);
-            triangles.row(f) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
-            triangles.row(f + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
-        }
-    return {vertices, triangles};
+    return {vertices, test::grid(around, rows, at)};
 }
 
 LiftResult lifted(const std::pair<Vertices, Triangles>& mesh, const std::string& pattern, const LiftOptions& options)

@@ -1,4 +1,4 @@
-#include "mesh/topology.h"
+#include "grids.h"
 #include "part_maps/part_map.h"
 #include "part_maps/part_mesh.h"
 #include "parts/pack_parts.h"
@@ -17,26 +17,16 @@ namespace {
 FlatPart strip(double angle)
 {
     constexpr Index length = 60, across = 4;
-    const Index count = (length + 1) * (across + 1);
-    FlatPart part;
-    part.vertices = Vertices::Zero(count, 3);
-    part.points = PlanarPoints::Zero(count, 2);
-    Triangles triangles(2 * length * across, 3);
-    Index f = 0;
+    const auto at = [](Index k, Index i) { return i * (across + 1) + k; };
+    FlatPart part = test::part_of(test::grid(across, length, at));
+    part.vertices.resize(part.surface.vertex_count, 3);
+    part.points.resize(part.surface.vertex_count, 2);
     for (Index i = 0; i <= length; ++i)
         for (Index k = 0; k <= across; ++k) {
-            const Index v = i * (across + 1) + k;
             const double turn = angle * i / length, r = 0.5 + 0.1 * k;
-            part.vertices.row(v) << 0.5 * turn, -0.1 * k, 0.0;
-            part.points.row(v) << r * std::cos(turn), r * std::sin(turn);
-            part.original.push_back(v);
-            if (i == length || k == across) continue;
-            triangles.row(f++) << v, v + 1, v + across + 2;
-            triangles.row(f++) << v, v + across + 2, v + across + 1;
+            part.vertices.row(at(k, i)) << 0.5 * turn, -0.1 * k, 0.0;
+            part.points.row(at(k, i)) << r * std::cos(turn), r * std::sin(turn);
         }
-    for (Index face = 0; face < f; ++face) part.faces.push_back(face);
-    part.surface = require_bordered_genus_zero(triangles, count);
-    part.held.assign(static_cast<std::size_t>(count), 0);
     return part;
 }
 

@@ -1,5 +1,6 @@
 #include "core/connectivity.h"
 #include "even/even_map.h"
+#include "grids.h"
 #include "parts/part_borders.h"
 #include "parts/stitches.h"
 #include "parts/tension.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 using namespace koebe;
 
@@ -25,7 +25,7 @@ Index at(int i, int j) { return static_cast<Index>(j * (squares + 1) + i); }
 /// A square of area 1 with a hill in its middle, seen from above. @param height of the hill, over the side
 FlatPart hill(double height)
 {
-    FlatPart part;
+    FlatPart part = test::part_of(test::grid(squares, squares, at));
     part.vertices.resize((squares + 1) * (squares + 1), 3);
     for (int j = 0; j <= squares; ++j)
         for (int i = 0; i <= squares; ++i) {
@@ -33,18 +33,6 @@ FlatPart hill(double height)
             const double wave = std::sin(std::numbers::pi * x) * std::sin(std::numbers::pi * y);
             part.vertices.row(at(i, j)) << x, y, height * wave * wave;
         }
-    Triangles triangles(2 * squares * squares, 3);
-    for (int j = 0; j < squares; ++j)
-        for (int i = 0; i < squares; ++i) {
-            triangles.row(2 * (j * squares + i)) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
-            triangles.row(2 * (j * squares + i) + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
-        }
-    part.surface = require_bordered_genus_zero(triangles, static_cast<Index>(part.vertices.rows()));
-    part.faces.resize(static_cast<std::size_t>(triangles.rows()));
-    part.original.resize(static_cast<std::size_t>(part.vertices.rows()));
-    std::iota(part.faces.begin(), part.faces.end(), 0);
-    std::iota(part.original.begin(), part.original.end(), 0);
-    part.held.assign(part.original.size(), 0);
     part.vertices /= std::sqrt(face_areas(part.vertices, part.surface.triangles).sum());
     part.points = part.vertices.leftCols<2>();
     return part;

@@ -1,5 +1,6 @@
 #include "core/connectivity.h"
 #include "cut_samples.h"
+#include "grids.h"
 #include "mesh/connected_pieces.h"
 #include "mesh/topology.h"
 #include "splitting/straight_borders.h"
@@ -106,18 +107,12 @@ double length_of(const CutSurface& whole, const std::vector<Path>& paths)
 CutSurface squares(int side)
 {
     Vertices vertices((side + 1) * (side + 1), 3);
-    Triangles triangles(2 * side * side, 3);
-    std::vector<Index> polygon;
+    const auto at = [&](int i, int j) { return static_cast<Index>(j * (side + 1) + i); };
     for (int j = 0; j <= side; ++j)
-        for (int i = 0; i <= side; ++i) vertices.row(j * (side + 1) + i) << i / double(side), j / double(side), 0.0;
-    for (int j = 0; j < side; ++j)
-        for (int i = 0; i < side; ++i) {
-            const Index k = j * side + i, v = j * (side + 1) + i;
-            triangles.row(2 * k) << v, v + 1, v + side + 2;
-            triangles.row(2 * k + 1) << v, v + side + 2, v + side + 1;
-            polygon.insert(polygon.end(), 2, k);
-        }
-    return cut_surface(vertices, triangles, polygon);
+        for (int i = 0; i <= side; ++i) vertices.row(at(i, j)) << i / double(side), j / double(side), 0.0;
+    std::vector<Index> polygon;
+    for (Index k = 0; k < side * side; ++k) polygon.insert(polygon.end(), 2, k);
+    return cut_surface(vertices, test::grid(side, side, at), polygon);
 }
 
 /// The path of edges through these vertices.

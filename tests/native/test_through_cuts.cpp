@@ -1,4 +1,5 @@
 #include "even/even_forces.h"
+#include "grids.h"
 #include "parts/darts.h"
 #include "parts/packing.h"
 #include "parts/tension.h"
@@ -20,8 +21,10 @@ constexpr double even = 0.1;
 /// A part of two loops, drawn as a ring: what a turn of `radius(height)` sweeps out, of area 1.
 FlatPart ring_part(int around, int rows, double (*radius)(double))
 {
-    FlatPart part;
     const auto at = [&](int i, int j) { return static_cast<Index>(j * around + i % around); };
+    Triangles triangles = test::grid(around, rows, at);
+    triangles.col(1).swap(triangles.col(2));  // seen from inside
+    FlatPart part = test::part_of(triangles);
     part.vertices.resize(around * (rows + 1), 3);
     part.points.resize(part.vertices.rows(), 2);
     for (int j = 0; j <= rows; ++j)
@@ -31,16 +34,6 @@ FlatPart ring_part(int around, int rows, double (*radius)(double))
             const Complex z = std::polar(0.2 + 0.4 * height, -angle);
             part.points.row(at(i, j)) << z.real(), z.imag();
         }
-    Triangles triangles(2 * around * rows, 3);
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < around; ++i) {
-            triangles.row(2 * (j * around + i)) << at(i, j), at(i + 1, j + 1), at(i + 1, j);
-            triangles.row(2 * (j * around + i) + 1) << at(i, j), at(i, j + 1), at(i + 1, j + 1);
-        }
-    part.surface = require_bordered_genus_zero(triangles, static_cast<Index>(part.vertices.rows()));
-    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) part.faces.push_back(f);
-    for (Index v = 0; v < part.surface.vertex_count; ++v) part.original.push_back(v);
-    part.held.assign(part.original.size(), 0);
     part.vertices /= std::sqrt(face_areas(part.vertices, part.surface.triangles).sum());
     return part;
 }
@@ -48,45 +41,31 @@ FlatPart ring_part(int around, int rows, double (*radius)(double))
 /// A flat strip of area 1, of so many squares along and across.
 FlatPart strip_part(int along, int across)
 {
-    FlatPart part;
     const auto at = [&](int i, int j) { return static_cast<Index>(j * (along + 1) + i); };
+    FlatPart part = test::part_of(test::grid(along, across, at));
     const double side = 1.0 / std::sqrt(static_cast<double>(along * across));
     part.points.resize((along + 1) * (across + 1), 2);
     for (int j = 0; j <= across; ++j)
         for (int i = 0; i <= along; ++i) part.points.row(at(i, j)) << side * i, side * j;
     part.vertices = Vertices::Zero(part.points.rows(), 3);
     part.vertices.leftCols<2>() = part.points;
-    Triangles triangles(2 * along * across, 3);
-    for (int j = 0; j < across; ++j)
-        for (int i = 0; i < along; ++i) {
-            triangles.row(2 * (j * along + i)) << at(i, j), at(i + 1, j), at(i + 1, j + 1);
-            triangles.row(2 * (j * along + i) + 1) << at(i, j), at(i + 1, j + 1), at(i, j + 1);
-        }
-    part.surface = require_bordered_genus_zero(triangles, static_cast<Index>(part.vertices.rows()));
-    for (Index f = 0; f < static_cast<Index>(triangles.rows()); ++f) part.faces.push_back(f);
-    for (Index v = 0; v < part.surface.vertex_count; ++v) part.original.push_back(v);
-    part.held.assign(part.original.size(), 0);
     return part;
 }
 
 /// A flat regular polygon of area 1, all faces round its middle.
 FlatPart fan_part(int sides)
 {
-    FlatPart part;
-    part.points = PlanarPoints::Zero(sides + 1, 2);
     Triangles triangles(sides, 3);
+    for (int i = 0; i < sides; ++i) triangles.row(i) << 0, i + 1, (i + 1) % sides + 1;
+    FlatPart part = test::part_of(triangles);
+    part.points = PlanarPoints::Zero(sides + 1, 2);
     const double radius = 1.0 / std::sqrt(0.5 * sides * std::sin(2.0 * pi / sides));
     for (int i = 0; i < sides; ++i) {
         const double angle = 2.0 * pi * i / sides;
         part.points.row(i + 1) << radius * std::cos(angle), radius * std::sin(angle);
-        triangles.row(i) << 0, i + 1, (i + 1) % sides + 1;
-        part.faces.push_back(i);
     }
     part.vertices = Vertices::Zero(part.points.rows(), 3);
     part.vertices.leftCols<2>() = part.points;
-    part.surface = require_bordered_genus_zero(triangles, static_cast<Index>(part.vertices.rows()));
-    for (Index v = 0; v < part.surface.vertex_count; ++v) part.original.push_back(v);
-    part.held.assign(part.original.size(), 0);
     return part;
 }
 

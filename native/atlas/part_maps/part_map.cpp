@@ -30,6 +30,7 @@ double area_in_plane(Complex a, Complex b, Complex c) { return 0.5 * std::imag(s
 /// Gives lost faces the values of their neighbours, if those have any. Then smooths all values a little.
 void smooth(const PartMesh& part, VectorXd& u, std::vector<char>& lost)
 {
+    // (a_f u_f + 1/2 sum a_g u_g) / (a_f + 1/2 sum a_g) over the neighbours g that are not lost.
     for (int round = 0; round < 4; ++round) {
         VectorXd next = u;
         std::vector<char> next_lost = lost;
@@ -51,6 +52,7 @@ void smooth(const PartMesh& part, VectorXd& u, std::vector<char>& lost)
         u = std::move(next);
         lost = std::move(next_lost);
     }
+    // What is still lost is less dense than all others.
     double least = std::numeric_limits<double>::infinity();
     for (Index f = 0; f < static_cast<Index>(u.size()); ++f)
         if (!lost[f]) least = std::min(least, u[f]);
@@ -157,6 +159,7 @@ void finish(const PartMesh& part, PartMap& map)
         if (map.lost[f]) map.lost_area += part.areas[static_cast<Eigen::Index>(f)];
     fit_each_circle(part, map);
     const bool two = part.surface.loops.size() == 2;
+    // As a tube, log of the map with the hole in the middle: u rises by log |d log m / dz|.
     if (two && map.tube_overflow < 0.0) {
         const Moebius centered = center_circle(map.circles[1 - map.outer]);
         VectorXd u = map.u;
@@ -167,6 +170,7 @@ void finish(const PartMesh& part, PartMap& map)
         }
         map.tube_overflow = u.allFinite() ? evenness(u, part.areas, map.lost).overflow : tuning::lost_cost * part.area;
     }
+    // As a disk, from the most even pole.
     if (!two || map.circles[1 - map.outer].radius > deep_hole) {
         move_to_even_pole(part.areas, map);
         fit_each_circle(part, map);

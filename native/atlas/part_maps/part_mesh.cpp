@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/length.h"
+#include "core/numbering.h"
 #include "mesh/connected_pieces.h"
 #include "surface/face_vectors.h"
 
@@ -56,8 +57,7 @@ PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
     for (std::size_t i = 0; i < faces.size(); ++i) local[faces[i]] = static_cast<Index>(i);
 
     // Corners that meet at a vertex are one if an edge inside the part leads from one's face to the other's.
-    std::vector<Index> parent(3 * faces.size());
-    std::iota(parent.begin(), parent.end(), 0);
+    std::vector<Index> parent = numbers_below(3 * faces.size());
     const auto corner = [&](Index h) { return 3 * local[face_of(h)] + h % 3; };
     for (const Index f : faces)
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
@@ -85,13 +85,11 @@ PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
     part.surface = require_bordered_genus_zero(own, static_cast<Index>(part.original.size()));
     part.areas = whole.areas(faces);
     part.area = part.areas.sum();
-    if (!whole.polygon.empty())
-        for (const Index f : faces) part.polygon.push_back(whole.polygon[f]);
+    part.polygon = values_at(whole.polygon, faces);
     if (!whole.slit.empty())
         for (const Index f : faces)
             for (Index h = 3 * f; h < 3 * f + 3; ++h) part.slit.push_back(whole.slit[h]);
-    if (!whole.shown.empty())
-        for (const Index v : part.original) part.shown.push_back(whole.shown[v]);
+    part.shown = values_at(whole.shown, part.original);
     part.border.assign(part.original.size(), 0);
     for (Index h = 0; h < static_cast<Index>(own.size()); ++h) {
         const Index of_whole = 3 * faces[h / 3] + h % 3;

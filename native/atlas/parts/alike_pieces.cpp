@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cut/disjoint_sets.h"
 #include "mesh/topology.h"
 #include "parts/congruence.h"
@@ -11,7 +12,6 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -159,8 +159,7 @@ void cut_alike(FlatMesh& mesh)
     };
     const std::vector<std::optional<Twin>> twins = congruent_parts(wholes, true, is_usable, accepts);
     // In each class the piece with the shortest outlines is the model.
-    std::vector<std::size_t> model(pieces.size());
-    std::iota(model.begin(), model.end(), 0);
+    std::vector<std::size_t> model = numbers_below<std::size_t>(pieces.size());
     for (std::size_t k = 0; k < pieces.size(); ++k)
         if (twins[k] && pieces[k].outlines < shorter * pieces[model[twins[k]->of]].outlines) model[twins[k]->of] = k;
     std::vector<std::vector<FlatPart>> anew(mesh.parts.size());  // parts of a piece, at its first part

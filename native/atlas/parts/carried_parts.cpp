@@ -7,6 +7,7 @@
 #include "mesh/connected_pieces.h"
 #include "parts/carried_places.h"
 #include "parts/dart_rounds.h"
+#include "parts/flat_repair.h"
 #include "parts/tension.h"
 #include "parts/through_cuts.h"
 
@@ -113,6 +114,7 @@ public:
     /// @param before the pieces along other paths, or empty: where one is the same, so is its place
     std::vector<FlatPart> pieces(const std::vector<FlatPart>& before, int threads, ExecutionContext& context)
     {
+        // Cut the fine surface along the paths.
         const FlatPart whole = whole_part(proxy_.fine.whole);
         SeamedMesh mesh = seamed(whole, whole.shown);
         for (const auto& [chain, path] : paths_)
@@ -128,6 +130,7 @@ public:
         part_of_ = parts_of_pieces(proxy_, net_, near_, piece_of, pieces.size(), parts_.size());
         if (part_of_.empty()) return {};
         note_lengths(pieces, piece_of);
+        // Lay each piece where its part lies.
         side_by_side(pieces.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
             const int part = part_of_[k];
             if (!before.empty() && are_same(pieces[k], before[part])) {

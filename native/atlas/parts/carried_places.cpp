@@ -3,6 +3,7 @@
 #include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "foldover/turn_upright.h"
 #include "linear/sparse_cholesky.h"
 #include "parts/common_sequence.h"
@@ -287,8 +288,7 @@ private:
         RimMatch best;
         for (std::size_t k = 0; k < part_.surface.loops.size() && best.pairs.size() < names.size(); ++k) {
             if (taken[k]) continue;
-            std::vector<Index> rim;
-            for (const Index v : part_.surface.loops[k]) rim.push_back(part_.original[v]);
+            const std::vector<Index> rim = values_at(part_.original, part_.surface.loops[k]);
             const auto turned = [](std::vector<Index> list, std::size_t first) {
                 std::rotate(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(first), list.end());
                 return list;

@@ -1,6 +1,7 @@
 #include "parts/congruence.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "part_maps/part_mesh.h"
 
 #include <Eigen/LU>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -179,8 +179,7 @@ congruent_parts(const std::vector<const FlatPart*>& parts, bool may_mirror,
         edges.emplace_back(*part);
         signs.push_back(signs_of(*part, edges.back()));
     }
-    std::vector<std::size_t> order(parts.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::size_t> order = numbers_below<std::size_t>(parts.size());
     std::ranges::sort(order, {}, [&](std::size_t k) { return std::tuple(signs[k].counts, signs[k].area, k); });
     std::vector<std::size_t> firsts;  // without a twin, of this size and smaller ones
     for (const std::size_t k : order) {

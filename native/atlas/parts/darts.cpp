@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "cut/edge_graph.h"
 #include "even/even_map.h"
@@ -176,14 +177,7 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
     const auto joins = [&](const Dart& dart) { return outside[dart.vertices.front()] != 0; };
     const std::size_t joined = static_cast<std::size_t>(std::ranges::count_if(darts, joins));
     if (after.surface.loops.size() + joined != flat.surface.loops.size()) return {};
-    after.points = flat.points(source, Eigen::all);
-    after.vertices = flat.vertices(source, Eigen::all);
-    for (std::size_t i = kept.size(); i < source.size(); ++i) {
-        after.original.push_back(flat.original[source[i]]);
-        after.held.push_back(flat.held[source[i]]);
-        if (!flat.shown.empty()) after.shown.push_back(flat.shown[source[i]]);
-        if (!flat.image.empty()) after.image.push_back(flat.image[source[i]]);
-    }
+    take_vertices(flat, source, after);
     std::vector<Index> second(kept.size(), -1);
     for (std::size_t i = kept.size(); i < source.size(); ++i) second[source[i]] = static_cast<Index>(i);
     for (std::vector<Index>& rim : after.rims) {
@@ -238,8 +232,7 @@ std::vector<int> nearest_cut(const FlatPart& flat, const std::vector<std::vector
             label[v] = static_cast<int>(k);
         }
     const PathTree tree = shortest_paths(EdgeGraph(mesh, 1.0), sources);
-    std::vector<Index> order(label.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = numbers_below(label.size());
     std::ranges::stable_sort(order, {}, [&](Index v) { return tree.distance[v]; });
     for (const Index v : order)
         if (tree.parent[v] != v && tree.distance[v] < reach) label[v] = label[tree.parent[v]];

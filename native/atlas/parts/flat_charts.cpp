@@ -1,6 +1,7 @@
 #include "parts/flat_charts.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cost/tolerances.h"
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
@@ -437,15 +438,11 @@ std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& c
     if (!survives_storing(part)) return {};
     part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
     part.held.assign(mesh.fan_count, 0);
-    for (const VertexLoop& loop : part.surface.loops) {
-        part.loops.emplace_back();
-        for (const Index v : loop) part.loops.back().push_back(part.original[v]);
-    }
+    for (const VertexLoop& loop : part.surface.loops) part.loops.push_back(values_at(part.original, loop));
     for (Index v = 0; v < mesh.fan_count; ++v)
         if (charts.tips.contains(part.original[v]) && std::ranges::count(part.original, part.original[v]) == 1)
             part.tips.push_back(v);
-    if (!surface.polygon.empty())
-        for (const Index f : faces) part.polygon.push_back(surface.polygon[f]);
+    part.polygon = values_at(surface.polygon, faces);
     return part;
 }
 

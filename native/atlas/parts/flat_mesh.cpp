@@ -3,6 +3,7 @@
 #include "core/all_elements.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
@@ -119,8 +120,7 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
         input.slit = chosen_slits(input.piece, options.slits);
         input.seam = seams.of(input.piece);
         input.piece.vertices = vertices(input.piece.source_vertex, Eigen::all);
-        if (!options.polygon.empty())
-            for (const Index f : input.piece.source_face) input.polygon.push_back(options.polygon[f]);
+        input.polygon = values_at(options.polygon, input.piece.source_face);
         input.shown = cut_prices(options.show, input.piece.source_vertex);
         pieces.push_back({std::move(input)});
     }

@@ -67,8 +67,7 @@ void note_shown(const std::vector<double>& shown, std::vector<FlatPart>& parts);
 
 constexpr double packed_side = 1.25;  ///< about the side of a square that holds parts of total area 1
 
-/// Gives a piece what the part knows of these faces, and of these vertices. Its surface must be set by the caller.
-void take_faces(const FlatPart& part, const std::vector<Index>& faces, FlatPart& piece);
+/// Gives a piece what the part knows of these vertices.
 void take_vertices(const FlatPart& part, const std::vector<Index>& vertices, FlatPart& piece);
 
 /// The sum of the angle errors of faces, in degrees.
@@ -105,15 +104,5 @@ bool loops_apart(const FlatPart& part, const PlanarPoints& uv);
 
 /// Whether all faces are upright, and loops are simple, apart and not turned, in 64 bits. @param points (V, 2)
 bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points);
-
-/// Turns flipped faces back where the part lies in its tile, for example the unit square. First the boundary is held.
-/// If flips are left, all vertices move, as long as no loops cross.
-/// @param uv (V, 2) in [0, 1]^2 or another tile, changed in place @return faces still flipped as 32-bit floats
-Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context);
-
-/// If faces are turned over or loops cross, replaces the map by a map that is one to one from its start, in the same
-/// box. The part becomes a disk, and less even. Nothing changes if the new map is no better.
-/// @param uv (V, 2) in [0, 1]^2 or another tile, changed in place
-void embed_safely(FlatPart& part, PlanarPoints& uv, ExecutionContext& context);
 
 }  // namespace koebe

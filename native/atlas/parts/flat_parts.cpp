@@ -3,15 +3,16 @@
 #include "core/complex_places.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "execution/side_by_side.h"
 #include "foldover/angle_polish.h"
+#include "parts/flat_repair.h"
 #include "pipeline/uniformize.h"
 #include "quality/stored_uv.h"
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -203,8 +204,7 @@ std::optional<FlatPart> as_one_map(const CutSurface& whole, const Part* root, bo
         if (!flaws_of(one, Frame(one.points).uv(one.points), whole.areas).any()) return one;
     }
     if (!broken) return {};
-    std::vector<Index> faces(static_cast<std::size_t>(whole.areas.size()));
-    std::iota(faces.begin(), faces.end(), 0);
+    std::vector<Index> faces = numbers_below(whole.areas.size());
     const PartMesh mesh = part_mesh(whole, std::move(faces));
     ExecutionContext inner({}, {}, [&context] { context.checkpoint(); });
     return flat_as_mapped(mesh, uniformize(mesh.vertices, mesh.surface.triangles, {}, inner).uv);

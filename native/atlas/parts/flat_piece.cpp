@@ -1,5 +1,6 @@
 #include "parts/flat_piece.h"
 
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "splitting/closed_surface.h"
 #include "splitting/hidden_cuts.h"
@@ -119,9 +120,7 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
             flats.parts.clear();
             flats.parts.push_back(std::move(*one));
         }
-    if (!mirror.vertex.empty())
-        for (FlatPart& part : flats.parts)
-            for (const Index v : part.original) part.image.push_back(mirror.vertex[v]);
+    for (FlatPart& part : flats.parts) part.image = values_at(mirror.vertex, part.original);
     note_shown(input.shown, flats.parts);
     return flats;
 }

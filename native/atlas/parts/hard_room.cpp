@@ -1,6 +1,7 @@
 #include "parts/hard_room.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "cost/tolerances.h"
 #include "cut/disjoint_sets.h"
@@ -46,9 +47,7 @@ std::vector<FlatPart> cut_between_planes(const CutSurface& surface, const FlatCh
     if (!cut_parts_for_room(held, hard_room_price, 1, context)) return pieces;
     for (HeldPart& part : held) {
         FlatPart& piece = pieces.emplace_back(std::move(part.flat));
-        piece.polygon.clear();
-        if (!surface.polygon.empty())
-            for (const Index f : piece.faces) piece.polygon.push_back(surface.polygon[f]);
+        piece.polygon = values_at(surface.polygon, piece.faces);
     }
     return pieces;
 }

@@ -1,5 +1,6 @@
 #include "parts/hard_surface.h"
 
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "parts/hard_room.h"
 
@@ -11,18 +12,6 @@
 #include <utility>
 
 namespace koebe {
-namespace {
-
-template <typename Value>
-std::vector<Value> values_at(const std::vector<Value>& values, const std::vector<Index>& places)
-{
-    std::vector<Value> found;
-    if (!values.empty())
-        for (const Index i : places) found.push_back(values[i]);
-    return found;
-}
-
-}  // namespace
 
 bool may_unfold(const PartsOptions& options)
 {

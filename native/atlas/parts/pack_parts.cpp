@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "execution/side_by_side.h"
+#include "parts/flat_repair.h"
 #include "parts/tile_packing.h"
 
 #include <algorithm>

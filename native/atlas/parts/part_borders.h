@@ -23,6 +23,7 @@ struct PartBorder {
     bool is_ring = false;                    ///< the last edge ends where the first one begins
 
     std::size_t edges() const { return of_first.size(); }
+    bool is_slit() const { return first == second; }
 };
 
 class PartBorders {

@@ -2,6 +2,7 @@
 
 #include "canonical/corner_map.h"
 #include "core/counted.h"
+#include "core/numbering.h"
 #include "core/vertex_weights.h"
 #include "cost/costs.h"
 #include "even/even_map.h"
@@ -159,9 +160,7 @@ void mend_rims(const std::vector<Index>& polygon, std::vector<FlatPart>& parts, 
     side_by_side(parts.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
         FlatPart& part = parts[k];
         if (!part.one_to_one) return;
-        std::vector<Index> polygons;
-        for (const Index f : part.faces) polygons.push_back(polygon[f]);
-        const std::vector<Index> turned;
+        const std::vector<Index> polygons = values_at(polygon, part.faces), turned;
         SurfacePolygons surface{part.vertices, part.surface.triangles, polygons, turned};
         surface.free_rims = true;
         for (std::size_t v = 0; v < part.held.size(); ++v)

@@ -1,6 +1,7 @@
 #include "parts/proxy.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "splitting/mirrored_coarse.h"
 #include "surface/mirror.h"
 #include "surface/mirror_plane.h"
@@ -58,9 +59,7 @@ Proxy proxy_of(const PieceInput& input, PieceSurface fine, Index faces, Executio
     proxy.surface = analyze_surface(proxy.coarse.triangles, static_cast<Index>(proxy.coarse.vertex.size()));
     proxy.input.piece = coarse_piece(proxy.coarse, proxy.surface, whole.areas.sum(), context);
     proxy.input.seam = coarse_seams(whole, proxy.coarse, proxy.surface);
-    if (!input.shown.empty())
-        for (const Index v : proxy.input.piece.source_vertex)
-            proxy.input.shown.push_back(input.shown[proxy.coarse.vertex[v]]);
+    proxy.input.shown = values_at(values_at(input.shown, proxy.coarse.vertex), proxy.input.piece.source_vertex);
     return proxy;
 }
 

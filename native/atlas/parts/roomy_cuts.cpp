@@ -1,6 +1,7 @@
 #include "parts/roomy_cuts.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "cut/edge_graph.h"
 #include "parts/tension.h"
@@ -14,7 +15,6 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -128,8 +128,7 @@ Complex turned(int k)
 
 double area_inside(const PlanarPoints& polygon)
 {
-    VertexLoop loop(static_cast<std::size_t>(polygon.rows()));
-    std::iota(loop.begin(), loop.end(), 0);
+    VertexLoop loop = numbers_below(polygon.rows());
     return enclosed_area(loop, polygon);
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "cut/disjoint_sets.h"
 #include "mesh/topology.h"
@@ -132,8 +133,7 @@ public:
                 if (is_new) positions.row(at->second) = vertices.row(triangles(faces_[i], k));
             }
         positions.conservativeResize(static_cast<Eigen::Index>(number.size()), 3);
-        for (const Index f : faces_)
-            if (!options.polygon.empty()) parts.polygon.push_back(options.polygon[f]);
+        parts.polygon = values_at(options.polygon, faces_);
         parts.price = only_necessary_cuts;
         parts.darts = 0.0;
         parts.roomy = false;

@@ -18,13 +18,21 @@ namespace {
 constexpr std::size_t most_places = 32;  // along a border, at which a stretch may begin or end
 constexpr double most_of_ring = 0.8;     // of a closed border
 
+/// A stretch, between two places of a border.
+struct BorderWindow {
+    std::size_t from = 0, to = 0;
+};
+
 /// Sums along a border up to each of its places, so that those of a stretch are differences.
 struct BorderSums {
     std::vector<RigidFit> fit;  ///< of both sides in the plane; one more than there are places
     std::vector<double> cost{0.0}, length{0.0};
     std::vector<int> refused{0};  ///< edges in the middle of stretches that did not pay
 
-    RigidFit fit_of(std::size_t from, std::size_t to) const { return fit[to + 1] - fit[from]; }
+    RigidFit fit_of(BorderWindow window) const { return fit[window.to + 1] - fit[window.from]; }
+    double cost_of(BorderWindow window) const { return cost[window.to] - cost[window.from]; }
+    double length_of(BorderWindow window) const { return length[window.to] - length[window.from]; }
+    bool refuses(BorderWindow window) const { return refused[window.to] > refused[window.from]; }
 };
 
 class StitchSearch {
@@ -48,11 +56,6 @@ public:
     }
 
 private:
-    /// A stretch, between two places of a border.
-    struct Window {
-        std::size_t from = 0, to = 0;
-    };
-
     double seen_length(const FlatPart& part, Index h) const
     {
         const Index a = origin(part.surface.triangles, h), b = target(part.surface.triangles, h);
@@ -114,34 +117,29 @@ private:
     }
 
     /// The stretch with its mirror image, if both meet.
-    static std::optional<Window> symmetric(Window window, const std::vector<std::size_t>& mirror)
+    static std::optional<BorderWindow> symmetric(BorderWindow window, const std::vector<std::size_t>& mirror)
     {
         if (mirror.empty()) return window;
         const auto [low, high] = std::minmax(mirror[window.from], mirror[window.to]);
         if (low > window.to || high < window.from) return {};
-        return Window{std::min(window.from, low), std::max(window.to, high)};
+        return BorderWindow{std::min(window.from, low), std::max(window.to, high)};
     }
 
-    /// What a stretch saves: its cut, and one island where the neck is as wide as the smaller part.
-    double saved_by(const PartBorder& border, const BorderSums& sums, Window window) const
+    /// What a stretch saves, its cut and one island where the neck is as wide as the smaller part; and what it wins:
+    /// that, less what bends and what compactness is lost.
+    Stitch worth_of(const PartBorder& border, const BorderSums& sums, BorderWindow window) const
     {
-        if (border.first == border.second)
-            return stitch_saving({price_.length, {}}, sums.cost[window.to] - sums.cost[window.from], 0.0);
-        const double small = std::sqrt(std::min(looks_[border.first].area, looks_[border.second].area));
-        return stitch_saving(price_, sums.cost[window.to] - sums.cost[window.from],
-                             (sums.length[window.to] - sums.length[window.from]) / small);
-    }
-
-    /// What a stretch wins: what it saves, less what bends and what compactness is lost.
-    double won_by(const PartBorder& border, const BorderSums& sums, Window window) const
-    {
-        const RigidFit fit = sums.fit_of(window.from, window.to);
-        if (border.first == border.second) return saved_by(border, sums, window) - tuning::bent_border * fit.distance();
+        const double cost = sums.cost_of(window), length = sums.length_of(window);
+        const RigidFit fit = sums.fit_of(window);
+        if (border.is_slit()) {
+            const double saved = stitch_saving({price_.length, {}}, cost, 0.0);
+            return {{}, saved, saved - tuning::bent_border * fit.distance()};
+        }
         const PartLook &a = looks_[border.first], &b = looks_[border.second];
-        const PartLook both{a.area + b.area,
-                            a.length + b.length - 2.0 * (sums.length[window.to] - sums.length[window.from])};
+        const double saved = stitch_saving(price_, cost, length / std::sqrt(std::min(a.area, b.area)));
+        const PartLook both{a.area + b.area, a.length + b.length - 2.0 * length};
         const double loss = roundness_loss((a.compact_area() + b.compact_area()) / area_, both.compact_area() / area_);
-        return saved_by(border, sums, window) - loss - tuning::bent_border * fit.misfit();
+        return {{}, saved, saved - loss - tuning::bent_border * fit.misfit()};
     }
 
     std::optional<Stitch> best_along(const PartBorder& closed) const
@@ -151,26 +149,25 @@ private:
         const BorderSums sums = sums_along(border);
         const std::vector<std::size_t> mirror = mirrored_places(border);
         const std::size_t count = border.edges(), step = std::max<std::size_t>(1, count / most_places);
-        Window best;
-        double most = 0.0;
+        BorderWindow best;
+        Stitch most;
         for (std::size_t i = 0; i < count; i += step)
             for (std::size_t j = i; j < count;) {
                 j = std::min(count, j + step);
                 const auto window = symmetric({i, j}, mirror);
-                if (!window || sums.refused[window->to] > sums.refused[window->from]) continue;
-                const double length = sums.length[window->to] - sums.length[window->from];
-                if (border.is_ring && length > most_of_ring * sums.length.back()) continue;
-                if (const double won = won_by(border, sums, *window); won > most) {
-                    most = won;
+                if (!window || sums.refuses(*window)) continue;
+                if (border.is_ring && sums.length_of(*window) > most_of_ring * sums.length.back()) continue;
+                if (Stitch found = worth_of(border, sums, *window); found.forecast > most.forecast) {
+                    most = std::move(found);
                     best = *window;
                 }
             }
-        if (!(most > 0.0)) return {};
-        return with_image(border, best, {{}, saved_by(border, sums, best), most});
+        if (!(most.forecast > 0.0)) return {};
+        return with_image(border, best, std::move(most));
     }
 
     /// The stitch along a stretch, and along its mirror image where that is another one.
-    std::optional<Stitch> with_image(const PartBorder& border, Window window, Stitch stitch) const
+    std::optional<Stitch> with_image(const PartBorder& border, BorderWindow window, Stitch stitch) const
     {
         BorderStretch own, image;
         for (std::size_t i = window.from; i < window.to; ++i) {

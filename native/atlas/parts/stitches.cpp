@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cut/disjoint_sets.h"
 #include "even/even_map.h"
 #include "parts/carried_parts.h"
@@ -13,7 +14,6 @@
 #include "planar/rigid_fit.h"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -87,6 +87,7 @@ std::optional<FlatPart> joined(FlatPart part, const Triangles& apart,
         same.join(origin(apart, h), target(apart, g));
         same.join(target(apart, h), origin(apart, g));
     }
+    // One vertex for all copies, at the mean of their places.
     std::vector<Index> source, number(static_cast<std::size_t>(count), -1), copies;
     PlanarPoints sums = PlanarPoints::Zero(count, 2);
     for (Index v = 0; v < count; ++v) {
@@ -102,10 +103,10 @@ std::optional<FlatPart> joined(FlatPart part, const Triangles& apart,
     for (Index v = 0; v < count; ++v) number[v] = number[same.find(v)];
     for (std::size_t v = 0; v < source.size(); ++v)
         part.points.row(source[v]) = sums.row(static_cast<Index>(v)) / copies[v];
+    // Faces ascend again, as in all parts.
     Triangles triangles = apart;
     for (Index& corner : triangles.reshaped()) corner = number[corner];
-    std::vector<Index> order(part.faces.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = numbers_below(part.faces.size());
     std::ranges::sort(order, {}, [&](Index f) { return part.faces[f]; });
     auto piece = opened_piece(part, order, triangles(order, Eigen::all), source);
     if (!piece) return {};
@@ -202,6 +203,7 @@ bool stitch_parts(std::vector<HeldPart>& held, double even, const ThroughPrice& 
         const auto stitch = best_stitch(parts, price, refused);
         if (!stitch) break;
         auto trial = stitched(parts, *stitch, even, context);
+        // It pays if E' - E + roundness_loss(C, C') < what its cuts and islands cost, and no more texels are wasted.
         bool pays = false;
         if (trial) {
             const LayoutState after(*trial, even);

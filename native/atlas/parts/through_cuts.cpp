@@ -1,6 +1,7 @@
 #include "parts/through_cuts.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "cost/tolerances.h"
 #include "cut/edge_graph.h"
@@ -281,10 +282,7 @@ void name_loops(FlatPart& flat)
 {
     flat.loops = closed_loops(flat);
     if (flat.loops.empty())
-        for (const VertexLoop& loop : flat.surface.loops) {
-            flat.loops.emplace_back();
-            for (const Index v : loop) flat.loops.back().push_back(flat.original[v]);
-        }
+        for (const VertexLoop& loop : flat.surface.loops) flat.loops.push_back(values_at(flat.original, loop));
     for (const VertexLoop& loop : flat.loops) {
         const std::set<Index> named(loop.begin(), loop.end());
         flat.rims.emplace_back();
@@ -343,7 +341,9 @@ std::optional<FlatPart> opened_piece(const FlatPart& flat, const std::vector<Ind
     } catch (const TopologyError&) {
         return {};
     }
-    take_faces(flat, faces, piece);
+    piece.faces = values_at(flat.faces, faces);
+    piece.polygon = values_at(flat.polygon, faces);
+    piece.sizes = values_at(flat.sizes, faces);
     take_vertices(flat, source, piece);
     name_loops(piece);
     return piece;

@@ -1,6 +1,7 @@
 #include "parts/through_rounds.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "even/even_forces.h"
 #include "execution/side_by_side.h"
@@ -92,7 +93,7 @@ private:
     struct Trial {
         std::vector<Piece> pieces;
         std::vector<char> changed;  ///< (pieces)
-        double surplus = 0.0;
+        double price = 0.0;         ///< of all cuts
     };
 
     template <typename CutOnce>
@@ -105,8 +106,6 @@ private:
         return group;
     }
 
-    static double energy(const FlatPart& flat, double even) { return forces_in(flat, even).energy.sum(); }
-
     /// Opens cuts of a piece together, and keeps those that pay. On a mirrored piece it is one cut, and its image.
     /// @return whether to go on with this piece
     bool release_once(std::size_t k, double even, ExecutionContext& context)
@@ -116,7 +115,7 @@ private:
         if (!pieces_[k].flat.image.empty()) cuts.resize(1);
         while (!cuts.empty()) {
             std::optional<Trial> trial = opened(k, cuts);
-            if (trial && !release(*trial, even, context)) trial.reset();
+            if (trial && !relax(*trial, even, context)) trial.reset();
             const std::vector<double> released =
                 trial ? released_by(k, cuts, *trial, even) : std::vector(cuts.size(), 0.0);
             std::vector<ThroughCut> paying;
@@ -140,8 +139,18 @@ private:
     std::vector<double> released_by(std::size_t k, const std::vector<ThroughCut>& cuts, const Trial& trial,
                                     double even) const
     {
+        const auto energies = [&](const FlatPart& flat) -> VectorXd { return forces_in(flat, even).energy; };
+        if (cuts.size() == 1) {
+            double surplus = -trial.price;
+            for (std::size_t i = 0; i < trial.pieces.size(); ++i) {
+                if (!trial.changed[i]) continue;
+                if (i < pieces_.size()) surplus += energies(pieces_[i].flat).sum();
+                surplus -= energies(trial.pieces[i].flat).sum();
+            }
+            return {surplus + cuts.front().cost};
+        }
+        // Of several cuts, each has released what the faces nearest to it have lost.
         const FlatPart& before = pieces_[k].flat;
-        if (cuts.size() == 1) return {trial.surplus + cuts.front().cost};
         std::vector<std::vector<Index>> paths;
         for (const ThroughCut& cut : cuts) paths.push_back(cut.vertices);
         const std::vector<int> nearest = nearest_cut(before, paths, std::numeric_limits<double>::infinity());
@@ -149,9 +158,9 @@ private:
         for (std::size_t f = 0; f < nearest.size(); ++f) cut_at.emplace(before.faces[f], nearest[f]);
         std::vector<double> released(cuts.size(), 0.0);
         const auto add = [&](const FlatPart& flat, double sign) {
-            const VectorXd energies = forces_in(flat, even).energy;
+            const VectorXd energy = energies(flat);
             for (std::size_t f = 0; f < flat.faces.size(); ++f)
-                released[cut_at.at(flat.faces[f])] += sign * energies[static_cast<Eigen::Index>(f)];
+                released[cut_at.at(flat.faces[f])] += sign * energy[static_cast<Eigen::Index>(f)];
         };
         add(before, 1.0);
         for (std::size_t i = 0; i < trial.pieces.size(); ++i)
@@ -220,23 +229,21 @@ private:
             }
             if (parts.empty()) return {};
             trial.changed.resize(trial.pieces.size(), 1);
-            trial.surplus -= named.cost;
+            trial.price += named.cost;
         }
         return trial;
     }
 
-    /// Relaxes the pieces that are new, and adds the energy that they release. @return whether they are one to one
-    bool release(Trial& trial, double even, ExecutionContext& context) const
+    /// Relaxes the pieces that are new. @return whether they are one to one
+    static bool relax(Trial& trial, double even, ExecutionContext& context)
     {
         for (std::size_t k = 0; k < trial.pieces.size(); ++k) {
             if (!trial.changed[k]) continue;
-            if (k < pieces_.size()) trial.surplus += energy(pieces_[k].flat, even);
             FlatPart& flat = trial.pieces[k].flat;
             std::vector<RoundLoop> none;
             if (!make_even(flat_surface(flat, none), even, packed_side, context, trial_effort).moved ||
                 !survives_storing(flat))
                 return false;
-            trial.surplus -= energy(flat, even);
         }
         return true;
     }
@@ -286,9 +293,7 @@ bool cut_groups(std::vector<HeldPart>& parts, int threads, ExecutionContext& con
     const auto groups = mirror_groups(parts);
     std::vector<CutGroup> pieces(groups.size());
     side_by_side(groups.size(), threads, context, [&](std::size_t g, ExecutionContext& own) {
-        std::vector<HeldPart> group;
-        for (const std::size_t k : groups[g]) group.push_back(parts[k]);
-        pieces[g] = cut_group(std::move(group), own);
+        pieces[g] = cut_group(values_at(parts, groups[g]), own);
     });
     bool is_cut = false;
     for (std::size_t g = 0; g < groups.size(); ++g) {

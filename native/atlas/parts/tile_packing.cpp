@@ -1,6 +1,7 @@
 #include "parts/tile_packing.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "parts/packed_island.h"
 #include "parts/sheet_packing.h"
 
@@ -109,12 +110,7 @@ private:
         }
     }
 
-    std::vector<Outline> outlines_of(const OneTile& tile) const
-    {
-        std::vector<Outline> own;
-        for (const std::size_t i : tile.islands) own.push_back(outlines_[i]);
-        return own;
-    }
+    std::vector<Outline> outlines_of(const OneTile& tile) const { return values_at(outlines_, tile.islands); }
 
     /// Packs the islands of a tile by themselves, unless they lie better already.
     void fill(OneTile& tile) const

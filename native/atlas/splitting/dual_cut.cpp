@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/length.h"
+#include "core/numbering.h"
 
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
@@ -143,8 +144,7 @@ void drop_ears(const PartMesh& part, std::vector<int>& label)
         }
         return across >= 2;
     };
-    std::vector<Index> queue(label.size());
-    std::iota(queue.begin(), queue.end(), 0);
+    std::vector<Index> queue = numbers_below(label.size());
     const std::size_t most = 4 * label.size();
     for (std::size_t head = 0; head < queue.size() && head < most; ++head) {
         const Index f = queue[head];

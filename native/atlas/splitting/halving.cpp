@@ -2,12 +2,12 @@
 
 #include "core/connectivity.h"
 #include "core/length.h"
+#include "core/numbering.h"
 #include "cut/edge_graph.h"
 #include "splitting/dual_cut.h"
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -53,8 +53,7 @@ std::vector<int> halving(const PartMesh& part)
 
     const std::size_t count = part.faces.size();
     std::vector<double> place(count, 0.0);
-    std::vector<Index> order(count);
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = numbers_below(count);
     for (const Index f : order)
         for (const Index v : part.surface.triangles.row(f)) place[f] += from_first[v] - from_last[v];
     std::ranges::stable_sort(order, {}, [&](Index f) { return place[f]; });

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cost/tuning.h"
 #include "mesh/connected_pieces.h"
 #include "mesh/nearest_first.h"
@@ -280,7 +281,7 @@ std::optional<Half> half_of(const CutSurface& whole, const MirrorPlane& plane, c
 
     // The border goes to its nearest points in the plane.
     half.vertices = whole.vertices(half.vertex, Eigen::all);
-    for (const Index v : half.vertex) half.border.push_back(border_of_whole[v]);
+    half.border = values_at(border_of_whole, half.vertex);
     for (std::size_t i = 0; i < half.vertex.size(); ++i)
         if (half.border[i]) {
             const auto row = static_cast<Eigen::Index>(i);
@@ -309,7 +310,7 @@ std::optional<CoarseSurface> doubled(const CutSurface& whole, const MirrorPlane&
         twin[v] = count + static_cast<Index>(beside.size());
         beside.push_back(v);
     }
-    for (const Index v : coarse.vertex) both.vertex.push_back(half.vertex[v]);
+    both.vertex = values_at(half.vertex, coarse.vertex);
     std::vector<Index> originals;
     Vertices places(static_cast<Eigen::Index>(beside.size()), 3);
     for (std::size_t i = 0; i < beside.size(); ++i) {

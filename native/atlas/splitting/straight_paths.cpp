@@ -157,25 +157,27 @@ private:
         return price_[h] * (1.0 + off * off);
     }
 
-    /// Its length with factors and turns.
+    /// Its length with factors and turns; near another path, the sum that `improved` makes least.
     double length_of(const Path& path) const
     {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < path.size(); ++i)
-            sum += price_[path[i]] + (i > 0 ? turn_cost(path[i - 1], path[i]) : 0.0);
+        return sum_of(path, [&](Index h) { return price_[h]; });
+    }
+    double cost_of(const Path& path, Index before, Index after, double width) const
+    {
+        double sum = sum_of(path, [&](Index h) { return edge_cost(h, width); });
+        if (before != no_twin) sum += turn_cost(before, path.front());
+        if (after != no_twin) sum += turn_cost(path.back(), after);
         return sum;
     }
 
-    /// The sum that `improved` makes least.
-    double cost_of(const Path& path, Index before, Index after, double width) const
+    template <typename CostOfEdge>
+    double sum_of(const Path& path, const CostOfEdge& cost_of_edge) const
     {
         double sum = 0.0;
         for (std::size_t i = 0; i < path.size(); ++i) {
-            sum += edge_cost(path[i], width);
+            sum += cost_of_edge(path[i]);
             if (i > 0) sum += turn_cost(path[i - 1], path[i]);
         }
-        if (before != no_twin) sum += turn_cost(before, path.front());
-        if (after != no_twin) sum += turn_cost(path.back(), after);
         return sum;
     }
 

@@ -1,6 +1,7 @@
 #include "linear/filled_laplacian.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 
 #include <algorithm>
 #include <limits>
@@ -216,8 +217,7 @@ std::pair<VectorXd, VectorXd> FilledLaplacian::raise(int k, const std::vector<Lo
     load.topRows(surface_size_) = noded->columns.load(MatrixXd::Ones(static_cast<Eigen::Index>(loop.size()), 1));
     load(loop, 0).setZero();
     load(loops_[0], 0).setZero();
-    std::vector<Index> all(surface_size_);
-    std::iota(all.begin(), all.end(), 0);
+    std::vector<Index> all = numbers_below(surface_size_);
     VectorXd u = cholesky_.solve_for(all, load).col(0);
     u(loop).setOnes();
     u(loops_[0]).setZero();
@@ -239,8 +239,7 @@ MatrixXd FilledLaplacian::solve_inside(MatrixXd load)
         return MatrixXd::Constant(rows, load.cols(), std::numeric_limits<double>::quiet_NaN());
     }
     is_filled_ = false;
-    std::vector<Index> all(rows);
-    std::iota(all.begin(), all.end(), 0);
+    std::vector<Index> all = numbers_below(rows);
     return cholesky_.solve_for(all, load);
 }
 

@@ -1,7 +1,8 @@
 #include "linear/ground_columns.h"
 
+#include "core/numbering.h"
+
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -27,8 +28,7 @@ void GroundColumns::renew(const SparseMatrix& laplacian)
 
 MatrixXd GroundColumns::load(const MatrixXd& values) const
 {
-    std::vector<Index> order(vertices_.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = numbers_below(vertices_.size());
     std::ranges::sort(order, {}, [&](Index i) { return vertices_[i]; });
     MatrixXd result = MatrixXd::Zero(columns_.rows(), values.cols());
     for (const Index i : order)

@@ -1,11 +1,11 @@
 #include "planar/divided_polygon.h"
 
+#include "core/numbering.h"
 #include "core/silent_cgal.h"
 #include "planar/planar_region.h"
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -24,17 +24,14 @@ EndPair ends_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 /// along rows of cells [biased insertion order: Amenta, Choi, Rote 2003].
 std::vector<std::size_t> insertion_order(const std::vector<Complex>& points)
 {
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::size_t> order = numbers_below<std::size_t>(points.size());
     if (points.size() < many_points) return order;
     order.clear();
     std::vector<std::vector<std::size_t>> rounds(std::bit_width(points.size()) + 1);
     for (std::size_t i = 0; i < points.size(); ++i)
         rounds[std::min(rounds.size() - 1, static_cast<std::size_t>(std::countr_zero(i)))].push_back(i);
     for (auto round = rounds.rbegin(); round != rounds.rend(); ++round) {
-        std::vector<Complex> places;
-        for (const std::size_t i : *round) places.push_back(points[i]);
-        for (const std::size_t k : detail::to_and_fro(places)) order.push_back((*round)[k]);
+        for (const std::size_t k : detail::to_and_fro(values_at(points, *round))) order.push_back((*round)[k]);
     }
     return order;
 }

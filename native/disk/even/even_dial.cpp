@@ -4,6 +4,7 @@
 #include "core/all_elements.h"
 #include "core/complex_places.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "foldover/newton_system.h"
 #include "mesh/topology.h"
 #include "planar/planar_predicates.h"
@@ -147,16 +148,11 @@ void EvenDial::place(const Pins& pins, Form& form)
 
 void EvenDial::bend(const Pins& pins, double even, Form& form, ExecutionContext& context) const
 {
-    const auto named = [&](const std::vector<Index>& rows) {
-        std::vector<Index> vertices;
-        for (const Index row : rows) vertices.push_back(pins.vertices[row]);
-        return vertices;
-    };
     const std::vector<Index> missed =
         draw_to_pins(view(form), scaled(pins, form.scale), even, form.extent, context, pattern_.get());
     if (!missed.empty())
         throw SolverError("no one-to-one map was found that has these pins in their places", ElementKind::vertices,
-                          named(missed));
+                          values_at(pins.vertices, missed));
     // The size of the map at the pins is the size that faces should have.
     const double factor = scale_to_size(vertices_, triangles_, image_area(triangles_, form.points));
     form.points *= factor;

@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -107,8 +107,7 @@ private:
 
 void require_distinct(const Pins& pins)
 {
-    std::vector<Index> order(pins.vertices.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = numbers_below(pins.vertices.size());
     const auto pair = [&](Index i) { return std::pair(pins.places(i, 0), pins.places(i, 1)); };
     std::ranges::sort(order, {}, pair);
     for (std::size_t i = 1; i < order.size(); ++i)

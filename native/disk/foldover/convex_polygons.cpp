@@ -1,6 +1,7 @@
 #include "foldover/convex_polygons.h"
 
 #include "core/counted.h"
+#include "core/numbering.h"
 #include "foldover/foldover_free.h"
 #include "foldover/patch_shapes.h"
 #include "foldover/polygon_outlines.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -247,8 +247,7 @@ private:
         for (std::size_t i = 0; i < moving.size(); ++i)
             for (int k = 0; k < 3; ++k)
                 problem.triangles(static_cast<Eigen::Index>(i), k) = patch.triangles[moving[i]][k];
-        std::vector<Index> all(moving.size());
-        std::iota(all.begin(), all.end(), 0);
+        std::vector<Index> all = numbers_below(moving.size());
         const PatchShapes wanted =
             patch_shapes(patch.vertices, problem.triangles, problem.points, all, PatchShape::surface);
         problem.reference = wanted.references;

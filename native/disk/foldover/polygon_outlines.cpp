@@ -1,6 +1,7 @@
 #include "foldover/polygon_outlines.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -71,8 +71,7 @@ PolygonOutlines::PolygonOutlines(const SurfacePolygons& surface)
     if (polygon.empty()) return;
     if (polygon.size() != turned_.size()) throw InputError("there must be a polygon for each face");
     for (const Index f : surface.turned) turned_[f] = 1;
-    std::vector<Index> order(polygon.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = numbers_below(polygon.size());
     if (!std::ranges::is_sorted(polygon)) std::ranges::stable_sort(order, {}, [&](Index f) { return polygon[f]; });
     std::vector<char> out(turned_.size(), 0);
     for (const Index f : surface.left_out) out[f] = 1;

@@ -1,8 +1,9 @@
 #include "foldover/uv_mesh.h"
 
+#include "core/numbering.h"
+
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -59,8 +60,7 @@ void UvMesh::make_nodes()
         }
     const auto ends = [](const Side& side) { return std::pair(side.low, side.high); };
     std::ranges::stable_sort(sides, {}, ends);
-    std::vector<Index> root(node_.size());
-    std::iota(root.begin(), root.end(), 0);
+    std::vector<Index> root = numbers_below(node_.size());
     const auto find = [&](Index c) {
         while (root[c] != c) c = root[c] = root[root[c]];
         return c;

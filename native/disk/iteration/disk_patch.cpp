@@ -1,5 +1,6 @@
 #include "iteration/disk_patch.h"
 
+#include "core/numbering.h"
 #include "holes/fan_filling.h"
 #include "planar/planar_predicates.h"
 #include "surface/harmonic_map.h"
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -94,8 +94,7 @@ void DiskPatch::mesh(const VectorXcd& rim)
 
 VectorXcd DiskPatch::harmonic_image(const VectorXcd& rim) const
 {
-    std::vector<Index> fixed(rim_size_);
-    std::iota(fixed.begin(), fixed.end(), 0);
+    std::vector<Index> fixed = numbers_below(rim_size_);
     return harmonic_map(triangles_, lengths_, vertex_count_, fixed, rim);
 }
 

@@ -1,9 +1,9 @@
 #include "iteration/sweep_order.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -26,8 +26,7 @@ Sweep fixed_sweep(int loop_count, Method method)
 std::vector<Sweep> round_of_changing_pairs(int loop_count)
 {
     const int seats = loop_count + loop_count % 2;  // one seat is empty for an odd number
-    std::vector<int> seat(seats);
-    std::iota(seat.begin(), seat.end(), 0);
+    std::vector<int> seat = numbers_below<int>(seats);
     std::vector<Sweep> round;
     for (int turn = 0; turn + 1 < seats; ++turn) {
         Sweep sweep;

@@ -1,5 +1,6 @@
 #include "opened/cut_sheet.h"
 
+#include "core/numbering.h"
 #include "foldover/convex_polygons.h"
 #include "foldover/untangle.h"
 #include "mesh/topology.h"
@@ -89,8 +90,8 @@ void Sheet::mend(const std::vector<Index>& polygon, std::vector<MappedPiece>& ma
                  const ExecutionContext& context)
 {
     if (polygon.empty()) return;
-    std::vector<Index> own, held;
-    for (const Index f : faces_) own.push_back(polygon[f]);
+    const std::vector<Index> own = values_at(polygon, faces_);
+    std::vector<Index> held;
     for (std::size_t i = 0; i < mapped.size(); ++i)
         for (const Index v : {mapped[i].map.center, mapped[i].map.point})
             if (v >= 0) held.push_back(static_cast<Index>(first_vertex_[i]) + v);

@@ -1,12 +1,12 @@
 #include "opened/disk_packing.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -104,8 +104,7 @@ std::vector<Circle> pack_disks(const std::vector<double>& radii, double margin)
         throw InputError("disks to pack need positive radii");
     if (radii.size() <= 1) return std::vector<Circle>(radii.size(), Circle{Complex(0.5, 0.5), 0.5});
     margin = std::min(margin, 0.5 / static_cast<double>(radii.size()));
-    std::vector<std::size_t> order(radii.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::size_t> order = numbers_below<std::size_t>(radii.size());
     std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return radii[i]; });
     const double largest = radii[order.front()];
     double low = 0.0, high = 0.5;

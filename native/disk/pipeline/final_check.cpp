@@ -1,6 +1,7 @@
 #include "pipeline/final_check.h"
 
 #include "circles/crowded_circles.h"
+#include "core/numbering.h"
 #include "execution/thread_share.h"
 #include "planar/boundary_crossings.h"
 #include "quality/stored_uv.h"
@@ -39,7 +40,7 @@ Warning MapFaults::warning(const std::string& beginning, const std::vector<Index
         bad_circles.empty() ? 0 : bad_circles.front());
     add(crossings.size(), "crossings of loops, at vertices", crossings.empty() ? 0 : original[crossings.front().first]);
     if (flipped.empty()) return warning;
-    for (const Index f : flipped) warning.elements.push_back(original_faces[f]);
+    warning.elements = values_at(original_faces, flipped);
     std::sort(warning.elements.begin(), warning.elements.end());
     if (result.size() > beginning.size()) result += "; ";
     result += std::to_string(flipped.size()) + " faces flipped";

@@ -3,6 +3,7 @@
 #include "canonical/canonical_form.h"
 #include "canonical/canonical_position.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/vertex_weights.h"
 #include "mesh/loop_with.h"
 #include "surface/importance.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <string>
 
 namespace koebe {
@@ -105,8 +105,7 @@ MapInput prepare_input(const Vertices& vertices, const Triangles& triangles, con
         input.point = static_cast<Index>(std::ranges::find(input.original, options.point) - input.original.begin());
     input.outer_rank = rank_by_lowest_vertex(input, input.surface.loops[outer]);
     // The order of the iteration: the outer loop, then by falling length.
-    std::vector<std::size_t> order(input.surface.loops.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::size_t> order = numbers_below<std::size_t>(input.surface.loops.size());
     std::vector<double> length;
     for (const VertexLoop& loop : input.surface.loops) length.push_back(loop_edges(input.vertices, loop).sum());
     length[outer] = std::numeric_limits<double>::infinity();
@@ -148,7 +147,7 @@ MapInput core_input(const MapInput& whole, EarCut& cut)
     MapInput core;
     core.surface = std::move(cut.core);
     core.vertices = whole.vertices(cut.vertices, Eigen::all);
-    for (const Index v : cut.vertices) core.original.push_back(whole.original[v]);
+    core.original = values_at(whole.original, cut.vertices);
     if (whole.importance.size() > 0) core.importance = whole.importance(cut.vertices);
     core.loops = cut.loops;
     for (const VertexLoop& loop : core.loops) core.edges.push_back(loop_edges(core.vertices, loop));

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/counted.h"
+#include "core/numbering.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 
@@ -20,8 +21,7 @@ std::string figure(double value) { return formatted("%.2g", value); }
 /// The faces in the input's numbering, ascending.
 std::vector<Index> input_faces(const MapInput& whole, const std::vector<Index>& faces)
 {
-    std::vector<Index> result;
-    for (const Index f : faces) result.push_back(whole.original_faces[f]);
+    std::vector<Index> result = values_at(whole.original_faces, faces);
     std::sort(result.begin(), result.end());
     return result;
 }
@@ -184,9 +184,7 @@ std::vector<Warning> flip_warnings(const MapInput& whole, const PlanarPoints& uv
                  figure(distortion.angle_error_deg.mean) + " degrees). Subdivide the mesh"});
     if (!ears.empty()) warnings.push_back(ear_warning(whole, ears));
     // What the repair did, and what it could not.
-    std::vector<Index> freed;
-    for (const Index v : untangled.freed) freed.push_back(whole.original[v]);
-    warn_off_circle(std::move(freed), warnings);
+    warn_off_circle(values_at(whole.original, untangled.freed), warnings);
     for (const LostRegion& region : lost_regions(whole, uv))
         warnings.push_back(
             {WarningKind::below_resolution,

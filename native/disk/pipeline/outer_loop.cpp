@@ -1,7 +1,8 @@
 #include "pipeline/outer_loop.h"
 
+#include "core/numbering.h"
+
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 namespace koebe {
@@ -44,8 +45,7 @@ int balanced_outer_loop(const FaceScales& scales, const std::vector<Circle>& cir
 
 int better_outer_loop(const MapInput& input, const CircleMap& map)
 {
-    std::vector<int> longest(std::min(map.circles.size(), most_candidates));
-    std::iota(longest.begin(), longest.end(), 0);
+    std::vector<int> longest = numbers_below<int>(std::min(map.circles.size(), most_candidates));
     return balanced_outer_loop(face_scales(input.vertices, input.surface.triangles, map.uv, sample, input.importance),
                                map.circles, longest);
 }

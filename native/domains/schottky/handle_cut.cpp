@@ -3,13 +3,13 @@
 #include "core/all_elements.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "cut/open_surface.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -39,8 +39,7 @@ void find_other_side(const HandleCut& cut, std::size_t own, const LoopSteps& ste
 /// The order of loops: holes by falling length, then pairs as numbered, or by falling length.
 std::vector<std::size_t> order_of(const std::vector<CutLoop>& loops, const std::vector<std::array<int, 2>>& handle_of)
 {
-    std::vector<std::size_t> order(loops.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::size_t> order = numbers_below<std::size_t>(loops.size());
     std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
         const bool hole = loops[a].partner < 0, other_hole = loops[b].partner < 0;
         if (hole != other_hole) return hole;

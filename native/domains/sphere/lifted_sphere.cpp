@@ -1,6 +1,7 @@
 #include "sphere/lifted_sphere.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "pipeline/uniformize.h"
 #include "sphere/sphere_check.h"
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 namespace koebe {
@@ -97,8 +97,7 @@ std::vector<Index> vertices_by_star(const Triangles& triangles, const Vertices& 
             solid_angle(points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
         for (const Index v : triangles.row(f)) area[v] += std::max(own, 0.0);
     }
-    std::vector<Index> order(static_cast<std::size_t>(points.rows()));
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = numbers_below(points.rows());
     std::ranges::stable_sort(order, [&](Index a, Index b) { return area[a] > area[b]; });
     return order;
 }

@@ -1,5 +1,6 @@
 #include "sphere/sphere_check.h"
 
+#include "core/numbering.h"
 #include "execution/each_in_pieces.h"
 #include "planar/boundary_crossings.h"
 
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 namespace koebe {
@@ -40,8 +40,7 @@ std::optional<double> projected_area(const VertexLoop& loop, const Vertices& poi
         if (!(depth > 1e-3)) return std::nullopt;
         plane.row(static_cast<Eigen::Index>(b)) << p.dot(x) / depth, p.dot(y) / depth;
     }
-    VertexLoop order(loop.size());
-    std::iota(order.begin(), order.end(), 0);
+    VertexLoop order = numbers_below(loop.size());
     if (loops_cross({order}, plane, 0.0)) return std::nullopt;
     double area = 0.0;
     for (std::size_t b = 0; b < loop.size(); ++b)

@@ -1,5 +1,6 @@
 #include "sphere/sphere_layout.h"
 
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "core/tolerances.h"
 #include "execution/each_in_pieces.h"
@@ -16,7 +17,6 @@
 #include <functional>
 #include <iterator>
 #include <numbers>
-#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -85,8 +85,7 @@ private:
     /// Faces by polygon.
     void gather_polygons()
     {
-        std::vector<Index> number(face_count());
-        std::iota(number.begin(), number.end(), 0);
+        std::vector<Index> number = numbers_below(face_count());
         by_polygon_ = number;
         if (!surface_.polygon.empty()) {
             std::ranges::stable_sort(by_polygon_, {}, [&](Index f) { return surface_.polygon[f]; });

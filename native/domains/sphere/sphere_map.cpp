@@ -3,6 +3,7 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/enum_words.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "core/types.h"
 #include "even/even_map.h"
@@ -30,7 +31,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,8 +70,7 @@ ComputedDistortion distortion_on_sphere(const PeriodicSurface& domain, const Ver
 
 std::vector<Index> named(const PeriodicSurface& domain, const std::vector<Index>& vertices)
 {
-    std::vector<Index> result;
-    for (const Index v : vertices) result.push_back(domain.original[v]);
+    std::vector<Index> result = values_at(domain.original, vertices);
     std::ranges::sort(result);
     return result;
 }
@@ -113,8 +112,7 @@ void warn_of_sphere(const PeriodicSurface& domain, const PlaneMap& map, const Sp
     result.warnings = map.warnings;
     warn_reoriented(domain.surface.reoriented, result.warnings);
     warn_inside_out(domain.vertices, domain.surface, result.warnings);
-    std::vector<Index> unused(static_cast<std::size_t>(result.vertex_count));
-    std::iota(unused.begin(), unused.end(), 0);
+    std::vector<Index> unused = numbers_below(result.vertex_count);
     std::erase_if(unused, [&](Index v) { return std::ranges::binary_search(domain.original, v); });
     if (!unused.empty())
         result.warnings.push_back({WarningKind::unused_vertices,

@@ -1,6 +1,7 @@
 #include "tiles/tile.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "core/tolerances.h"
 #include "planar/boundary_crossings.h"
 #include "tiles/tile_cut.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -111,8 +111,7 @@ TileFaults find_faults(const PeriodicSurface& domain, const Tile& tile, HoleShap
             if (holes != HoleShape::open) {
                 bad |= points.col(holes == HoleShape::along_u ? 1 : 0).cwiseAbs().maxCoeff() > 0.0;
             } else {
-                VertexLoop order(loop.size());
-                std::iota(order.begin(), order.end(), 0);
+                VertexLoop order = numbers_below(loop.size());
                 bad |= area > 0 || loops_cross({order}, points, 2.0 * resolution);
             }
         }

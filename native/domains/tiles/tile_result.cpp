@@ -4,6 +4,7 @@
 #include "circles/on_circle.h"
 #include "core/connectivity.h"
 #include "core/counted.h"
+#include "core/numbering.h"
 #include "core/tolerances.h"
 #include "core/vertex_weights.h"
 #include "even/even_map.h"
@@ -220,9 +221,7 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
     if (!map.apart)
         result.warnings.push_back(
             {WarningKind::no_circles, "the circles of two holes meet: the mesh is too coarse between them"});
-    std::vector<Index> off_circle;
-    for (const Index v : map.off_circle) off_circle.push_back(domain.original[v]);
-    warn_off_circle(std::move(off_circle), result.warnings);
+    warn_off_circle(values_at(domain.original, map.off_circle), result.warnings);
     if (!faults.below_resolution.empty())
         result.warnings.push_back({WarningKind::below_resolution,
                                    counted(faults.below_resolution.size(), "face") + " too small for 32-bit UVs",

@@ -1,6 +1,7 @@
 #include "io/welding.h"
 
 #include "core/counted.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "cut/disjoint_sets.h"
 
@@ -169,8 +170,7 @@ std::optional<Warning> coincident_vertices(const Vertices& vertices, const Trian
     }
     sort_unique(rim);
     if (rim.empty()) return {};
-    std::vector<double> lengths;
-    for (const Index v : rim) lengths.push_back(shortest[v]);
+    std::vector<double> lengths = values_at(shortest, rim);
     std::ranges::nth_element(lengths, lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2));
 
     // Pairs that are close for the rims of both.

@@ -5,6 +5,7 @@
 #include "certified/module_enclosure.h"
 #include "certified/quadratic_functions.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "execution/detachable_run.h"
 #include "execution/memory_limit.h"
 #include "execution/thread_share.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -110,8 +110,7 @@ private:
 /// The triangles with the largest gaps, which make up a share of the whole gap.
 std::vector<char> largest_gaps(const VectorXd& gap)
 {
-    std::vector<Index> order(static_cast<std::size_t>(gap.size()));
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Index> order = numbers_below(gap.size());
     std::ranges::stable_sort(order, std::greater<>(), [&](Index f) { return gap[f]; });
     std::vector<char> marked(order.size(), 0);
     double sum = 0.0;

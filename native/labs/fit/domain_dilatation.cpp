@@ -2,6 +2,7 @@
 
 #include "bending/bend_between.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "fit/plane_beltrami.h"
 #include "planar/planar_mesh.h"
 #include "shape/conformal_module.h"
@@ -90,8 +91,7 @@ DomainMesh mesh_of(const std::vector<Circle>& circles)
 DilatationBounds bounds_one_way(const std::vector<Circle>& first, const std::vector<Circle>& second,
                                 ExecutionContext& context)
 {
-    std::vector<int> same(first.size());
-    std::iota(same.begin(), same.end(), 0);
+    std::vector<int> same = numbers_below<int>(first.size());
     const DomainAlignment alignment = align_domains(second, first, same, context);
     std::vector<Circle> from{Circle{}};
     for (std::size_t k = 1; k < first.size(); ++k) from.push_back(alignment.map(first[k]));
@@ -146,8 +146,7 @@ DilatationBounds domain_dilatation(const std::vector<Circle>& a, const std::vect
                                    ExecutionContext& context)
 {
     // Both ways take the loops in one order, and the domains too.
-    std::vector<std::size_t> order(a.size());
-    std::iota(order.begin(), order.end(), 0U);
+    std::vector<std::size_t> order = numbers_below<std::size_t>(a.size());
     std::vector<double> apart(a.size(), 0.0);
     for (std::size_t k = 1; k < a.size(); ++k)
         apart[k] = conformal_separation(a[0], a[k]) + conformal_separation(b[0], b[k]);

@@ -6,6 +6,7 @@
 #include "core/complex_places.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "execution/detachable_run.h"
 #include "fit/bounded_matches.h"
@@ -26,7 +27,6 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,12 +42,9 @@ struct OrderedDomain : CompactDomain {
 
 OrderedDomain ordered(MappedSurface a)
 {
-    std::vector<Index> given(a.loops.size());
-    std::iota(given.begin(), given.end(), 0);
+    std::vector<Index> given = numbers_below(a.loops.size());
     std::ranges::sort(given.begin() + 1, given.end(), {}, [&](Index k) { return a.loops[k].vertices; });
-    std::vector<LoopReport> loops;
-    for (const Index k : given) loops.push_back(a.loops[k]);
-    a.loops = std::move(loops);
+    a.loops = values_at(a.loops, given);
     return {compact(a), std::move(given)};
 }
 
@@ -99,8 +96,7 @@ std::vector<int> inverse_match(const OrderedDomain& a, const std::vector<Circle>
     }
     if (match.empty())
         return align_by_landmarks(b, a.circles, held.of(a.surface.uv, a.surface.triangles), held.places, context).match;
-    std::vector<int> all(b.size());
-    std::iota(all.begin(), all.end(), 0);
+    std::vector<int> all = numbers_below<int>(b.size());
     if (!std::is_permutation(all.begin(), all.end(), match.begin(), match.end()) || match[0] != 0)
         throw InputError("the match must name each of the loops of b once, the outer one first");
     for (std::size_t k = 0; k < b.size(); ++k) inverse[match[a.given[k]]] = static_cast<int>(k);
@@ -151,8 +147,7 @@ TemplateStart laid_over(const CompactDomain& domain, const std::vector<Circle>& 
                         PlanarPoints& undistorted, const ExecutionContext& context)
 {
     const Triangles& triangles = domain.surface.triangles;
-    std::vector<int> own(goal.size());
-    std::iota(own.begin(), own.end(), 0);
+    std::vector<int> own = numbers_below<int>(goal.size());
     TemplateStart start = lay_over_template(domain.circles, goal, own, triangles, domain.surface.uv, context);
     Moebius symmetry;
     AlignedDomain laid =

@@ -2,10 +2,10 @@
 
 #include "circles/circle_fit.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -17,8 +17,7 @@ constexpr double unit_circle_error = 1e-6;  // of the outer circle's centre and 
 
 std::vector<int> checked_order(std::size_t count, const std::vector<int>& order)
 {
-    std::vector<int> natural(count);
-    std::iota(natural.begin(), natural.end(), 0);
+    std::vector<int> natural = numbers_below<int>(count);
     if (order.empty()) return natural;
     if (!std::is_permutation(natural.begin(), natural.end(), order.begin(), order.end()))
         throw InputError("the order must name each of the " + std::to_string(count) + " loops once");

@@ -1,6 +1,7 @@
 #include "shape/domain_alignment.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"
 
@@ -90,9 +91,7 @@ Fit improve(const std::vector<Circle>& source, const std::vector<Circle>& target
 /// These loops of a domain as 0, 1, 2.
 std::vector<Circle> chosen(const std::vector<Circle>& circles, std::initializer_list<std::size_t> numbers)
 {
-    std::vector<Circle> result;
-    for (const std::size_t k : numbers) result.push_back(circles[k]);
-    return result;
+    return values_at(circles, numbers);
 }
 
 std::vector<Moebius> starts(const std::vector<Circle>& source, const std::vector<Circle>& target,
@@ -125,8 +124,7 @@ DomainAlignment align_domains(const std::vector<Circle>& source, const std::vect
     } else {
         require_circle_domain(source);
         require_circle_domain(target);
-        std::vector<int> natural(source.size());
-        std::iota(natural.begin(), natural.end(), 0);
+        std::vector<int> natural = numbers_below<int>(source.size());
         if (target.size() != source.size() || match[0] != 0 ||
             !std::is_permutation(natural.begin(), natural.end(), match.begin(), match.end()))
             throw InputError("the match must name each of the target's loops once, the outer one first");

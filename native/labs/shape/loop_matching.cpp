@@ -1,13 +1,13 @@
 #include "shape/loop_matching.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "shape/assignment.h"
 #include "shape/conformal_module.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -46,8 +46,7 @@ struct View {
 /// Orders in which inner[i] of one domain corresponds to partner[i] of the other.
 LoopMatch in_common_order(const View& a, const View& b, const std::vector<int>& inner, const std::vector<int>& partner)
 {
-    std::vector<std::size_t> rank(inner.size());
-    std::iota(rank.begin(), rank.end(), std::size_t{0});
+    std::vector<std::size_t> rank = numbers_below<std::size_t>(inner.size());
     std::ranges::stable_sort(rank, {},
                              [&](std::size_t i) { return a.separation[inner[i]] + b.separation[partner[i]]; });
     LoopMatch match{{a.outer}, {b.outer}};

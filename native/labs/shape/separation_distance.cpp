@@ -1,6 +1,7 @@
 #include "shape/separation_distance.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "shape/conformal_module.h"
 
 #include <algorithm>
@@ -128,8 +129,7 @@ SeparationMatch match_separations(const std::vector<Circle>& a, const std::vecto
 double separation_distance(const std::vector<Circle>& a, const std::vector<Circle>& b, const std::vector<int>& match)
 {
     require_same_count(a, b);
-    std::vector<int> all(a.size());
-    std::iota(all.begin(), all.end(), 0);
+    std::vector<int> all = numbers_below<int>(a.size());
     if (!std::is_permutation(all.begin(), all.end(), match.begin(), match.end()))
         throw InputError("the match must name each of the " + std::to_string(a.size()) + " loops once");
     const MatrixXd of_a = conformal_separations(a), of_b = conformal_separations(b)(match, match);

@@ -1,6 +1,7 @@
 #include "transfer/landmark_alignment.h"
 
 #include "circles/point_alignment.h"
+#include "core/numbering.h"
 #include "transfer/landmark_map.h"
 
 #include <Eigen/LU>
@@ -160,8 +161,7 @@ DomainAlignment align_by_landmarks(const std::vector<Circle>& source, const std:
                alignment.residual * alignment.residual;
     };
     double least = squares(best);
-    std::vector<int> match(source.size());
-    std::iota(match.begin(), match.end(), 0);
+    std::vector<int> match = numbers_below<int>(source.size());
     do {
         DomainAlignment next = align_domains(source, target, match, context);
         if (const double sum = squares(next); sum < least) {

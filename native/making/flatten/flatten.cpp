@@ -14,6 +14,7 @@
 #include "flatten/stretch.h"
 #include "linear/dense_spd.h"
 #include "parts/flat_mesh.h"
+#include "parts/flat_repair.h"
 #include "planar/planar_predicates.h"
 #include "quality/shared_warnings.h"
 

@@ -1,6 +1,7 @@
 #include "lift/bent_mesh.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "lift/outline_places.h"
 #include "planar/planar_predicates.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace koebe {
@@ -48,8 +48,7 @@ bool lies_over(const Corners& face, Complex p, Complex q)
 /// The number of the connected part of each vertex.
 std::vector<Index> parts_of_mesh(const Triangles& triangles, Index count)
 {
-    std::vector<Index> part(count);
-    std::iota(part.begin(), part.end(), 0);
+    std::vector<Index> part = numbers_below(count);
     const auto root = [&](Index v) {
         while (part[v] != v) v = part[v] = part[part[v]];
         return v;

@@ -1,6 +1,7 @@
 #include "lift/clipped_outlines.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "cut/disjoint_sets.h"
 
@@ -21,7 +22,7 @@ public:
           twin_(pair_halfedges(overlay.triangles, static_cast<Index>(overlay.vertices.rows()))),
           piece_(overlay.face.size(), -1)
     {
-        for (const Index f : overlay.face) gap_.push_back(filled.gap[f]);
+        gap_ = values_at(filled.gap, overlay.face);
         for (Index f = 0; f < static_cast<Index>(piece_.size()); ++f)
             if (gap_[f] < 0 && overlay.region[f] >= 0 && piece_[f] < 0) take_piece(f);
     }

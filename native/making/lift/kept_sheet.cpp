@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "lift/flat_sheet.h"
 #include "lift/solid.h"
@@ -29,8 +30,7 @@ Vertices moved_sheet(const Vertices& vertices, const Vertices& normals, const Ve
     try {
         return moved_along(vertices, normals, by, triangles);
     } catch (const InputError& error) {
-        std::vector<Index> faces;
-        for (const Index f : error.elements()) faces.push_back(face[f]);
+        std::vector<Index> faces = values_at(face, error.elements());
         sort_unique(faces);
         throw InputError(error.what(), ElementKind::faces, std::move(faces));
     }

@@ -21,7 +21,8 @@ from .io.formats import GIFTI, MESHIO, NATIVE, PYVISTA, is_foreign_surface, is_f
 from .io.meshes import SPHERE
 from .io.vertex_fields import read_region
 from .maps.input import surface_of
-from .maps.result import MapReport, Source
+from .maps.result import MapReport
+from .maps.source import Source
 
 _WRITE_NO_MESH = ("module", "compare", "batch", "sequence", "flatten")
 _MAKE_CUTS = ("parts", "ring", "torus", "schottky")

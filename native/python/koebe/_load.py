@@ -12,7 +12,8 @@ from .errors import InputError
 from .labs.fit import FitResult
 from .labs.sphere_transfer import loaded_correspondence
 from .maps.domain_map import DomainMap
-from .maps.result import MapReport, Source, UniformizeResult
+from .maps.result import MapReport, UniformizeResult
+from .maps.source import Source
 
 
 def load(path: str | os.PathLike[str]) -> Any:

@@ -3,6 +3,7 @@
 #include "canonical/canonical_position.h"
 #include "canonical/canonical_walk.h"
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cut/edge_runs.h"
 #include "mesh/topology.h"
 
@@ -244,8 +245,7 @@ CanonicalMesh canonical_mesh(const Vertices& vertices, const Triangles& triangle
     }
     CanonicalPosition position =
         turned_position(mesh.triangles, Vertices(positions(mesh.original_vertices, Eigen::all)));
-    std::vector<Index> all(vertices.rows());
-    std::iota(all.begin(), all.end(), 0);
+    std::vector<Index> all = numbers_below(vertices.rows());
     append_unmet(all, rank, mesh.original_vertices);
     mesh.vertices = Vertices::Zero(vertices.rows(), 3);
     mesh.vertices.topRows(position.vertices.rows()) = position.vertices;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/types.h"
 #include "quality/report.h"
 
@@ -65,12 +66,7 @@ private:
     template <class Value>
     static std::vector<Value> taken(const std::vector<Value>& values, const std::vector<Index>& names)
     {
-        std::vector<Value> result;
-        if (values.size() == names.size())
-            for (const Index name : names) result.push_back(values[name]);
-        else
-            result = values;  // the reader reports the wrong size
-        return result;
+        return values.size() == names.size() ? values_at(values, names) : values;  // the reader reports the wrong size
     }
     static void name(Index& number, const std::vector<Index>& names)
     {

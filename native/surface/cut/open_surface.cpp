@@ -2,6 +2,7 @@
 
 #include "core/enum_words.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "core/types.h"
 #include "cut/edge_graph.h"
@@ -86,8 +87,7 @@ std::vector<Index> first_alike(const Triangles& triangles)
         if (!is_degenerate(triangles, f)) order.push_back(f);
     std::ranges::stable_sort(
         order, [&](Index f, Index g) { return sorted_corners(triangles, f) < sorted_corners(triangles, g); });
-    std::vector<Index> first(static_cast<std::size_t>(triangles.rows()));
-    std::iota(first.begin(), first.end(), 0);
+    std::vector<Index> first = numbers_below(triangles.rows());
     for (std::size_t i = 1; i < order.size(); ++i)
         if (sorted_corners(triangles, order[i]) == sorted_corners(triangles, order[i - 1]))
             first[order[i]] = first[order[i - 1]];

@@ -2,11 +2,11 @@
 
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "planar/planar_predicates.h"
 
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace koebe {
@@ -68,8 +68,7 @@ PlanarMesh planar_patch(const VectorXcd& polygon, const PlanarMeshOptions& optio
 
 std::vector<Index> chosen_ranks(const Surface& surface, const std::optional<std::vector<Index>>& loops)
 {
-    std::vector<Index> ranks(surface.loops.size());
-    std::iota(ranks.begin(), ranks.end(), 0);
+    std::vector<Index> ranks = numbers_below(surface.loops.size());
     if (!loops) return ranks;
     for (const Index k : *loops)
         if (k < 0 || k >= static_cast<Index>(surface.loops.size()))

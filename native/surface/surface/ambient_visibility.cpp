@@ -1,5 +1,6 @@
 #include "surface/ambient_visibility.h"
 
+#include "core/numbering.h"
 #include "core/silent_cgal.h"
 #include "surface/face_vectors.h"
 #include "surface/triangle_tree.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace koebe {
@@ -71,8 +71,7 @@ std::vector<Index> first_neighbours(const Vertices& vertices, const Triangles& t
 VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles)
 {
     const SilentCgal silent;
-    std::vector<Index> faces(static_cast<std::size_t>(triangles.rows()));
-    std::iota(faces.begin(), faces.end(), 0);
+    std::vector<Index> faces = numbers_below(triangles.rows());
     const TriangleTree tree(faces.cbegin(), faces.cend(), vertices, triangles);
     const Vertices normals = outward_normals(vertices, triangles);
     const std::vector<Index> neighbour = first_neighbours(vertices, triangles);

@@ -1,5 +1,6 @@
 #include "surface/nearest_triangles.h"
 
+#include "core/numbering.h"
 #include "core/silent_cgal.h"
 #include "surface/triangle_tree.h"
 
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace koebe {
@@ -80,8 +80,7 @@ PlacesInTriangles nearest(const Vertices& corners, const Triangles& triangles, c
                           InnerWeights&& inner_weights)
 {
     const SilentCgal silent;
-    std::vector<Index> faces(triangles.rows());
-    std::iota(faces.begin(), faces.end(), 0);
+    std::vector<Index> faces = numbers_below(triangles.rows());
     TriangleTree tree(faces.cbegin(), faces.cend(), corners, triangles);
     tree.accelerate_distance_queries();
 

@@ -4,13 +4,13 @@
 #include "core/connectivity.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "execution/memory_limit.h"
 #include "mesh/loop_with.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -171,8 +171,7 @@ void order_loops(PeriodicSurface& domain, std::vector<std::size_t> first)
     const auto& loops = domain.surface.loops;
     std::vector<double> length;
     for (const VertexLoop& loop : loops) length.push_back(loop_edges(domain.vertices, loop).sum());
-    std::vector<std::size_t> order(loops.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::size_t> order = numbers_below<std::size_t>(loops.size());
     std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return length[a] > length[b]; });
     for (const std::size_t k : order)
         if (std::ranges::find(first, k) == first.end()) first.push_back(k);
@@ -214,8 +213,7 @@ std::array<int, 2> PeriodicSurface::shift(Index halfedge) const
 
 VertexLoop PeriodicSurface::named_loop(std::size_t k) const
 {
-    VertexLoop named;
-    for (const Index v : loops[k]) named.push_back(original[v]);
+    VertexLoop named = values_at(original, loops[k]);
     std::rotate(named.begin(), std::ranges::min_element(named), named.end());
     return named;
 }

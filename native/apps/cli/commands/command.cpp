@@ -5,6 +5,7 @@
 #include "cli/process/error_line.h"
 #include "cli/process/scarce_memory.h"
 #include "cli/process/standard_streams.h"
+#include "core/numbering.h"
 #include "exit_code.h"
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 #include <exception>
 #include <functional>
 #include <new>
-#include <numeric>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -58,8 +58,7 @@ int run_guarded(const std::function<int()>& run)
 /// How many letters must be changed, added or left out to make one word the other [Levenshtein 1966].
 std::size_t edit_distance(const std::string& a, const std::string& b)
 {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
+    std::vector<std::size_t> row = numbers_below<std::size_t>(b.size() + 1);
     for (std::size_t i = 1; i <= a.size(); ++i) {
         std::size_t corner = std::exchange(row[0], i);
         for (std::size_t j = 1; j <= b.size(); ++j)

@@ -9,6 +9,7 @@
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "cli/process/standard_streams.h"
+#include "core/numbering.h"
 #include "exit_code.h"
 
 #include "core/counted.h"
@@ -61,8 +62,7 @@ int run_family(const CompareRequest& request, const CancelToken& token)
     const ShapeFamily family = read_family(
         request, mesh_files(paths),
         [](const ShapeInput& shape) {
-            std::vector<int> order(shape.circles.size());
-            std::iota(order.begin(), order.end(), 0);
+            std::vector<int> order = numbers_below<int>(shape.circles.size());
             return order;
         },
         token);

@@ -11,6 +11,7 @@
 #include "cli/process/interrupt.h"
 #include "cli/process/progress_line.h"
 #include "cli/process/standard_streams.h"
+#include "core/numbering.h"
 #include "exit_code.h"
 
 #include "certified/capacities.h"
@@ -22,7 +23,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <numeric>
 
 namespace koebe::cli {
 namespace {
@@ -57,8 +57,7 @@ std::vector<int> chosen_order(const ShapeInput& shape, const ModuleRequest& requ
     if (request.loops == std::vector<std::string>{"canonical"})
         return canonical_order(shape.circles, request.any_outer);
     if (request.loops != std::vector<std::string>{"length"}) return order_of_ranks(shape, request.loops);
-    std::vector<int> order(shape.circles.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<int> order = numbers_below<int>(shape.circles.size());
     return order;
 }
 

@@ -3,6 +3,7 @@
 #include "batch/content_hash.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "execution/detachable_run.h"
 #include "execution/stopwatch.h"
@@ -105,9 +106,7 @@ std::vector<double> of_triangles(const MeshInput& input, const std::vector<doubl
     if (of_faces.size() != static_cast<std::size_t>(input.polygons.face_count()))
         throw InputError("there must be a number for each of the " + counted(input.polygons.face_count(), "face") +
                          ", not " + std::to_string(of_faces.size()));
-    std::vector<double> found;
-    for (const Index face : input.triangulation.face) found.push_back(of_faces[face]);
-    return found;
+    return values_at(of_faces, input.triangulation.face);
 }
 
 std::vector<std::array<Index, 2>> marked_edges(const MeshInput& input)
@@ -149,9 +148,7 @@ void add_input_warnings(const MeshInput& input, std::vector<Warning>& warnings)
 
 std::vector<Index> filed_faces(const Triangulation& triangulation, const std::vector<Index>& triangles)
 {
-    std::vector<Index> faces;
-    faces.reserve(triangles.size());
-    for (const Index t : triangles) faces.push_back(triangulation.face[static_cast<std::size_t>(t)]);
+    std::vector<Index> faces = values_at(triangulation.face, triangles);
     sort_unique(faces);
     return faces;
 }

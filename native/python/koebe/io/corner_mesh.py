@@ -18,7 +18,7 @@ from .meshes import (
 )
 
 if TYPE_CHECKING:
-    from ..maps.result import Source
+    from ..maps.source import Source
 
 
 def mesh_with_corner_uv(

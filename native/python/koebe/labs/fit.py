@@ -13,7 +13,8 @@ from .._options import callback, flag, takes, token, vertex
 from .._signatures import ShapesOptions, Unpack
 from ..errors import InputError
 from ..maps.input import polygons_of, surface_of
-from ..maps.result import Source, UniformizeResult, with_origin
+from ..maps.result import UniformizeResult
+from ..maps.source import Source, with_origin
 from ..maps.uniformize import solver_options
 
 

@@ -11,7 +11,8 @@ from .._options import whole
 from .._progress import Progress, Run
 from ..errors import InputError, KoebeError, OptionError, SolverError
 from ..maps.input import surface_of
-from ..maps.result import Source, UniformizeResult
+from ..maps.result import UniformizeResult
+from ..maps.source import Source
 from ..maps.surface import Surface
 from .shapes import chosen_order, conformal_module
 

@@ -8,7 +8,7 @@ from .._native import _koebe
 from .._options import takes
 from .._signatures import FlattenOptions, Unpack
 from ..maps.domain_map import DomainMap, domain_map
-from ..maps.result import Source
+from ..maps.source import Source
 
 
 class FlattenResult(DomainMap):

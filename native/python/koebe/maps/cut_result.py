@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from .domain_map import DomainMap
-from .result import Seconds, Source
+from .result import Seconds
+from .source import Source
 
 
 class CutResult(DomainMap):

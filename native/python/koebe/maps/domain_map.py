@@ -9,7 +9,8 @@ from .._options import callback, filled, token, vertex_weights
 from ..errors import OptionError
 from ..io.corner_mesh import mesh_with_corner_uv
 from .input import polygons_of, surface_of
-from .result import MapReport, Source
+from .result import MapReport
+from .source import Source
 
 
 class DomainMap(MapReport):

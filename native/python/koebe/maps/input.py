@@ -12,7 +12,7 @@ from .._native import _koebe
 from ..errors import InputError
 from ..io.formats import is_foreign_surface, read_surface
 from ..io.meshes import Polygons, can_give_back, is_mesh, plain, read_mesh
-from .result import Source
+from .source import Source
 
 
 def surface_of(

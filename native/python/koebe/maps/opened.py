@@ -10,7 +10,7 @@ from .._comparable import Comparable
 from .._native import _koebe
 from .._options import callback, token
 from .input import polygons_of, surface_of
-from .result import Source
+from .source import Source
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from .._signatures import PartsOptions, Unpack
 from ..errors import InputError
 from .domain_map import DomainMap, prepared
 from .input import polygons_of
-from .result import Source
+from .source import Source
 
 
 class PartsResult(DomainMap):

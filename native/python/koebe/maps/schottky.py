@@ -8,7 +8,8 @@ from .._native import _koebe
 from .._options import takes
 from .._signatures import SchottkyOptions, Unpack
 from .domain_map import DomainMap, domain_map
-from .result import Seconds, Source
+from .result import Seconds
+from .source import Source
 
 
 class SchottkyMap(DomainMap):

@@ -9,7 +9,8 @@ from .._options import takes
 from .._signatures import SphereOptions, Unpack
 from ..io.meshes import SPHERE
 from .domain_map import DomainMap, domain_map
-from .result import Seconds, Source
+from .result import Seconds
+from .source import Source
 
 
 class SphereMap(DomainMap):

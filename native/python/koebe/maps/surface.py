@@ -12,7 +12,8 @@ from .._progress import Progress
 from .._signatures import SequenceOptions, Unpack
 from ..errors import InputError
 from .input import is_surface, polygons_of, surface_of
-from .result import Source, UniformizeResult, with_origin
+from .result import UniformizeResult
+from .source import Source, with_origin
 from .uniformize import importance_of, solver_options
 
 

@@ -15,7 +15,8 @@ from .._signatures import UniformizeOptions, Unpack
 from ..errors import InputError, OptionError, SolverError, TopologyError
 from .cut_result import CutResult
 from .input import is_surface, points_at_vertices, polygons_of, surface_of
-from .result import Source, UniformizeResult, with_origin
+from .result import UniformizeResult
+from .source import Source, with_origin
 
 
 def _check_mesh_engine(chosen: Mapping[str, Any], given: Mapping[str, Any]) -> None:
