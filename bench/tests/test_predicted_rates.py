@@ -58,8 +58,8 @@ def test_no_sweep_is_slower_than_the_proof_says():
 
 def test_each_letter_divides_the_area_as_the_proof_says():
     """Both collars of each word, as circles: nested as Lemma 2 needs it, and the sum of areas below P3."""
-    circles = predicted_rates.turned_out(predicted_rates.draw(3, 2))
-    ratio = predicted_rates.proved(circles) ** 0.25  # 1 / t
+    drawn = predicted_rates.draw(3, 2)
+    circles, ratio = predicted_rates.turned_out(drawn), predicted_rates.proved(drawn) ** 0.25  # 1 / t
 
     def edge(word, size, mirrors):
         """The circle of the last letter, larger by a factor, after the mirrors of the letters before."""
