@@ -208,7 +208,7 @@ double SlitMap::solve_once()
     }
     const VectorXd found = least_squares(equations, wanted);
     coefficients_.clear();
-    Eigen::Index at = loops;
+    auto at = static_cast<Eigen::Index>(circles_.size());
     for (const int count : powers_) {
         VectorXcd own(count);
         for (int j = 0; j < count; ++j, at += 2) own[j] = {found[at], found[at + 1]};
