@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How exact is the module of a mesh, and the one extrapolated from it and a finer mesh? Eight domains with known circles
-(bench/polyhedron_error.py).
+"""How exact is the module of a mesh, and the one extrapolated from it and a finer mesh? Eight domains with known
+circles (bench/polyhedron_error.py).
 
 Usage: extrapolated_circles.py        prints docs/data/extrapolated_circles.csv
 """

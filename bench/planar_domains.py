@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""koebe.planar on polygonal domains of the toolbox PlgCirMap (Nasser 2020, examples b2, b4 and b17): error and processor seconds.
+"""koebe.planar on polygonal domains of the toolbox PlgCirMap (Nasser 2020, examples b2, b4 and b17): error and
+processor seconds.
 
 Usage: planar_domains.py        prints a table in Markdown
 """

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures of docs/proof.md: docs/images/proof_levels.svg, the copies of a circle domain that the map has reached
-after some steps, by the words of the page's Lemma 1; proof_collars.svg, the collars of Lemma 2; and proof_errors.svg, the
-errors of four orders of the steps against the number of factorizations. Only the last needs build/bench/koebe_rates.
+after some steps, by the words of the page's Lemma 1; proof_collars.svg, the collars of Lemma 2; and proof_errors.svg,
+the errors of four orders of the steps against the number of factorizations. Only that needs build/bench/koebe_rates.
 
     scripts/proof_pictures.py [FOLDER]        default: docs/images
 """

@@ -70,7 +70,8 @@ def test_answers_to_random_surfaces_are_the_measured_ones():
 def test_figures_of_planar_domains_are_the_measured_ones():
     with open(ROOT / "docs" / "data" / "planar_peers.csv", encoding="utf-8", newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["domain"].startswith("b")]
-    ours, theirs = ([row for row in rows if row["program"] == name] for name in ("koebe planar", "PlgCirMap, its default"))
+    programs = ("koebe planar", "PlgCirMap, its default")
+    ours, theirs = ([row for row in rows if row["program"] == name] for name in programs)
     for pattern, measured in (("off by {0} after {0} s; that", ours), ("Octave, by {0} after {0} s", theirs)):
         three = r"([\d.e-]+), ([\d.e-]+) and ([\d.e-]+)"
         columns = [number(row[name]) for name in ("error of the module", "processor seconds") for row in measured]

@@ -114,7 +114,8 @@ def _plain(value: Any) -> Any:
 def _mapped(text: str, is_svg: bool, given: dict[str, Any], progress: Any = None, cancel: Any = None) -> PlanarMap:
     pole = given["pole"]
     options, _ = filled("planar", _koebe.PlanarOptions(), given)
-    options.pole = None if pole is None else complex(*_places([pole] if np.ndim(pole) else np.array([pole], complex))[0])
+    if pole is not None:
+        options.pole = complex(*_places([pole] if np.ndim(pole) else np.array([pole], complex))[0])
     native = _koebe.planar_map(text, is_svg, options, progress, token(cancel, "cancel"))
     centers, radii = native.circles
     order, residuals = np.array(native.order, np.int32), np.array(native.residuals)
