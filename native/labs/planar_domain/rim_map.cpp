@@ -29,7 +29,7 @@ void add_pole(Complex coefficient, Complex pole, const Places& x, const Places& 
 }
 
 /// 1 / z, without the checks of the language's division, which cost more than all else.
-Complex inverse_of(Complex z) { return std::conj(z) / std::norm(z); }
+Complex reciprocal(Complex z) { return std::conj(z) / std::norm(z); }
 
 Complex corner_coordinate(const RimCorner& corner, Complex from_vertex)
 {
@@ -88,9 +88,9 @@ void RimMap::fill_row(Complex z, const RimSample* own, Complex* row) const
     for (std::size_t c = 0; c < corners_.size(); ++c) {
         const bool near = own && own->corner == static_cast<int>(c);
         const Complex w = corner_coordinate(corners_[c], near ? own->offset : z - corners_[c].vertex);
-        for (const double pole : corners_[c].poles) *row++ = -pole * inverse_of(w - pole);
+        for (const double pole : corners_[c].poles) *row++ = -pole * reciprocal(w - pole);
     }
-    for (const Complex pole : poles_) *row++ = scale_ * inverse_of(z - pole);
+    for (const Complex pole : poles_) *row++ = scale_ * reciprocal(z - pole);
     const Complex ratio = is_outer_ ? (z - center_) / scale_ : scale_ / (z - center_);
     Complex power = ratio;
     for (int j = 0; j < powers_; ++j, power *= ratio) *row++ = power;
@@ -150,7 +150,7 @@ void RimMap::add_functions(const Complex* z, const RimSample* own, Places& real,
     }
     for (const Complex pole : poles_) add_pole(scale_ * *coefficient++, pole, x, y, real, imaginary);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-        const Complex ratio = is_outer_ ? (z[i] - center_) / scale_ : scale_ * inverse_of(z[i] - center_);
+        const Complex ratio = is_outer_ ? (z[i] - center_) / scale_ : scale_ * reciprocal(z[i] - center_);
         u[i] = ratio.real();
         v[i] = ratio.imag();
     }
