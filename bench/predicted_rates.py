@@ -53,9 +53,9 @@ def turned_out(circles):
 
 
 def proved(circles):
-    """The factor below which docs/proof.md brings every sweep: 1 / t^2, t as large as P1 allows."""
+    """The factor below which docs/proof.md brings every sweep: 1 / t^4, t as large as P1 allows."""
     seen = turned_out(circles)
-    return max((r + s) / abs(c - d) for k, (c, r) in enumerate(seen) for d, s in seen[:k]) ** 2
+    return max((r + s) / abs(c - d) for k, (c, r) in enumerate(seen) for d, s in seen[:k]) ** 4
 
 
 def interaction(circles):

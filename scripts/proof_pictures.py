@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The pictures of docs/proof.md: docs/images/proof_levels.svg, the copies of a circle domain that the map has reached
-after some steps, by the words of the page's Lemma 1; and proof_errors.svg, the errors of four orders of the steps
-against the number of factorizations. NumPy alone for the first, build/bench/koebe_rates for the second.
+after some steps, by the words of the page's Lemma 1; proof_collars.svg, the collars of Lemma 2; and proof_errors.svg,
+the errors of four orders of the steps against the number of factorizations. Only that needs build/bench/koebe_rates.
 
     scripts/proof_pictures.py [FOLDER]        default: docs/images
 """
@@ -133,6 +133,36 @@ def levels_picture():
     return "\n".join([*filter(None, parts), "</svg>\n"])
 
 
+# ---------------------------------------------------------------- the picture of the collars
+
+OUTER, INNER = "#e08a78", "#86a8d6"
+
+
+def collar_edge(word, size):
+    """The circle of the last letter, larger by a factor, after the mirrors of the letters before."""
+    circle = (CIRCLES[word[-1]][0], CIRCLES[word[-1]][1] * size)
+    for k in reversed(word[:-1]):
+        circle = reflected(circle, CIRCLES[k])
+    return circle
+
+
+def collars_picture():
+    """Outer and inner collars of words of one letter and two, as wide as P1 allows."""
+    n = len(CIRCLES)
+    width = min(abs(c - d) / (r + s) for k, (c, r) in enumerate(CIRCLES) for d, s in CIRCLES[:k])
+    size = 2 * (SIZE + GAP)
+    frame_scale = (size - 2 * GAP) / SIZE
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{size}" height="{size}" viewBox="0 0 {size} {size}">',
+        f'<rect width="100%" height="100%" fill="{PAPER}"/>',
+        f'<g transform="translate({GAP} {GAP}) scale({frame_scale:.3f})">',
+    ]
+    for word in [*((k,) for k in range(n)), *((j, k) for j in range(n) for k in range(n) if j != k)]:
+        for edge, fill in ((width, OUTER), (1.0, INNER), (1.0 / width, PAPER)):
+            parts.append(drawn(collar_edge(word, edge), (0, 0), fill, 0.8 if edge == 1.0 else 0.2))
+    return "\n".join([*filter(None, parts), "</g></svg>\n"])
+
+
 # ---------------------------------------------------------------- the picture of the errors
 
 ORDERS = {
@@ -164,6 +194,7 @@ def errors_picture():
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "docs" / "images"
     (folder / "proof_levels.svg").write_text(levels_picture(), encoding="utf-8")
+    (folder / "proof_collars.svg").write_text(collars_picture(), encoding="utf-8")
     (folder / "proof_errors.svg").write_text(errors_picture(), encoding="utf-8")
 
 

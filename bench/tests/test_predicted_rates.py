@@ -53,7 +53,33 @@ def test_no_sweep_is_slower_than_the_proof_says():
         for values in predicted_rates.predicted(circles).values():
             assert abs(values[0]) < bounds[-1] < 1.0
     page = (ROOT / "docs" / "proof.md").read_text(encoding="utf-8")
-    assert f"$t^{{-2}}$ is {min(bounds):.2f} to {max(bounds):.2f}" in page
+    assert f"$t^{{-4}}$ is {min(bounds):.2f} to {max(bounds):.2f}" in page
+
+
+def test_each_letter_divides_the_area_as_the_proof_says():
+    """Both collars of each word, as circles: nested as Lemma 2 needs it, and the sum of areas below P3."""
+    drawn = predicted_rates.draw(3, 2)
+    circles, ratio = predicted_rates.turned_out(drawn), predicted_rates.proved(drawn) ** 0.25  # 1 / t
+
+    def edge(word, size, mirrors):
+        """The circle of the last letter, larger by a factor, after the mirrors of the letters before."""
+        circle = (circles[word[-1]][0], circles[word[-1]][1] * size)
+        for k in reversed(mirrors):
+            circle = proof_pictures.reflected(circle, circles[k])
+        return circle
+
+    def fits(inner, outer):
+        return abs(inner[0] - outer[0]) + inner[1] <= outer[1] + 1e-14
+
+    words, first = [(k,) for k in range(len(circles))], sum(r * r for _, r in circles)
+    for letters in range(1, 5):
+        for word in words:
+            inside = edge(word, ratio, word[:-1])  # the inner edge of its inner collar
+            assert (inside[1] / edge(word, 1 / ratio, word[:-1])[1]) ** 2 <= ratio**4 * (1 + 1e-9)
+            children = [(*word, k) for k in range(len(circles)) if k != word[-1]]
+            assert all(fits(edge(child, 1 / ratio, word), inside) for child in children)
+        words = [(*word, k) for word in words for k in range(len(circles)) if k != word[-1]]
+        assert sum(edge(word, 1.0, word[:-1])[1] ** 2 for word in words) <= first * ratio ** (4 * letters)
 
 
 ORDERS = {
@@ -82,9 +108,10 @@ def test_a_sweep_of_each_order_raises_the_level_of_the_proof(n):
         assert proof_pictures.level(words) >= 2 * steps // n
 
 
-def test_the_picture_of_the_levels_is_what_the_script_draws():
-    drawn = (ROOT / "docs" / "images" / "proof_levels.svg").read_text(encoding="utf-8")
-    assert drawn == proof_pictures.levels_picture()
+@pytest.mark.parametrize("name", ["levels", "collars"])
+def test_the_pictures_of_the_proof_are_what_the_script_draws(name):
+    drawn = (ROOT / "docs" / "images" / f"proof_{name}.svg").read_text(encoding="utf-8")
+    assert drawn == getattr(proof_pictures, f"{name}_picture")()
 
 
 @pytest.mark.skipif(not table_surfaces.MESHER.exists(), reason="build/bench/planar_mesher is not built")

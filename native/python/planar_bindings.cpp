@@ -9,6 +9,7 @@
 #include "planar_domain/planar_map.h"
 #include "report/planar_json.h"
 
+#include <pybind11/complex.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
@@ -18,7 +19,7 @@ namespace koebe::python {
 
 void bind_planar(py::module_& m)
 {
-    bind_options<PlanarOptions>(m, "PlanarOptions");
+    bind_options<PlanarOptions>(m, "PlanarOptions").def_readwrite("pole", &PlanarOptions::pole);
     py::class_<PlanarResult>(m, "PlanarResult")
         .def_property_readonly("circles", [](const PlanarResult& result) { return arrays_of(result.circles); })
         .def_readonly("order", &PlanarResult::order)
@@ -31,6 +32,17 @@ void bind_planar(py::module_& m)
         .def_readonly("sweeps", &PlanarResult::sweeps)
         .def_readonly("levels", &PlanarResult::levels)
         .def_readonly("unknowns", &PlanarResult::unknowns)
+        .def_readonly("slit_error", &PlanarResult::slit_error)
+        .def_property_readonly("slits",
+                               [](const PlanarResult& result) {
+                                   std::vector<std::pair<Complex, Complex>> ends;
+                                   for (const Slit& slit : result.slits) ends.emplace_back(slit.begin, slit.end);
+                                   return ends;
+                               })
+        .def("slit_image",
+             [](const PlanarResult& result, Points places) {
+                 return detached([map = result.map, z = complex(places)] { return planar(map.slit_images(z)); });
+             })
         .def("report", [](const PlanarResult& result) { return to_object(to_json(result)); })
         .def("image",
              [](const PlanarResult& result, Points places) {

@@ -73,6 +73,10 @@ void bind_shapes(py::module_& m)
               });
               return py::make_tuple(arrays_of(found.circles), arrays_of(found.of_upper_bounds));
           });
+    m.def("extrapolated_circles", [](const PlanarPoints& centers_a, const VectorXd& radii_a,
+                                     const PlanarPoints& centers_b, const VectorXd& radii_b) {
+        return arrays_of(extrapolated_circles(circles_of(centers_a, radii_a), circles_of(centers_b, radii_b)));
+    });
     m.def("polygonal_changes", [](const MappedSurface& surface) {
         return polygonal_changes(surface.vertices, surface.triangles, surface.uv, surface.loops);
     });

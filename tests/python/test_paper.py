@@ -1,6 +1,7 @@
 """The paper on the project: its sections and length are as its journal asks, its references are listed, and its figures
 are the measured ones."""
 
+import csv
 import json
 import re
 from pathlib import Path
@@ -64,6 +65,17 @@ def test_answers_to_random_surfaces_are_the_measured_ones():
     assert wrong == 0 and "none was wrong" in " ".join(BODY.split())
     answers = said(r"Of ([\d,]+) answers none was wrong: ([\d,]+) were right, (\d+) were typed errors, and (\d+) said")
     assert answers == [right + error + open_end, right, error, open_end]
+
+
+def test_figures_of_planar_domains_are_the_measured_ones():
+    with open(ROOT / "docs" / "data" / "planar_peers.csv", encoding="utf-8", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["domain"].startswith("b")]
+    programs = ("koebe planar", "PlgCirMap, its default")
+    ours, theirs = ([row for row in rows if row["program"] == name] for name in programs)
+    for pattern, measured in (("off by {0} after {0} s; that", ours), ("Octave, by {0} after {0} s", theirs)):
+        three = r"([\d.e-]+), ([\d.e-]+) and ([\d.e-]+)"
+        columns = [number(row[name]) for name in ("error of the module", "processor seconds") for row in measured]
+        assert said(pattern.format(three)) == columns
 
 
 def test_figures_of_the_cortex_are_the_measured_ones():

@@ -227,3 +227,17 @@ def test_command(tmp_path):
     refused = command("planar", file)
     assert refused.returncode == CANNOT_BE_MAPPED and "polygon" in refused.stderr
     assert command("planar", file, "--tolerance", "0").returncode == USAGE
+
+
+def test_slits_of_the_command_are_pythons(tmp_path):
+    file = tmp_path / "plate.json"
+    file.write_text(json.dumps({"rims": [circle(0j, 3.0), circle(1 + 0j, 0.5), circle(-1 + 0.5j, 0.7)]}))
+    done = command("planar", file, "--slits", "parallel", "--pole", "0", "-1.5", "--slit-angle", "30")
+    assert done.returncode == 0, done.stderr
+    report = json.loads(done.stdout)["slits"]
+    found = koebe.planar(file, slits="parallel", pole=(0, -1.5), slit_angle=30)
+    assert [rim["begin"] for rim in report["rims"]] == pairs(found.slits[:, 0]).tolist()
+    assert np.allclose(np.angle(np.diff(found.slits)), math.pi / 6, atol=1e-9) and found.slit_error <= 1e-10
+    radii = abs(koebe.planar(file, slits="circular").slits)
+    assert command("planar", file, "--slits", "parallel").returncode == CANNOT_BE_MAPPED
+    assert np.ptp(radii, axis=1).max() < 1e-10 and radii[0, 0] == 1.0 and (radii[1:] < 1.0).all()

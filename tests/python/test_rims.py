@@ -2,6 +2,8 @@
 
 import json
 import math
+import sys
+from pathlib import Path
 
 import koebe
 import numpy as np
@@ -12,6 +14,11 @@ from koebe._native import _koebe
 from koebe.labs.shapes import mapped_surface
 from test_certified import square_in_square
 from test_module_error import round_domain
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "bench"))
+
+from planar_oracle import confocal, confocal_rims, matched, plate_rims  # noqa: E402
+from planar_oracle import plate as oracle_plate  # noqa: E402
 
 HOLES = [(0.45, 0.25, 0.18), (-0.4, 0.35, 0.2), (-0.1, -0.5, 0.15)]
 
@@ -52,6 +59,20 @@ def test_it_lies_in_the_proved_enclosures(plate):
     slack = koebe.module_error(plate, rims="polygonal")
     for number, bar, (low, high) in zip(found, slack, enclosed.module.values(), strict=True):
         assert low - bar <= number <= high + bar
+
+
+def test_extrapolated_circles_are_those_of_the_smooth_domain():
+    """Smooth rims against koebe.planar, on a ring; corners stay corners."""
+    for mesh, rims, share in ((confocal, confocal_rims, 0.05), (oracle_plate, plate_rims, 0.5)):
+        exact = koebe.planar(rims())
+        result = koebe.uniformize(*mesh(64), tolerance=1e-9)
+        order = matched(result, exact)
+        smooth, extrapolated = (
+            abs(koebe.conformal_module(result, order=order, rims=kind) - exact.module).max()
+            for kind in ("smooth", "extrapolated")
+        )
+        assert extrapolated < share * smooth
+        assert extrapolated < koebe.module_error(result, order=order, rims="extrapolated").max() < smooth
 
 
 def test_five_loops_have_one_too():

@@ -9,6 +9,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -132,6 +133,21 @@ std::vector<PlanarRim> rims_of_svg(const std::string& text)
 
 nlohmann::ordered_json place_json(Complex place) { return {place.real(), place.imag()}; }
 
+nlohmann::ordered_json slits_json(const PlanarResult& result)
+{
+    constexpr std::array kinds{"none", "parallel", "circular", "radial"};
+    nlohmann::ordered_json rims = nlohmann::ordered_json::array();
+    for (std::size_t k = 0; k < result.slits.size(); ++k) {
+        const Slit& slit = result.slits[k];
+        if (slit.begin == slit.end)
+            rims.push_back({{"rim", result.order[k]}, {"radius", slit.begin.real()}});
+        else
+            rims.push_back(
+                {{"rim", result.order[k]}, {"begin", place_json(slit.begin)}, {"end", place_json(slit.end)}});
+    }
+    return {{"kind", kinds[static_cast<std::size_t>(result.slit_kind)]}, {"error", result.slit_error}, {"rims", rims}};
+}
+
 }  // namespace
 
 std::vector<PlanarRim> planar_rims(const std::string& text, bool is_svg)
@@ -173,17 +189,20 @@ nlohmann::ordered_json to_json(const PlanarResult& result)
                            {"center", place_json(result.circles[k].center)},
                            {"radius", result.circles[k].radius},
                            {"residual", result.residuals[k]}});
-    return {{"version", KOEBE_VERSION},
-            {"input", ""},
-            {"converged", result.converged},
-            {"error", result.error},
-            {"sweeps", result.sweeps},
-            {"levels", result.levels},
-            {"unknowns", result.unknowns},
-            {"circles", circles},
-            {"names", module_names(result.circles.size())},
-            {"module", std::vector<double>(result.module.begin(), result.module.end())},
-            {"errors", std::vector<double>(result.module_errors.begin(), result.module_errors.end())}};
+    nlohmann::ordered_json json{
+        {"version", KOEBE_VERSION},
+        {"input", ""},
+        {"converged", result.converged},
+        {"error", result.error},
+        {"sweeps", result.sweeps},
+        {"levels", result.levels},
+        {"unknowns", result.unknowns},
+        {"circles", circles},
+        {"names", module_names(result.circles.size())},
+        {"module", std::vector<double>(result.module.begin(), result.module.end())},
+        {"errors", std::vector<double>(result.module_errors.begin(), result.module_errors.end())}};
+    if (!result.slits.empty()) json["slits"] = slits_json(result);
+    return json;
 }
 
 }  // namespace koebe

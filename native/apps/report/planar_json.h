@@ -21,7 +21,8 @@ KOEBE_API VectorXcd planar_places(const std::string& text);
 KOEBE_API nlohmann::ordered_json places_json(const VectorXcd& places);
 
 /// {"version", "input", "converged", "error", "sweeps", "levels", "unknowns", "circles", "names", "module", "errors"}:
-/// circles in the module's position, each {"rim", "center", "radius", "residual"}; "input" is empty.
+/// circles in the module's position, each {"rim", "center", "radius", "residual"}; "input" is empty. With slits also
+/// "slits": {"kind", "error", "rims"}, each rim {"rim", "begin", "end"}, or {"rim", "radius"} of a circle round 0.
 KOEBE_API nlohmann::ordered_json to_json(const PlanarResult& result);
 
 }  // namespace koebe

@@ -14,6 +14,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -76,16 +77,13 @@ private:
     std::vector<Condenser> of_loops_, of_circles_;
 };
 
-/// The circles with a module, the unit circle first.
-std::vector<Circle> circles_with(const VectorXd& module)
-{
-    if (module.size() == 1) return {Circle{}, Circle{0.0, module[0]}};
-    return circles_of_module(module);
-}
-
 }  // namespace
 
-const char* to_string(RimKind rims) noexcept { return rims == RimKind::smooth ? "smooth" : "polygonal"; }
+const char* to_string(RimKind rims) noexcept
+{
+    constexpr std::array words{"smooth", "polygonal", "extrapolated"};
+    return words[static_cast<std::size_t>(rims)];
+}
 
 PolygonalCircles polygonal_circles(const Vertices& vertices, const Triangles& triangles,
                                    const std::vector<LoopReport>& loops, int threads, ExecutionContext& context)
@@ -124,8 +122,21 @@ PolygonalCircles polygonal_circles(const Vertices& vertices, const Triangles& tr
     return run_detachable<PolygonalCircles>(context, [=](ExecutionContext& own) {
         fix_product_blocks();
         const auto [found, of_upper] = capacities.modules_with(middle, upper, near, own);
-        return PolygonalCircles{circles_with(found), circles_with(of_upper)};
+        return PolygonalCircles{circles_of_module(found), circles_of_module(of_upper)};
     });
+}
+
+std::vector<Circle> extrapolated_circles(const std::vector<Circle>& given, const std::vector<Circle>& refined)
+{
+    const VectorXd coarse = conformal_module(given);
+    if (coarse.size() == 0) return given;
+    std::vector<Circle> circles = circles_of_module((4.0 * conformal_module(refined) - coarse) / 3.0);
+    try {
+        require_circle_domain(circles);
+    } catch (const InputError&) {
+        throw SolverError("the mesh is too coarse to extrapolate from: circles would meet");
+    }
+    return circles;
 }
 
 VectorXd polygonal_changes(const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,

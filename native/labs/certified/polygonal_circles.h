@@ -14,8 +14,9 @@ namespace koebe {
 /// What a mesh says of the rims of the surface, for numbers of its shape. The two differ by the areas between the edges
 /// of a rim and its arcs (docs/numerics.md, the circles of the polyhedron itself).
 enum class RimKind {
-    smooth,     ///< samples of smooth curves: the circles of the map
-    polygonal,  ///< polygons: the circles of the polyhedron, which the enclosures of capacities.h prove
+    smooth,        ///< samples of smooth curves: the circles of the map
+    polygonal,     ///< polygons: the circles of the polyhedron, which the enclosures of capacities.h prove
+    extrapolated,  ///< samples of smooth curves: the limit of finer and finer meshes (extrapolated_circles)
 };
 
 KOEBE_API const char* to_string(RimKind rims) noexcept;
@@ -38,6 +39,13 @@ struct PolygonalCircles {
 KOEBE_API PolygonalCircles polygonal_circles(const Vertices& vertices, const Triangles& triangles,
                                              const std::vector<LoopReport>& loops, int threads,
                                              ExecutionContext& context);
+
+/// The limit of the circles on finer and finer meshes of a smooth surface with smooth rims. On such meshes errors fall
+/// as h^2, so Richardson's extrapolation takes (4 refined - given) / 3 of each number of the module.
+/// @param refined on a mesh with four times as many faces (shape/module_error.h)
+/// @return in the module's position @throws SolverError circles that meet then
+KOEBE_API std::vector<Circle> extrapolated_circles(const std::vector<Circle>& given,
+                                                   const std::vector<Circle>& refined);
 
 /// Forecast of what polygons in place of smooth curves do to the circles: the change of each loop's radius relative to
 /// the radius, to first order and without the effect of other loops. An edge of length h in the disk between corners

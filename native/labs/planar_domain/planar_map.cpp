@@ -1,10 +1,9 @@
 #include "planar_domain/planar_map.h"
 
-#include "circles/circle_fit.h"
 #include "circles/crowded_circles.h"
 #include "core/counted.h"
 #include "core/errors.h"
-#include "planar_domain/rim_layout.h"
+#include "planar_domain/planar_iteration.h"
 #include "shape/conformal_module.h"
 
 #include <algorithm>
@@ -21,243 +20,11 @@ namespace {
 
 constexpr std::array resolutions{RimResolution{14, 6, 128}, RimResolution{20, 9, 192}, RimResolution{28, 12, 256},
                                  RimResolution{38, 16, 384}, RimResolution{50, 20, 512}};
-constexpr int first_powers = 12;                // beside the poles
 constexpr std::size_t most_entries = 40000000;  // of a system: 320 MB
-constexpr double round_enough = 2e-14;          // deviation from circles, of the radius, before a rim's turn
-constexpr double digits = 36.0;                 // log of what powers have to fall by
-constexpr double least_share = 1e-4;            // of a corner's cut: nearer to it, mirror images are not needed
-constexpr double pole_spacing = 0.18;           // of mirrored poles, of their distance from the circle
-constexpr double mirror_share = 0.9;            // of another rim's radius, for poles in its mirror image
-constexpr double densest = 0.1, growth = 1.2;   // of samples in a gap: the first one's place, ratio of their places
-constexpr double least_gap = 1e-9;              // of the radius
-constexpr double share_of_residual = 1e-3;      // of the first maps: what the iteration may leave beside it
 constexpr double useless = 1e-3;                // residual: no circles
+constexpr int mean_places = 48;                 // round a pole
+constexpr double mean_share = 0.25;             // of the room round a pole
 constexpr double off_domain = 1e-8;             // disk units: images so far off the circle domain are refused
-
-/// Points between a layout's samples, to judge a map by.
-RimLayout check_layout(const PlanarRim& rim, const RimPolygon& polygon, bool is_outer, RimResolution resolution)
-{
-    resolution.corner_poles += 3;
-    resolution.panel_poles += 1;
-    return rim_layout(rim, polygon, is_outer, resolution);
-}
-
-Circle fitted(const RimLayout& layout)
-{
-    VectorXcd points(static_cast<Eigen::Index>(layout.samples.size()));
-    for (Eigen::Index i = 0; i < points.size(); ++i) points[i] = layout.samples[static_cast<std::size_t>(i)].place;
-    return fit_circle_least_squares(points);
-}
-
-double deviation(const RimLayout& layout, const Circle& circle)
-{
-    double most = 0.0;
-    for (const RimSample& sample : layout.samples) {
-        const double off = std::abs(std::abs(sample.place - circle.center) - circle.radius);
-        most = std::isfinite(off) ? std::max(most, off) : std::numeric_limits<double>::infinity();
-    }
-    return most;
-}
-
-/// Leaves out poles that are not on their side of the rim: mapped ones may have crossed it.
-void keep_poles_off_domain(RimLayout& layout)
-{
-    RimPolygon ring;
-    for (const RimSample& sample : layout.samples) ring.points.push_back(sample.place);
-    std::erase_if(layout.poles, [&](Complex pole) { return (ring.winding(pole) != 0) == layout.is_outer; });
-    std::erase_if(layout.corners, [](const RimCorner& corner) { return corner.poles.empty(); });
-    for (RimCorner& corner : layout.corners)
-        for (int halvings = 0; halvings < 8; ++halvings) {
-            const auto is_off = [&](double x) {
-                return (ring.winding(corner.vertex + x * (corner.cut_end - corner.vertex)) != 0) != layout.is_outer;
-            };
-            if (is_off(1.0) && is_off(0.75) && is_off(0.5) && is_off(0.25)) break;
-            corner.cut_end = corner.vertex + 0.5 * (corner.cut_end - corner.vertex);
-        }
-}
-
-/// The distance of a rim from a circle, and its nearest sample.
-std::pair<double, Complex> gap_from(const Circle& circle, const RimLayout& rim)
-{
-    std::pair<double, Complex> least{std::numeric_limits<double>::infinity(), 0.0};
-    for (const RimSample& sample : rim.samples)
-        if (const double d = std::abs(std::abs(sample.place - circle.center) - circle.radius); d < least.first)
-            least = {d, sample.place};
-    return least;
-}
-
-/// Samples on a circle where another rim is near, as dense as the gap is narrow.
-void add_samples_near(RimLayout& layout, const Circle& circle, const RimLayout& other)
-{
-    const auto [gap, place] = gap_from(circle, other);
-    const double spacing = 2.0 * std::numbers::pi / static_cast<double>(layout.samples.size());
-    const double angle = std::arg(place - circle.center);
-    for (double off = std::max(gap / circle.radius, least_gap) * densest;
-         off < 4.0 * spacing / (growth - 1.0) && off < 3.0; off *= growth)
-        for (const double side : {-1.0, 1.0})
-            layout.samples.push_back({circle.center + std::polar(circle.radius, angle + side * off)});
-}
-
-Complex mirrored(const Circle& circle, Complex place)
-{
-    return circle.center + circle.radius * circle.radius / std::conj(place - circle.center);
-}
-
-/// Poles where the map of a rim, nearly a circle, may be singular: on the mirror image of another rim's circle.
-void add_mirror_poles(RimLayout& layout, const Circle& circle, const Circle& other, int count)
-{
-    const bool encloses = std::abs(other.center - circle.center) < other.radius;
-    const double radius = other.radius * (encloses ? 1.0 / mirror_share : mirror_share);
-    for (int i = 0; i < count; ++i) {
-        const Complex place = other.center + std::polar(radius, 2.0 * std::numbers::pi * (i + 0.5) / count);
-        layout.poles.push_back(mirrored(circle, place));
-    }
-}
-
-/// Mirror images of the places where another rim's map will have its poles: that map bends this circle, and the map
-/// that makes it round again is singular there.
-/// @param reach poles farther from the circle are left out
-void add_mirrored(std::vector<Complex>& poles, const Circle& circle, const RimLayout& other, double reach)
-{
-    const auto add = [&](Complex place) {
-        const Complex image = mirrored(circle, place);
-        const double gap = std::abs(std::abs(image - circle.center) - circle.radius);
-        const auto is_close = [&](Complex pole) { return std::abs(pole - image) < pole_spacing * gap; };
-        if (gap < reach && std::ranges::none_of(poles, is_close)) poles.push_back(image);
-    };
-    for (const Complex pole : other.poles) add(pole);
-    for (const RimCorner& corner : other.corners)
-        for (const double pole : corner.poles) {
-            const double share = pole * pole / (1.0 + pole * pole);  // of the cut
-            if (share > least_share) add(corner.vertex + share * (corner.cut_end - corner.vertex));
-        }
-}
-
-/// Koebe's iteration at one resolution.
-class KoebeIteration {
-public:
-    KoebeIteration(const OrderedRims& domain, const RimResolution& resolution) : resolution_(resolution)
-    {
-        for (std::size_t k = 0; k < domain.rims.size(); ++k) {
-            const std::vector<Index> rim{domain.order[k]};
-            try {
-                layouts_.push_back(rim_layout(domain.rims[k], domain.polygons[k], k == 0, resolution));
-                checks_.push_back(check_layout(domain.rims[k], domain.polygons[k], k == 0, resolution));
-            } catch (const InputError& error) {
-                throw InputError(error.what(), ElementKind::loops, rim);
-            }
-        }
-    }
-
-    /// The entries of the largest system.
-    std::size_t most_work() const
-    {
-        std::size_t most = 0;
-        for (const RimLayout& layout : layouts_) {
-            std::size_t functions = layout.poles.size();
-            for (const RimCorner& corner : layout.corners) functions += corner.poles.size();
-            most = std::max(most, layout.samples.size() * 2 * functions);
-        }
-        return most;
-    }
-
-    void run(int max_sweeps, ExecutionContext& context)
-    {
-        double last = std::numeric_limits<double>::infinity();
-        for (sweeps = 0; sweeps < max_sweeps; ++sweeps) {
-            double most = 0.0;
-            for (std::size_t k = 0; k < layouts_.size(); ++k) {
-                context.advance(static_cast<double>(sweeps * layouts_.size() + k) /
-                                static_cast<double>((sweeps + 3) * layouts_.size()));
-                most = std::max(most, turn(k));
-            }
-            const double enough = std::max(round_enough, share_of_residual * first_residual_);
-            if (sweeps > 0 && (most < enough || (most < 1e-9 && most > 0.5 * last) || layouts_.size() == 1)) break;
-            if (!std::isfinite(most)) break;
-            last = most;
-        }
-    }
-
-    /// Distances of the rims' images from circles, the outer one of radius 1.
-    std::vector<double> residuals() const
-    {
-        std::vector<double> all;
-        const double size = fitted(layouts_[0]).radius;
-        for (std::size_t k = 0; k < layouts_.size(); ++k) {
-            const Circle circle = fitted(layouts_[k]);
-            all.push_back(std::max(deviation(layouts_[k], circle), deviation(checks_[k], circle)) / size);
-        }
-        return all;
-    }
-
-    std::vector<Circle> circles() const
-    {
-        const Circle outer = fitted(layouts_[0]);
-        std::vector<Circle> all{Circle{}};
-        for (std::size_t k = 1; k < layouts_.size(); ++k) {
-            const Circle circle = fitted(layouts_[k]);
-            all.push_back({(circle.center - outer.center) / outer.radius, circle.radius / outer.radius});
-        }
-        return all;
-    }
-
-    Circle outer() const { return fitted(layouts_[0]); }
-
-    std::vector<RimMap> maps;
-    int sweeps = 0;
-    Eigen::Index unknowns = 0;
-
-private:
-    /// One rim becomes a circle. @return how far it was from one, in its radius
-    double turn(std::size_t k)
-    {
-        RimLayout& own = layouts_[k];
-        const bool first = maps.size() < layouts_.size();
-        double off = 1.0;
-        if (first) {
-            keep_poles_off_domain(own);
-        } else {
-            const Circle circle = fitted(own);
-            off = deviation(own, circle) / circle.radius;
-            own.center = circle.center;
-            for (std::size_t j = 0; j < layouts_.size(); ++j)
-                if (j != k && (sweeps > 1 || j < k) && is_near(circle, layouts_[j]))
-                    add_mirror_poles(own, circle, fitted(layouts_[j]), 2 * resolution_.panel_poles);
-        }
-        const RimMap map(own, first ? first_powers : powers(), !first);
-        if (first) first_residual_ = std::max(first_residual_, map.residual());
-        unknowns = std::max(unknowns, 2 * map.unknowns() - 1);
-        for (RimSample& sample : checks_[k].samples) sample = {map.on_own_rim(sample)};
-        for (std::size_t j = 0; j < layouts_.size(); ++j)
-            if (j != k) {
-                for (RimSample& sample : checks_[j].samples) sample = map(sample, layouts_[j].corners);
-                layouts_[j] = map(layouts_[j]);
-            }
-        const Circle circle{map.is_outer() ? Complex(0.0) : map.center(), map.radius()};
-        std::vector<Complex> poles;
-        for (std::size_t j = k + 1; first && j < layouts_.size(); ++j)
-            add_mirrored(poles, circle, layouts_[j], reach(circle));
-        const int points = std::max(resolution_.circle_points, 3 * (static_cast<int>(poles.size()) + powers()));
-        own = circle_layout(circle, map.is_outer(), points);
-        own.poles = std::move(poles);
-        for (std::size_t j = 0; j < layouts_.size(); ++j)
-            if (j != k) add_samples_near(own, circle, layouts_[j]);
-        maps.push_back(map);
-        return off;
-    }
-
-    int powers() const { return resolution_.circle_points / 4; }
-    /// A singularity of a map that is farther than this from its circle is resolved by powers.
-    double reach(const Circle& circle) const { return digits * circle.radius / powers(); }
-    bool is_near(const Circle& circle, const RimLayout& other) const
-    {
-        return gap_from(circle, other).first < reach(circle);
-    }
-
-    RimResolution resolution_;
-    double first_residual_ = 0.0;  // of the maps of the rims as given
-    std::vector<RimLayout> layouts_, checks_;
-};
 
 /// The rims moved and scaled to about the unit disk.
 OrderedRims scaled(OrderedRims domain, Complex middle, double size)
@@ -305,6 +72,40 @@ void estimate_errors(PlanarResult& result, const std::vector<Circle>& coarser)
     result.module_errors = result.module_errors.cwiseMax((result.module - conformal_module(coarser)).cwiseAbs());
 }
 
+void require_slits(const PlanarOptions& options, std::size_t rims)
+{
+    if (options.slits == SlitKind::none) return;
+    const bool is_parallel = options.slits == SlitKind::parallel;
+    if (!is_parallel && rims < 2) throw InputError("circular and radial slits need a domain with a hole");
+    if (is_parallel != options.pole.has_value())
+        throw InputError(is_parallel ? "parallel slits need a pole" : "only parallel slits have a pole");
+    if (is_parallel && !std::isfinite(std::abs(*options.pole))) throw InputError("the pole is not finite");
+}
+
+/// @param coarser the map of the next coarser resolution, or one without circles
+void add_slits(PlanarResult& result, PlanarMap coarser_map, const PlanarOptions& options)
+{
+    result.map.add_slits(options);
+    result.slit_kind = options.slits;
+    result.slits = result.map.slit_map()->slits();
+    std::vector<Slit> coarser;
+    if (!coarser_map.circles().empty()) {
+        coarser_map.add_slits(options);
+        coarser = coarser_map.slit_map()->slits();
+    }
+    double size = 0.0, change = 0.0;
+    for (std::size_t k = 0; k < result.slits.size(); ++k) {
+        const Slit& slit = result.slits[k];
+        size = std::max({size, std::abs(slit.begin), std::abs(slit.end)});
+        if (!coarser.empty())
+            change = std::max({change, std::abs(slit.begin - coarser[k].begin), std::abs(slit.end - coarser[k].end)});
+    }
+    // The constants on the circles may be off by as much as two residuals from one to the next.
+    const double constants = 2.0 * static_cast<double>(result.slits.size()) * result.map.slit_map()->residual();
+    result.slit_error = std::max(change, constants) / size;
+    result.converged = result.converged && !coarser.empty() && result.slit_error <= options.tolerance;
+}
+
 /// Whether a place lies in the circle domain, up to rounding. @param circles the unit circle, then the holes
 bool lies_inside(Complex z, const std::vector<Circle>& circles)
 {
@@ -330,6 +131,28 @@ bool lies_inside(Complex z, const std::vector<Circle>& circles)
 PlanarMap::PlanarMap(Complex middle, double size, std::vector<RimPolygon> rims, std::vector<RimMap> maps, Circle outer)
     : middle_(middle), size_(size), rims_(std::move(rims)), maps_(std::move(maps)), outer_(outer)
 {
+}
+
+void PlanarMap::add_slits(const PlanarOptions& options)
+{
+    SlitMap::Pole pole{0.0, 1.0, std::polar(1.0, options.slit_angle * std::numbers::pi / 180.0)};
+    if (options.pole) {
+        pole.place = (*this)(VectorXcd::Constant(1, *options.pole))[0];
+        pole.residue = derivative(*options.pole);
+        const bool on_rim = std::ranges::any_of(circles_, [&](const Circle& circle) {
+            return std::abs(std::abs(pole.place - circle.center) - circle.radius) < off_domain;
+        });
+        if (on_rim) throw InputError("the pole is on a rim");
+    }
+    slit_map_.emplace(circles_, options.slits, pole);
+    if (!options.pole) return;
+    // Near the pole the map is 1 / (z - pole) + O(z - pole): the mean over a circle round it becomes 0.
+    double room = std::numeric_limits<double>::infinity();
+    for (const RimPolygon& rim : rims_) room = std::min(room, rim.distance(*options.pole));
+    VectorXcd around(mean_places);
+    for (int i = 0; i < mean_places; ++i)
+        around[i] = *options.pole + std::polar(mean_share * room, 2.0 * std::numbers::pi * i / mean_places);
+    slit_map_->move(-slit_images(around).mean());
 }
 
 void PlanarMap::normalize(const Moebius& last, std::vector<Circle> circles)
@@ -389,6 +212,12 @@ VectorXcd PlanarMap::operator()(const VectorXcd& places) const
     return images;
 }
 
+VectorXcd PlanarMap::slit_images(const VectorXcd& places) const
+{
+    if (!slit_map_) throw InputError("no slits were asked for");
+    return (*this)(places).unaryExpr([this](Complex z) { return (*slit_map_)(z); });
+}
+
 VectorXcd PlanarMap::inverse(const VectorXcd& images) const
 {
     VectorXcd places(images.size());
@@ -408,12 +237,14 @@ VectorXcd PlanarMap::inverse(const VectorXcd& images) const
 
 PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions& options, ExecutionContext& context)
 {
+    require_slits(options, rims.size());
     const OrderedRims domain = ordered_rims(rims);
     const auto [middle, size] = box_of(domain.polygons[0]);
     const OrderedRims unit = scaled(domain, middle, size);
 
     PlanarResult best;
     std::vector<Circle> coarser;
+    PlanarMap last_map, coarser_map;  // coarser_map: the one that the best was compared with
     std::vector<double> residuals;
     bool was_compared = false;
     int levels = 0;
@@ -432,6 +263,7 @@ PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions&
         const std::vector<Circle> found = iteration.circles();
         if (!(*std::ranges::max_element(residuals) < useless) || !circles_apart(found)) {
             coarser.clear();
+            last_map = {};
             continue;
         }
 
@@ -450,12 +282,19 @@ PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions&
         const bool is_better = !was_compared || result.converged || (!coarser.empty() && result.error < best.error);
         was_compared = was_compared || !coarser.empty();
         coarser = result.circles;
-        if (is_better) best = std::move(result);
+        if (is_better) {
+            coarser_map = std::move(last_map);
+            best = std::move(result);
+            last_map = best.map;
+        } else {
+            last_map = std::move(result.map);
+        }
         if (best.converged) break;
     }
     context.begin_stage("circles", 1.0, 1.0);
     if (best.circles.empty()) refuse(residuals, domain.order);
     best.levels = levels;
+    if (options.slits != SlitKind::none) add_slits(best, std::move(coarser_map), options);
     return best;
 }
 

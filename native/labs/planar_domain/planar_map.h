@@ -8,7 +8,9 @@
 #include "execution/execution.h"
 #include "planar_domain/planar_rim.h"
 #include "planar_domain/rim_map.h"
+#include "planar_domain/slit_map.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -16,6 +18,9 @@ namespace koebe {
 struct PlanarOptions {
     double tolerance = 1e-10;  ///< of the circles, a length in the unit disk
     int max_sweeps = 100;      ///< of the Koebe iteration, at each resolution
+    SlitKind slits = SlitKind::none;
+    double slit_angle = 0.0;           ///< of parallel slits, degrees
+    std::optional<Complex> pole = {};  ///< of the map to parallel slits: a place of the domain
 };
 
 /// A conformal map of a planar domain, and its inverse.
@@ -30,8 +35,15 @@ public:
     /// @throws InputError places off the circle domain; SolverError a place whose preimage is not found (listed)
     KOEBE_API VectorXcd inverse(const VectorXcd& images) const;
 
+    /// The images of places of the closed domain in the slit domain, infinite at the pole.
+    /// @throws InputError as above; the map was made without slits
+    KOEBE_API VectorXcd slit_images(const VectorXcd& places) const;
+
     void normalize(const Moebius& last, std::vector<Circle> circles);
+    /// @throws InputError as planar_map, for slits
+    void add_slits(const PlanarOptions& options);
     const std::vector<Circle>& circles() const { return circles_; }
+    const std::optional<SlitMap>& slit_map() const { return slit_map_; }
 
 private:
     Complex image(Complex place) const;
@@ -45,6 +57,7 @@ private:
     Circle outer_;                  // the outer rim after all of them
     Moebius last_;
     std::vector<Circle> circles_;
+    std::optional<SlitMap> slit_map_;
 };
 
 struct PlanarResult {
@@ -55,10 +68,13 @@ struct PlanarResult {
     VectorXd module_errors;         ///< of each of its numbers, as `error`
     double error = 0.0;             ///< of circles: how far the next coarser resolution's are, at least the residual
     std::vector<double> residuals;  ///< of each circle: the greatest distance of its rim's image, between the samples
-    bool converged = false;         ///< whether `error` is at most the tolerance
-    int sweeps = 0;                 ///< of the Koebe iteration at the finest resolution
-    int levels = 0;                 ///< resolutions
-    Eigen::Index unknowns = 0;      ///< of the largest system, real
+    bool converged = false;         ///< whether `error` and `slit_error` are at most the tolerance
+    SlitKind slit_kind = SlitKind::none;
+    std::vector<Slit> slits;    ///< one for each circle, if slits are wanted
+    double slit_error = 0.0;    ///< of the slits' ends, of the greatest distance of one from 0, as `error`
+    int sweeps = 0;             ///< of the Koebe iteration at the finest resolution
+    int levels = 0;             ///< resolutions
+    Eigen::Index unknowns = 0;  ///< of the largest system, real
     PlanarMap map;
 };
 
@@ -72,8 +88,9 @@ struct PlanarResult {
 /// The computation is repeated with more poles until the circles change by no more than the tolerance.
 ///
 /// @param rims the outer one and the holes in any order
-/// @throws InputError as ordered_rims, or a rim with too many corners; SolverError rims that are too near or too far
-/// apart in size to be resolved (listed); Cancelled
+/// @throws InputError as ordered_rims, or a rim with too many corners; circular or radial slits without a hole,
+/// parallel ones without a pole, a pole off the domain or on a rim; SolverError rims that are too near or too far apart
+/// in size to be resolved (listed); Cancelled
 KOEBE_API PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions& options,
                                   ExecutionContext& context);
 

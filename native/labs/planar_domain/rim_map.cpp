@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,21 @@ constexpr double damping = 1e-14;
 constexpr double start_offset = 0.05;  // from a corner, of its size
 constexpr double near_ring = 0.01;     // of the rim's size: so near, the samples' polygon does not decide
 constexpr double near_corner = 1e-4;   // of the distance to the map's center: offsets below follow the derivative
+
+/// Places of which functions are summed at once.
+using Lanes = Eigen::Array<double, 64, 1>;
+
+/// Adds coefficient / (z - pole) at places z = (x, y).
+template <typename Places>
+void add_pole(Complex coefficient, Complex pole, const Places& x, const Places& y, Places& real, Places& imaginary)
+{
+    const Places dx = x - pole.real(), dy = y - pole.imag(), inverse = (dx * dx + dy * dy).inverse();
+    real += (coefficient.real() * dx + coefficient.imag() * dy) * inverse;
+    imaginary += (coefficient.imag() * dx - coefficient.real() * dy) * inverse;
+}
+
+/// 1 / z, without the checks of the language's division, which cost more than all else.
+Complex reciprocal(Complex z) { return std::conj(z) / std::norm(z); }
 
 Complex corner_coordinate(const RimCorner& corner, Complex from_vertex)
 {
@@ -72,9 +88,9 @@ void RimMap::fill_row(Complex z, const RimSample* own, Complex* row) const
     for (std::size_t c = 0; c < corners_.size(); ++c) {
         const bool near = own && own->corner == static_cast<int>(c);
         const Complex w = corner_coordinate(corners_[c], near ? own->offset : z - corners_[c].vertex);
-        for (const double pole : corners_[c].poles) *row++ = -pole / (w - pole);
+        for (const double pole : corners_[c].poles) *row++ = -pole * reciprocal(w - pole);
     }
-    for (const Complex pole : poles_) *row++ = scale_ / (z - pole);
+    for (const Complex pole : poles_) *row++ = scale_ * reciprocal(z - pole);
     const Complex ratio = is_outer_ ? (z - center_) / scale_ : scale_ / (z - center_);
     Complex power = ratio;
     for (int j = 0; j < powers_; ++j, power *= ratio) *row++ = power;
@@ -116,13 +132,61 @@ void RimMap::solve(const std::vector<RimSample>& samples)
     for (Eigen::Index j = 0; j < count; ++j) coefficients_[j] = Complex(found[1 + j], found[1 + count + j]) / sizes[j];
 }
 
+template <typename Places>
+void RimMap::add_functions(const Complex* z, const RimSample* own, Places& real, Places& imaginary) const
+{
+    const Places x = Eigen::Map<const Eigen::Array<Complex, Places::RowsAtCompileTime, 1>>(z).real();
+    const Places y = Eigen::Map<const Eigen::Array<Complex, Places::RowsAtCompileTime, 1>>(z).imag();
+    Places u, v;
+    const Complex* coefficient = coefficients_.data();
+    for (std::size_t c = 0; c < corners_.size(); ++c) {
+        const bool near = own && own->corner == static_cast<int>(c);
+        for (Eigen::Index i = 0; i < x.size(); ++i) {
+            const Complex w = corner_coordinate(corners_[c], near ? own->offset : z[i] - corners_[c].vertex);
+            u[i] = w.real();
+            v[i] = w.imag();
+        }
+        for (const double pole : corners_[c].poles) add_pole(-pole * *coefficient++, pole, u, v, real, imaginary);
+    }
+    for (const Complex pole : poles_) add_pole(scale_ * *coefficient++, pole, x, y, real, imaginary);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+        const Complex ratio = is_outer_ ? (z[i] - center_) / scale_ : scale_ * reciprocal(z[i] - center_);
+        u[i] = ratio.real();
+        v[i] = ratio.imag();
+    }
+    Places a = Places::Zero(), b = Places::Zero();
+    for (int j = powers_; j-- > 0;) {
+        const Places sum = a + coefficient[j].real();
+        b += coefficient[j].imag();
+        a = sum * u - b * v;
+        b = sum * v + b * u;
+    }
+    real += a;
+    imaginary += b;
+}
+
 Complex RimMap::exponent(Complex z, const RimSample* own) const
 {
-    thread_local std::vector<Complex> row;
-    row.resize(static_cast<std::size_t>(coefficients_.size()));
-    fill_row(z, own, row.data());
-    return constant_ +
-           (Eigen::Map<const VectorXcd>(row.data(), coefficients_.size()).array() * coefficients_.array()).sum();
+    using One = Eigen::Array<double, 1, 1>;
+    One real(constant_.real()), imaginary(constant_.imag());
+    add_functions(&z, own, real, imaginary);
+    return {real[0], imaginary[0]};
+}
+
+void RimMap::move(std::vector<RimSample>& samples) const
+{
+    constexpr std::size_t lanes = Lanes::SizeAtCompileTime;
+    for (std::size_t begin = 0; begin < samples.size(); begin += lanes) {
+        std::array<Complex, lanes> z;
+        for (std::size_t i = 0; i < lanes; ++i) z[i] = samples[std::min(begin + i, samples.size() - 1)].place;
+        Lanes real = Lanes::Constant(constant_.real()), imaginary = Lanes::Constant(constant_.imag());
+        add_functions(z.data(), nullptr, real, imaginary);
+        for (std::size_t i = 0; i < lanes && begin + i < samples.size(); ++i) {
+            const auto k = static_cast<Eigen::Index>(i);
+            samples[begin + i].place =
+                (z[i] - center_) * std::exp(Complex(real[k], imaginary[k])) + (is_outer_ ? Complex(0.0) : center_);
+        }
+    }
 }
 
 Complex RimMap::exponent_derivative(Complex z) const
@@ -161,16 +225,22 @@ Complex RimMap::derivative(Complex z) const
     return std::exp(exponent(z, nullptr)) * (1.0 + (z - center_) * exponent_derivative(z));
 }
 
-RimSample RimMap::operator()(const RimSample& sample, const std::vector<RimCorner>& corners_of_sample) const
+std::vector<RimSample> RimMap::operator()(const std::vector<RimSample>& samples,
+                                          const std::vector<RimCorner>& corners) const
 {
-    RimSample image{(*this)(sample.place), sample.corner, 0.0};
-    if (sample.corner < 0) return image;
-    const Complex vertex = corners_of_sample[static_cast<std::size_t>(sample.corner)].vertex;
-    if (std::abs(sample.offset) < near_corner * std::abs(vertex - center_))
-        image.offset = sample.offset * derivative(vertex + 0.5 * sample.offset);
-    else
-        image.offset = image.place - (*this)(vertex);
-    return image;
+    std::vector<Complex> images;
+    for (const RimCorner& corner : corners) images.push_back((*this)(corner.vertex));
+    std::vector<RimSample> moved = samples;
+    move(moved);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        if (samples[i].corner < 0) continue;
+        const auto corner = static_cast<std::size_t>(samples[i].corner);
+        const Complex vertex = corners[corner].vertex, offset = samples[i].offset;
+        moved[i].offset = std::abs(offset) < near_corner * std::abs(vertex - center_)
+                              ? offset * derivative(vertex + 0.5 * offset)
+                              : moved[i].place - images[corner];
+    }
+    return moved;
 }
 
 RimLayout RimMap::operator()(const RimLayout& other) const
@@ -179,7 +249,7 @@ RimLayout RimMap::operator()(const RimLayout& other) const
     for (const RimCorner& corner : other.corners)
         image.corners.push_back({(*this)(corner.vertex), (*this)(corner.cut_end), corner.poles});
     for (const Complex pole : other.poles) image.poles.push_back((*this)(pole));
-    for (const RimSample& sample : other.samples) image.samples.push_back((*this)(sample, other.corners));
+    image.samples = (*this)(other.samples, other.corners);
     return image;
 }
 

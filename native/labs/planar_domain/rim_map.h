@@ -24,8 +24,9 @@ public:
 
     Complex operator()(Complex z) const;
     Complex derivative(Complex z) const;
-    /// The image of a sample; its offset stays exact.
-    RimSample operator()(const RimSample& sample, const std::vector<RimCorner>& corners_of_sample) const;
+    /// The images of samples; their offsets stay exact.
+    std::vector<RimSample> operator()(const std::vector<RimSample>& samples,
+                                      const std::vector<RimCorner>& corners_of_samples) const;
     /// The image of a rim's layout with its poles. The rim is not this map's own.
     RimLayout operator()(const RimLayout& other) const;
 
@@ -45,6 +46,11 @@ private:
     Complex followed(Complex place, Complex image, Complex w) const;
     void fill_row(Complex z, const RimSample* own, Complex* row) const;
     Complex exponent(Complex z, const RimSample* own) const;
+    /// Adds g less its constant at as many places as there are entries.
+    template <typename Places>
+    void add_functions(const Complex* z, const RimSample* own, Places& real, Places& imaginary) const;
+    /// The images of the samples' places.
+    void move(std::vector<RimSample>& samples) const;
     Complex exponent_derivative(Complex z) const;
     void solve(const std::vector<RimSample>& samples);
     Eigen::Index functions() const;

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -58,7 +59,11 @@ Point rim_middle(const Point& before, const Point& p, const Point& q, const Poin
 {
     const std::optional<Point> at_p = curvature(before, p, q), at_q = curvature(p, q, after);
     const Point middle = 0.5 * (p + q);
-    return at_p && at_q ? Point(middle - (q - p).squaredNorm() / 16.0 * (*at_p + *at_q)) : middle;
+    if (!at_p || !at_q) return middle;
+    // On a circle the mean of both curvatures is root times the circle's, and the arc is so far from its chord.
+    const double square = (q - p).squaredNorm();
+    const double root = std::sqrt(1.0 - std::min(0.5, 0.25 * square * at_p->norm() * at_q->norm()));
+    return middle - square / (8.0 * root * (1.0 + root)) * (*at_p + *at_q);
 }
 
 /// Cuts each face in four and puts the new vertices on the smooth surface. Inside, a new vertex lies on the cubic over

@@ -129,7 +129,8 @@ int run_compare(const CompareRequest& request)
         }
     }
     if (!request.with_json || to_file) {
-        const char* const rims = request.options.rims == RimKind::polygonal ? " (polygonal rims)" : "";
+        const RimKind kind = request.options.rims;
+        const std::string rims = kind == RimKind::smooth ? "" : " (" + std::string(to_string(kind)) + " rims)";
         print(formatted("distance %.9g", distance) + rims + "\n", to_file ? "; the file is written" : "");
     }
     return a.converged && b.converged ? done : not_converged;
@@ -156,7 +157,7 @@ void settle_words(CompareRequest& request, const CLI::Option& json)
     if (request.any_outer && request.loops != "match") throw CLI::ValidationError("--any-outer", "needs --loops match");
     if (request.loops == "least" && !request.teichmueller)
         throw CLI::ValidationError("--loops", "least needs --teichmueller");
-    if (request.options.rims == RimKind::polygonal && request.teichmueller)
+    if (request.options.rims != RimKind::smooth && request.teichmueller)
         throw CLI::ValidationError("--teichmueller", "needs --rims smooth: the map of least K takes rims for smooth");
     if (request.options.with_error && !request.with_json)
         throw CLI::ValidationError("--error", "needs --csv or --json");

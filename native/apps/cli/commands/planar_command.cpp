@@ -15,17 +15,21 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace koebe::cli {
 namespace {
 
 struct PlanarRequest {
     std::string input, points, images;
+    std::vector<double> pole;
     PlanarOptions options;
 };
 
 int run_planar(const PlanarRequest& request)
 {
+    PlanarOptions asked = request.options;
+    if (!request.pole.empty()) asked.pole = Complex(request.pole[0], request.pole[1]);
     const CancelToken token = cancel_on_signal();
     require_standard_output();
     const std::vector<PlanarRim> rims =
@@ -34,10 +38,13 @@ int run_planar(const PlanarRequest& request)
     const VectorXcd images = request.images.empty() ? VectorXcd() : planar_places(read_text(request.images));
     ProgressLine progress(false);
     ExecutionContext context(progress.callback(), token);
-    const PlanarResult result = planar_map(rims, request.options, context);
+    const PlanarResult result = planar_map(rims, asked, context);
     nlohmann::ordered_json json = to_json(result);
     json["input"] = std::filesystem::path(request.input).filename().string();
-    if (!request.points.empty()) json["images"] = places_json(result.map(points));
+    if (!request.points.empty()) {
+        json["images"] = places_json(result.map(points));
+        if (!result.slits.empty()) json["slit_images"] = places_json(result.map.slit_images(points));
+    }
     if (!request.images.empty()) json["preimages"] = places_json(result.map.inverse(images));
     print(json_text(json));
     return result.converged ? done : not_converged;
@@ -58,6 +65,9 @@ Subcommand add_planar(CLI::App& app)
         ->add_option("--inverse", request->images,
                      "JSON list of places of the circle domain: the report has their preimages")
         ->type_name("FILE");
+    options->add_option("--pole", request->pole, "with parallel slits: the place of the domain that goes to infinity")
+        ->expected(2)
+        ->type_name("X Y");
     add_options(*options, "planar", request->options);
     return {options, [request] { return run_planar(*request); }};
 }

@@ -118,7 +118,7 @@ FamilyRow row_of(const std::string& file, const ShapeInput& shape, const std::ve
 {
     FamilyRow row{name_of(file), true, conformal_module(shape.circles, order), {}, {}};
     if (options.with_error) row.error = module_error(row.module, conformal_module(shape.refined, order));
-    if (options.rims == RimKind::polygonal) row.note = "polygonal rims";
+    if (options.rims != RimKind::smooth) row.note = std::string(to_string(options.rims)) + " rims";
     if (!shape.converged) row.note = "not converged";
     for (const Warning& warning : shape.warnings)
         if (warning.kind == WarningKind::reoriented_faces)

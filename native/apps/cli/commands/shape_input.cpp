@@ -56,6 +56,11 @@ void take_circles(ShapeInput& shape, const UniformizeResult& result, const Verti
         return;
     }
     for (const LoopReport& loop : loops) shape.circles.push_back(loop.circle);
+    if (options.rims == RimKind::extrapolated) {
+        shape.refined = refined_circles(vertices, triangles, loops, options.map, context);
+        shape.circles = extrapolated_circles(shape.circles, shape.refined);
+        return;
+    }
     if (options.with_error) shape.refined = refined_circles(vertices, triangles, loops, options.map, context);
     warn_about_rims(shape, polygonal_changes(vertices, triangles, result.conformal_uv(), loops));
 }

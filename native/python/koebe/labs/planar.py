@@ -27,7 +27,9 @@ class PlanarMap(Comparable):
     module_errors how far each may be off: its change from the next coarser resolution, at least the largest residual
     error         the same for all circles, a length in the unit disk
     residuals     (L,) the greatest distance of each rim's image from its circle, between the samples as well
-    converged     whether `error` is at most the tolerance
+    converged     whether `error`, and `slit_error`, are at most the tolerance
+    slits         None, or (L,) pairs of complex numbers: the ends of each rim's slit, equal for a circle round 0
+    slit_error    how far an end may be off, of the greatest distance of one from 0
     sweeps, levels, unknowns    of the iteration at the finest resolution; resolutions; size of the largest system
     """
 
@@ -42,12 +44,18 @@ class PlanarMap(Comparable):
     sweeps: int
     levels: int
     unknowns: int
+    slits: np.ndarray | None
+    slit_error: float
     _native: Any
     _given: tuple[str, bool, dict[str, Any]]
 
     def __call__(self, points: Any) -> np.ndarray:
         """(N, 2) images of places of the domain, rims included. Raises InputError for places off it."""
         return self._native.image(_places(points))
+
+    def slit_images(self, points: Any) -> np.ndarray:
+        """(N, 2) images of places in the slit domain. Raises InputError for places off the domain, or without slits."""
+        return self._native.slit_image(_places(points))
 
     def inverse(self, points: Any) -> np.ndarray:
         """(N, 2) places whose images these are. Raises InputError for points off the circle domain, SolverError."""
@@ -104,16 +112,21 @@ def _plain(value: Any) -> Any:
 
 
 def _mapped(text: str, is_svg: bool, given: dict[str, Any], progress: Any = None, cancel: Any = None) -> PlanarMap:
+    pole = given["pole"]
     options, _ = filled("planar", _koebe.PlanarOptions(), given)
+    if pole is not None:
+        options.pole = complex(*_places([pole] if np.ndim(pole) else np.array([pole], complex))[0])
     native = _koebe.planar_map(text, is_svg, options, progress, token(cancel, "cancel"))
     centers, radii = native.circles
     order, residuals = np.array(native.order, np.int32), np.array(native.residuals)
     module, errors = native.module, native.module_errors
-    for array in (centers, radii, order, module, errors, residuals):
+    slits = np.array(native.slits) if native.slits else None
+    for array in (centers, radii, order, module, errors, residuals, *([] if slits is None else [slits])):
         array.flags.writeable = False
     counts = native.converged, native.sweeps, native.levels, native.unknowns
     return PlanarMap(
-        centers, radii, order, module, errors, native.error, residuals, *counts, native, (text, is_svg, given)
+        centers, radii, order, module, errors, native.error, residuals, *counts, slits, native.slit_error, native,
+        (text, is_svg, given),
     )
 
 
@@ -122,6 +135,9 @@ def planar(
     *,
     tolerance: float = rows("planar")["tolerance"].default,
     max_sweeps: int = rows("planar")["max_sweeps"].default,
+    slits: str = rows("planar")["slits"].default,
+    slit_angle: float = rows("planar")["slit_angle"].default,
+    pole: Any = None,
     progress: Callable[[float, str], Any] | None = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> PlanarMap:
@@ -132,6 +148,10 @@ def planar(
                  (docs/shapes.md), for example {"circle": {"center": [0, 0], "radius": 1}}
     tolerance    add poles until no circle changes by more than this, a length in the unit disk
     max_sweeps   stop each resolution after this many sweeps over all rims
+    slits        "parallel", "circular" or "radial": also map to that slit domain. In the last two the outer rim becomes
+                 the unit circle, and the rim of circle 1 a circle round 0
+    slit_angle   direction of parallel slits, degrees from the x axis
+    pole         a place (x, y) of the domain, or a complex number: parallel slits have 1 / (z - pole) there
     progress, cancel    as for `uniformize`
     The rims must not meet. Each rim in turn is mapped to a circle by a rational function with poles near its corners.
     Raises InputError for rims that meet, lie outside the outer one or are no curves, SolverError for rims that are too
@@ -144,4 +164,5 @@ def planar(
     0.5412107610 True
     """
     run = callback(progress, "progress"), token(cancel, "cancel")
-    return _mapped(*_described(rims), {"tolerance": tolerance, "max_sweeps": max_sweeps}, *run)
+    given = {"tolerance": tolerance, "max_sweeps": max_sweeps, "slits": slits, "slit_angle": slit_angle, "pole": pole}
+    return _mapped(*_described(rims), given, *run)

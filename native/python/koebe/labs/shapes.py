@@ -25,27 +25,31 @@ from ..maps.result import UniformizeResult
 _RIMS = {word: word for word in rows("module")["rims"].words}
 
 
-class _Polygonal:
-    """The circle domain of a result's polyhedron, kept with the result."""
+class _OtherRims:
+    """The circle domain of a result's polyhedron, or of ever finer meshes, kept with the result."""
 
-    def __init__(self, result: UniformizeResult, run: Run) -> None:
-        circles, of_upper_bounds = _koebe.polygonal_circles(mapped_surface(result), 0, run.progress, run.cancel)
+    def __init__(self, result: UniformizeResult, rims: str, run: Run) -> None:
+        self.refined: tuple[np.ndarray, np.ndarray]
+        if rims == "polygonal":
+            circles, self.refined = _koebe.polygonal_circles(mapped_surface(result), 0, run.progress, run.cancel)
+        else:
+            self.refined = _refined(result, run)
+            circles = _koebe.extrapolated_circles(*as_circles(result), *self.refined)
         self.centers, self.radii = circles
-        self.refined: tuple[np.ndarray, np.ndarray] = of_upper_bounds
 
 
 def with_rims(domain: Any, rims: Rims, run: Run | None = None) -> Any:
     """The domain with its circles for this kind of rims."""
-    if choice_of(rims, "rims", _RIMS) == "smooth" or isinstance(domain, _Polygonal):
+    if choice_of(rims, "rims", _RIMS) == "smooth" or isinstance(domain, _OtherRims):
         return domain
     if not isinstance(domain, UniformizeResult):
         raise TypeError(
-            f"polygonal rims need a result of uniformize, not {type(domain).__name__}: circles are not enough"
+            f"{rims} rims need a result of uniformize, not {type(domain).__name__}: circles are not enough"
         )
     kept = vars(domain)
-    if "_polygonal" not in kept:
-        kept["_polygonal"] = _Polygonal(domain, run or Run(None, None))
-    return kept["_polygonal"]
+    if f"_{rims}" not in kept:
+        kept[f"_{rims}"] = _OtherRims(domain, rims, run or Run(None, None))
+    return kept[f"_{rims}"]
 
 
 def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
@@ -69,7 +73,8 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None, r
              'canonical': by canonical_order
     rims     'smooth': the boundary loops of the mesh are samples of smooth curves, as in the map; 'polygonal': they are
              polygons. This is the module of the polyhedron itself, which certified_moduli encloses: for up to 12 loops.
-             The two differ by 3.3 / N^2 of a radius for rims of N equal edges (docs/shapes.md)
+             The two differ by 3.3 / N^2 of a radius for rims of N equal edges (docs/shapes.md). 'extrapolated': as
+             smooth, from the map and one of four times as many faces, for smooth surfaces and rims
     The second loop is moved to the middle of the unit disk and the third's centre onto the positive y axis. Returns
     3n - 3 float64 numbers for n >= 2 holes, 1 for one hole, 0 without holes: lengths in the unit disk. They are equal
     if and only if a conformal map that keeps orientation and numbering takes one surface to the other. Raises
@@ -98,8 +103,9 @@ def module_error(
     smooth rims that the mesh approximates. Each bar is twice the change of its number plus the root mean square of all
     changes. On exact domains 97 % of the errors lie within the bars, and half of the bars are less than 5 times the
     error (docs/shapes.md). Takes about 5 times as long as the map, once for each result. With rims='polygonal' the bars
-    come from the bounds of the polyhedron's capacities. With smooth rims a koebe.Warning ('coarse_mesh') says where
-    polygonal ones would change a radius by more than its bar, by a forecast.
+    come from the bounds of the polyhedron's capacities, with 'extrapolated' they are about those of the finer mesh.
+    With smooth rims a koebe.Warning ('coarse_mesh') says where polygonal ones would change a radius by more than its
+    bar, by a forecast.
     progress, cancel    as for `uniformize`
     Raises InputError if circles are not the surface's own, SolverError, Cancelled.
 
@@ -114,10 +120,10 @@ def module_error(
     run = Run(progress, cancel)
     domain = with_rims(result, rims, run)
     module = _koebe.conformal_module(*as_circles(domain), chosen)
-    refined = domain.refined if isinstance(domain, _Polygonal) else _refined(result, run)
+    refined = domain.refined if isinstance(domain, _OtherRims) else _refined(result, run)
     bars = _koebe.module_error(module, _koebe.conformal_module(*refined, chosen))
     run.at(1.0, "finish")
-    if not isinstance(domain, _Polygonal):
+    if not isinstance(domain, _OtherRims):
         _tell_of_polygons(result, refined)
     return bars
 
