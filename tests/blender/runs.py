@@ -299,6 +299,7 @@ RUNS = {
     "arrange in Edit Mode": (mapped_in_edit_mode, "uv.koebe_arrange", {"mode": "LEFT", "in_square": True}),
     "trim sheet": (mapped, "uv.koebe_trims", {"action": "GRID"}),
     "sew": (sewable, "uv.koebe_sew", {}),
+    "bake": (textured, "uv.koebe_bake_texture", {"layer": "Koebe", "margin": 2}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
     "lift": (panels_and_closed, "object.koebe_lift", {"size": 0.4}),
     "relief of what is worn": (mapped, "object.koebe_lift", {"size": 0.4, "way": "raise"}),
@@ -312,8 +313,6 @@ RUNS = {
     "select what a warning speaks of": (flipped, "uv.koebe_select_warning", {}),
     "select what is flipped": (flipped, "uv.koebe_select_flipped", {}),
 }
-if bpy.app.version < (5, 0, 0):
-    RUNS["bake"] = (textured, "uv.koebe_bake_texture", {"layer": "Koebe", "margin": 2})
 
 
 def operator(name):
