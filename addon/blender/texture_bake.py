@@ -74,8 +74,8 @@ class _Stage:
             "active_object": self.copy, "object": self.copy,
             "selected_objects": [self.copy], "selected_editable_objects": [self.copy],
         }  # fmt: skip
-        # An interrupt between the body of `with` and its end would leave the override in force, and Blender 5 crashes at
-        # the next update once its scene is removed. So the transaction ends it too, before it removes the scene.
+        # An interrupt between the body of `with` and its end would leave the override in force, and from 4.5 on Blender
+        # crashes at the next update once its scene is removed. So the transaction ends it too, before that.
         override = contextlib.ExitStack()
         run.before_write(override.close)
         try:
