@@ -123,7 +123,7 @@ def set_edited_corners(
     edited = bmesh.from_edit_mesh(obj.data)
     layer = edited.loops.layers.uv.get(layer_name)
     if layer is None or (len(faces) and faces.max() >= len(edited.faces)):
-        raise TransferError(f"{obj.name}: its mesh has changed")
+        raise TransferError(f"{obj.name}: its mesh has changed during the run")
     edited.faces.ensure_lookup_table()
     for face, number, place in zip(faces.tolist(), in_face.tolist(), uv.tolist(), strict=True):
         edited.faces[face].loops[number][layer].uv = place

@@ -57,6 +57,6 @@ class RelaxJob:
     def _set(self, corners: np.ndarray, uv: np.ndarray) -> None:
         obj = self.target.obj
         if obj is None or obj.type != "MESH" or obj.mode != "EDIT":
-            raise TransferError(f"{self.target.name}: it is no longer in Edit Mode")
+            raise TransferError(f"{self.target.name}: its mesh has changed during the run")
         in_face = corners - self._surface.face_start[self._face[corners]]
         uv_layers.set_edited_corners(obj, self.layer, self._face[corners], in_face, uv)

@@ -26,7 +26,7 @@ from ..state.option_properties import (
     option_names,
     settings_of,
 )
-from .panel_parts import ClosedPanel, draw_map_button, draw_message, draw_sew
+from .panel_parts import ClosedPanel, draw_map_button, draw_message, draw_sew, draw_unwrap
 
 
 class DiskPanel(ClosedPanel):
@@ -77,6 +77,7 @@ class PartsPanel(ClosedPanel):
         draw_weights(column, settings, "importance", context)
         for name in ("seams", "write_seams", "cut_at", "hard_angle", "cut_hard", "no_hard", "weld"):
             draw_option(column, settings, name, context)
+        draw_unwrap(column, settings, "PARTS", "Unwrap Along Seams", "UV_ISLANDSEL").seams = "only"
         draw_sew(column, settings)
         draw_live(column, context)
 

@@ -31,6 +31,8 @@ class PackingPanel(ClosedPanel):
         draw_density(column, context, settings)
         column.separator()
         draw_pack(column, settings)
+        if context.mode == "EDIT_MESH":
+            draw_pack(column, settings, "Pack Beside the Rest").keep_places = "OTHERS"
         draw_flags(column, settings, "average_scale")
         for name in ("keep_places", "seconds"):
             draw_option(column, settings, name, context)
