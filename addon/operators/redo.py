@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that looks after a run from the redo panel: the window stays alive, and the last map in it."""
 
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
 
@@ -17,7 +17,6 @@ class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):
     bl_label = "Koebe Redo"
     bl_description = tooltip(__doc__)
     bl_options = {"INTERNAL"}
-    is_settled: ClassVar[bool] = False  # the redo panel has ended: other changes are the user's
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         return {"CANCELLED"}  # there is nothing to look after
@@ -28,7 +27,7 @@ class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):
             return {"CANCELLED"}
         self._run = run
         context.evaluated_depsgraph_get()
-        UV_OT_koebe_redo.is_settled = True
+        run.settled = True
         _listen(True)
         return self._start(context, run.job, None, run.worker)
 
@@ -36,6 +35,8 @@ class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):
         if Waiting.last is not self._run:  # another one has taken its place, or the user went on
             if event.type != "TIMER":
                 return {"PASS_THROUGH"}
+            if Waiting.last is None:
+                self.report({"INFO"}, "Koebe UV: the model was changed, so the last map stays")
             self.cancel(context)
             return {"CANCELLED", "PASS_THROUGH"}
         answer = super().modal(context, event)
@@ -67,14 +68,14 @@ class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):
 @bpy.app.handlers.persistent
 def after_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Called by Blender after changes, which the last map is part of: what it replaced is no longer known."""
-    if UV_OT_koebe_redo.is_settled and len(depsgraph.updates):
-        forget_waiting()
+    if len(depsgraph.updates):
+        after_undo()
 
 
 @bpy.app.handlers.persistent
 def after_undo(*_: object) -> None:
     """Called by Blender after undo and redo, and after a file was opened."""
-    if UV_OT_koebe_redo.is_settled:
+    if Waiting.last is not None and Waiting.last.settled:
         forget_waiting()
 
 
@@ -93,7 +94,6 @@ def _listen(is_listening: bool) -> None:
             handlers.remove(function)
         if is_listening:
             handlers.append(function)
-    UV_OT_koebe_redo.is_settled = is_listening
 
 
 def register() -> None:

@@ -91,6 +91,7 @@ class Waiting:
 
     label    of its operator, as of its undo step
     preview  has written the last map, which is seen meanwhile
+    settled  the redo panel has ended: changes after that are the user's
     last     the run that goes on now
     done     the last map: the label of its operator, and its job
     """
@@ -99,6 +100,7 @@ class Waiting:
     job: Job
     worker: Worker
     preview: Transaction
+    settled: bool = False
 
     last: ClassVar["Waiting | None"] = None
     done: ClassVar[tuple[str, Job] | None] = None

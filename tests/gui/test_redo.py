@@ -17,13 +17,14 @@ if "Koebe" in mesh.uv_layers:
 """
 OPTION = "bpy.context.window_manager.operators[-1].properties"
 BAR = "next(m.ModalRun.bar for n, m in __import__('sys').modules.items() if n.endswith('operators.modal_run'))"
-ROW = {"keep_angles": (170, 84), "checker": (170, 176)}  # pixels from the pointer to rows of the panel that F9 opens
+ROW = {"keep_angles": (170, 88)}  # pixels from the pointer to rows of the panel that F9 opens
 
 
 def change(window, name):
     """Open the redo panel in the middle of the 3D View, click a switch, and wait until a run goes on."""
     window.move(*window.middle("VIEW_3D"))
     window.key("F9")
+    window.picture("100_redo_panel")
     x, y = window.middle("VIEW_3D")
     before = window.ask(f"{OPTION}.{name}")
     window.move(x + ROW[name][0], y + ROW[name][1])
@@ -66,6 +67,22 @@ def test_the_window_lives_while_the_redo_panel_computes(window):
     assert window.run(HASH) == "", "two are before it"
     window.key("ctrl+shift+z", "ctrl+shift+z")
     assert window.run(HASH) == second
+
+
+def test_a_second_change_takes_the_place_of_the_first(window):
+    window.prepare(MODEL)
+    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
+    window.wait(DONE, 240.0)
+    window.settle()
+    first = window.run(HASH)
+    change(window, "keep_angles")
+    xdotool("click", "1")  # the same switch: back to the first map's options, while the other run goes on
+    window.settle()
+    assert window.ask(f"{OPTION}.keep_angles")
+    window.wait(f"{BAR} is None", 240.0)
+    window.wait("not heart.computing", 240.0)
+    window.settle()
+    assert window.run(HASH) == first and window.ask(f"{OPTION}.keep_angles")
 
 
 def test_going_on_ends_the_run(window):
