@@ -24,7 +24,8 @@ class PackingPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("pixels", "margin", "placement", "tiles"):
+        draw_flags(column, settings, "pixels")
+        for name in ("margin", "placement", "tiles"):
             draw_option(column, settings, name, context)
         draw_flags(column, settings, "stack", "stack_mirrored", "atlas", "rectify")
         column.separator()
@@ -39,7 +40,7 @@ class PackingPanel(ClosedPanel):
 
 
 def draw_flags(column: bpy.types.UILayout, settings: KoebeSettings, *names: str) -> None:
-    """Switches that have the whole width for their names."""
+    """Options that have the whole width for their names."""
     flags = column.column()
     flags.use_property_split = False
     for name in names:
