@@ -68,12 +68,12 @@ window = bpy.context.window_manager.windows[0]
 area = next(a for a in window.screen.areas if a.type == 'IMAGE_EDITOR')
 region = next(r for r in area.regions if r.type == 'WINDOW')
 """
-# A bent sheet, whose UVs follow.
+# A dome, whose UVs follow.
 SHEET = """
 for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
 bpy.ops.mesh.primitive_grid_add(x_subdivisions=14, y_subdivisions=14)
 obj = bpy.context.object
-for vertex in obj.data.vertices: vertex.co.z = 0.35 * vertex.co.x ** 2 + 0.25 * vertex.co.x * vertex.co.y
+for vertex in obj.data.vertices: vertex.co.z = -0.9 * (vertex.co.x ** 2 + vertex.co.y ** 2)
 while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
 bpy.ops.uv.koebe_parts(seams="only", checker=False, margin=60)
 bpy.context.window_manager.koebe_uv.islands.clear()
@@ -84,14 +84,15 @@ EDITED = """
 space = area.spaces.active
 space.overlay.show_overlays = True
 space.shading.type = 'SOLID'
-bpy.ops.view3d.view_axis(type='TOP')
+bpy.ops.view3d.view_axis(type='FRONT')
+bpy.ops.view3d.view_orbit(angle=0.8, type='ORBITUP')
 bpy.context.tool_settings.mesh_select_mode = (True, False, False)
 bpy.context.tool_settings.use_uv_select_sync = True
 bpy.ops.object.mode_set(mode='EDIT')
 bpy.ops.mesh.select_all(action='DESELECT')
 import bmesh
 mesh = bmesh.from_edit_mesh(bpy.context.object.data)
-near = min(mesh.verts, key=lambda vertex: (vertex.co.xy - vertex.co.xy.__class__((0.2, 0.1))).length)
+near = min(mesh.verts, key=lambda vertex: (vertex.co.xy - vertex.co.xy.__class__((0.4, -0.3))).length)
 near.select_set(True)
 bmesh.update_edit_mesh(bpy.context.object.data)
 bpy.context.window_manager.koebe_live = True
@@ -101,8 +102,7 @@ import bmesh
 mesh = bmesh.from_edit_mesh(bpy.context.object.data)
 bpy.ops.mesh.select_all(action='DESELECT')
 bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-line = sorted({round(vertex.co.x, 3) for vertex in mesh.verts}, key=lambda x: abs(x + 0.3))[0]
-for edge in mesh.edges: edge.select_set(all(abs(vertex.co.x - line) < 1e-2 for vertex in edge.verts))
+for edge in mesh.edges: edge.select_set(all(abs(v.co.x) < 1e-2 and v.co.y < 0.05 for v in edge.verts))
 bmesh.update_edit_mesh(bpy.context.object.data)
 """
 UVS = """
@@ -240,25 +240,26 @@ def play_live(window, film):
     window.settle()
     film.take(LONG)
     film.glide(x, y)
+    before = window.run(UVS)
     gui.xdotool("key", "g", "sleep", "0.2")
-    film.glide(x + 50, y - 70, STEPS)
+    film.glide(x, y - 14, 3)
     gui.xdotool("click", 1)
-    follow(window, film, "vertex")
+    follow(window, film, before)
     for clear in (False, True):
+        before = window.run(UVS)
         window.run(in_view(f"{SEAM}bpy.ops.mesh.mark_seam('EXEC_DEFAULT', True, clear={clear})"))
         film.take(4 * SHORT)
-        follow(window, film, "seam")
+        follow(window, film, before)
 
 
-def follow(window, film, what):
+def follow(window, film, before):
     """Wait until the UVs have changed, and show them."""
-    before = window.run(UVS)
     for _ in range(100):
         window.settle()
         if window.run(UVS) != before:
             break
     else:
-        raise AssertionError(f"the UVs did not follow the {what}")
+        raise AssertionError("the UVs did not follow")
     film.take(LONG)
 
 

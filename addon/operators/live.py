@@ -20,6 +20,7 @@ from .modal_run import redraw
 
 QUIET_SECONDS = 0.15  # without a change, before anything is computed: not during a drag
 POLL_SECONDS = 0.05
+OWN_SECONDS = 0.3  # after a look at the mesh, which Blender reports as a change of it: or looking would never end
 
 
 class _Live:
@@ -41,10 +42,14 @@ class _Live:
         self._job: LiveJob | None = None
         self._worker: Worker | None = None
         self._changed = 0.0  # seconds
+        self._looked = 0.0  # seconds, when a look has found nothing new
         self._is_new = True  # what is there now is no change: after undo, and at first
 
     def touch(self, is_new: bool = False) -> None:
         """The mesh has changed. @param is_new not by the hand"""
+        if not is_new and time.monotonic() - self._looked < OWN_SECONDS:
+            self._looked = 0.0
+            return
         self._changed, self._is_new = time.monotonic(), self._is_new or is_new
         if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
             bpy.app.timers.register(_tick, first_interval=POLL_SECONDS)
@@ -74,12 +79,9 @@ class _Live:
         if key != self._key:
             self._even = even_of(bpy.context, *key)
         self._key, self._is_new = key, False
-        if is_new or before is None:
-            self._state = now
-            return None
-        faces = now.concerned(before)
-        if not faces.any():
-            self._state = now
+        faces = None if is_new or before is None else now.concerned(before)
+        if before is None or faces is None or not faces.any():
+            self._state, self._looked = now, time.monotonic()
             return None
         self._next = now
         self._job = LiveJob(obj, key[1], before, now, faces, choice_of("parts", settings_of(bpy.context)), self._even)
