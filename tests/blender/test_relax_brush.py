@@ -17,6 +17,7 @@ def squeezed(size=12, seams=()):
     uv = scenes.corner_uv(obj.data, "Koebe").astype(np.float64)
     uv[:, 0] = uv[:, 0] ** 2
     layer.data.foreach_set("uv", uv.astype(np.float32).ravel())
+    bpy.context.tool_settings.use_uv_select_sync = False  # from 5.0 on it is on at first
     edit()
     return obj
 
