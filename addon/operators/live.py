@@ -16,7 +16,7 @@ from ..solver.errors import NativeError
 from ..solver.worker import Worker
 from ..state.option_properties import choice_of, settings_of
 from ..state.run_report import even_of
-from .modal_run import redraw
+from .modal_run import listen, redraw
 
 QUIET_SECONDS = 0.15  # without a change, before anything is computed: not during a drag
 POLL_SECONDS = 0.05
@@ -161,11 +161,7 @@ HANDLERS = (
 
 def _listen(is_listening: bool) -> None:
     """Add the handlers, or remove them."""
-    for handlers, function in HANDLERS:
-        if function in handlers:
-            handlers.remove(function)
-        if is_listening:
-            handlers.append(function)
+    listen(HANDLERS, is_listening)
     if not is_listening:
         live.stop()
         if bpy.app.timers.is_registered(_tick):

@@ -51,6 +51,15 @@ def redraw(context: bpy.types.Context, editors: Collection[str] = ()) -> None:
             area.tag_redraw()
 
 
+def listen(handlers: Collection[tuple[Any, Any]], is_listening: bool) -> None:
+    """Add functions to Blender's lists of handlers, or remove them. @param handlers a list and a function each"""
+    for functions, function in handlers:
+        if function in functions:
+            functions.remove(function)
+        if is_listening:
+            functions.append(function)
+
+
 def finish_early(job: Any) -> bool:
     """Whether the job ends with the best that it has, in place of being cancelled."""
     return hasattr(job, "finish_early") and job.finish_early()

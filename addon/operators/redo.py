@@ -6,6 +6,7 @@ from typing import Any
 import bpy
 
 from ..jobs.map_job import Job
+from .modal_run import listen
 from .run_operator import MapOperator, Waiting, forget_waiting
 from .tooltip import tooltip
 
@@ -28,7 +29,7 @@ class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):
         self._run = run
         context.evaluated_depsgraph_get()
         run.settled = True
-        _listen(True)
+        listen(HANDLERS, True)
         return self._start(context, run.job, None, run.worker)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -49,7 +50,7 @@ class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):
         if Waiting.last is self._run:
             Waiting.last = None
         if Waiting.last is None:
-            _listen(False)
+            listen(HANDLERS, False)
 
     def _finish(self, context: bpy.types.Context, job: Job) -> set[str]:
         """Put the new map in the place of the last one, in an undo step of its own.
@@ -87,15 +88,6 @@ HANDLERS: tuple[tuple[Any, Any], ...] = (
 )
 
 
-def _listen(is_listening: bool) -> None:
-    """Add the handlers, or remove them."""
-    for handlers, function in HANDLERS:
-        if function in handlers:
-            handlers.remove(function)
-        if is_listening:
-            handlers.append(function)
-
-
 def register() -> None:
     """Register the operator."""
     bpy.utils.register_class(UV_OT_koebe_redo)
@@ -105,5 +97,5 @@ def unregister() -> None:
     """The reverse of `register`."""
     forget_waiting()
     Waiting.done = None
-    _listen(False)
+    listen(HANDLERS, False)
     bpy.utils.unregister_class(UV_OT_koebe_redo)
