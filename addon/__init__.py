@@ -35,6 +35,8 @@ def _parts() -> tuple[ModuleType, ...]:
         option_presets,
         pack,
         parts,
+        redo,
+        relax_brush,
         render_layer,
         select_from_report,
         sequence,
@@ -63,17 +65,18 @@ def _parts() -> tuple[ModuleType, ...]:
         panels,
         preferences,
         preset_menu,
+        progress_bar,
         trim_overlay,
     )
 
     return (
         option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
         density_report, trims,
-        unwrap, uniformize, parts, domains, sequence, checker, select_from_report, distortion, fill_holes,
-        compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, sew, live, flat_copy, even_slider,
-        render_layer, texel_density, arrange, bake_texture, lift, node_groups, hole_rings,
-        distortion_legend, outline_overlay, trim_overlay, circle_overlay, circle_tool, preset_menu, panels, menus,
-        preferences,
+        unwrap, uniformize, parts, domains, sequence, redo, checker, select_from_report, distortion, fill_holes,
+        compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, sew, live, relax_brush, flat_copy,
+        even_slider, render_layer, texel_density, arrange, bake_texture, lift, node_groups, hole_rings,
+        distortion_legend, progress_bar, outline_overlay, trim_overlay, circle_overlay, circle_tool, preset_menu,
+        panels, menus, preferences,
     )  # fmt: skip
 
 

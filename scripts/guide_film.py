@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The guide's film: press Unwrap, drag a circle, move the slider Even, press Unwrap again. In a real window.
+"""The guide's films, in a real window: press Unwrap, drag a circle, move the slider Even, press Unwrap again; or Live.
 
-    xvfb-run -a -s '-screen 0 880x560x24' /usr/bin/python3 scripts/guide_film.py OUT.gif
+    xvfb-run -a -s '-screen 0 880x560x24' /usr/bin/python3 scripts/guide_film.py OUT.gif [live]
 
 It needs what tests/gui needs: the zip of `make package`, a display, xdotool, ImageMagick. Each picture is taken when
 the window is drawn, and the pointer is painted into it.
@@ -67,6 +67,49 @@ IN_UV = """
 window = bpy.context.window_manager.windows[0]
 area = next(a for a in window.screen.areas if a.type == 'IMAGE_EDITOR')
 region = next(r for r in area.regions if r.type == 'WINDOW')
+"""
+# A dome, whose UVs follow.
+SHEET = """
+for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
+bpy.ops.mesh.primitive_grid_add(x_subdivisions=14, y_subdivisions=14)
+obj = bpy.context.object
+for vertex in obj.data.vertices: vertex.co.z = -0.9 * (vertex.co.x ** 2 + vertex.co.y ** 2)
+while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
+bpy.ops.uv.koebe_parts(seams="only", checker=False, margin=60)
+bpy.context.window_manager.koebe_uv.islands.clear()
+bpy.context.preferences.system.use_region_overlap = False
+bpy.context.preferences.themes[0].view_3d.space.gradients.background_type = 'SINGLE_COLOR'
+"""
+EDITED = """
+space = area.spaces.active
+space.overlay.show_overlays = True
+space.shading.type = 'SOLID'
+bpy.ops.view3d.view_axis(type='FRONT')
+bpy.ops.view3d.view_orbit(angle=0.8, type='ORBITUP')
+bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+bpy.context.tool_settings.use_uv_select_sync = True
+bpy.ops.object.mode_set(mode='EDIT')
+bpy.ops.mesh.select_all(action='DESELECT')
+import bmesh
+mesh = bmesh.from_edit_mesh(bpy.context.object.data)
+near = min(mesh.verts, key=lambda vertex: (vertex.co.xy - vertex.co.xy.__class__((0.4, -0.3))).length)
+near.select_set(True)
+bmesh.update_edit_mesh(bpy.context.object.data)
+bpy.context.window_manager.koebe_live = True
+"""
+SEAM = """
+import bmesh
+mesh = bmesh.from_edit_mesh(bpy.context.object.data)
+bpy.ops.mesh.select_all(action='DESELECT')
+bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+for edge in mesh.edges: edge.select_set(all(abs(v.co.x) < 1e-2 and v.co.y < 0.05 for v in edge.verts))
+bmesh.update_edit_mesh(bpy.context.object.data)
+"""
+UVS = """
+import bmesh
+mesh = bmesh.from_edit_mesh(bpy.context.view_layer.objects.active.data)
+layer = mesh.loops.layers.uv.active
+result = [tuple(loop[layer].uv) for face in mesh.faces for loop in face.loops]
 """
 HOLE = "bpy.context.window_manager.koebe_uv.islands[0].loops[{}].uv_center"
 
@@ -147,7 +190,7 @@ def main():
         window = gui.Window(str(package), home / "blender")
         try:
             film = Film(window, home)
-            play(window, film)
+            (play_live if sys.argv[2:] == ["live"] else play)(window, film)
         finally:
             window.close()
         film.save(sys.argv[1])
@@ -181,6 +224,49 @@ def play(window, film):
     film.let_go(4 * SHORT)
     unwrap(window, film, *button)
     film.take(2 * LONG)
+
+
+def play_live(window, film):
+    """Live is on: a vertex is dragged, a seam is marked and cleared, and the UVs follow."""
+    window.run(SHEET)
+    window.workspace("UV Editing")
+    window.run(EDITORS)
+    window.settle()
+    window.run(TIDY)
+    window.run(in_view(EDITED))
+    window.settle()
+    x, y = window.middle("VIEW_3D")
+    gui.xdotool("mousemove", *film.at)
+    window.settle()
+    film.take(LONG)
+    film.glide(x, y)
+    before = window.run(UVS)
+    gui.xdotool("key", "g", "sleep", "0.2")
+    film.glide(x, y - 14, 3)
+    gui.xdotool("click", 1)
+    follow(window, film, before)
+    for clear in (False, True):
+        before = window.run(UVS)
+        window.run(in_view(f"{SEAM}bpy.ops.mesh.mark_seam('EXEC_DEFAULT', True, clear={clear})"))
+        film.take(4 * SHORT)
+        follow(window, film, before)
+
+
+def follow(window, film, before):
+    """Wait until the UVs have changed, and show them."""
+    for _ in range(100):
+        window.settle()
+        if window.run(UVS) != before:
+            break
+    else:
+        raise AssertionError("the UVs did not follow")
+    film.take(LONG)
+
+
+def in_view(code):
+    """The code with the 3D View as context."""
+    inside = "".join(f"    {line}\n" for line in code.strip().splitlines())
+    return gui.IN_VIEW.format(window=0) + inside
 
 
 def is_slider(window, x, y):

@@ -33,6 +33,7 @@ window)
     ;;
 film)
     PATH=/usr/bin:$PATH xvfb-run -a -s '-screen 0 880x560x24' /usr/bin/python3 scripts/guide_film.py "$images/guide_film.gif"
+    PATH=/usr/bin:$PATH xvfb-run -a -s '-screen 0 880x560x24' /usr/bin/python3 scripts/guide_film.py "$images/guide_live.gif" live
     ;;
 drawn)
     draw vase guide_picture.py "$images/guide_vase.jpg"

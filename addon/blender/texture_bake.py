@@ -5,6 +5,7 @@ It works on a copy of the mesh in a scene of its own, so that the object, its ma
 rendering and baking stay as they are.
 """
 
+import contextlib
 import dataclasses
 from typing import Any
 
@@ -62,7 +63,7 @@ class _Stage:
         view.objects.active = copy
         return cls(scene, copy, bpy.data.images.new(NAME, 16, 16), layer, margin)
 
-    def bake(self, shown: list[LaidImage | None], alpha: bool, target: bpy.types.Image) -> None:
+    def bake(self, run: Transaction, shown: list[LaidImage | None], alpha: bool, target: bpy.types.Image) -> None:
         """Bake into the target what each slot shows, or how opaque it is. Raises TransferError."""
         for slot, laid in zip(self.copy.material_slots, shown, strict=True):
             slot.link = "DATA"
@@ -73,8 +74,13 @@ class _Stage:
             "active_object": self.copy, "object": self.copy,
             "selected_objects": [self.copy], "selected_editable_objects": [self.copy],
         }  # fmt: skip
+        # An interrupt between the body of `with` and its end would leave the override in force, and from 4.5 on Blender
+        # crashes at the next update once its scene is removed. So the transaction ends it too, before that.
+        override = contextlib.ExitStack()
+        run.before_write(override.close)
         try:
-            with bpy.context.temp_override(**context):
+            with override:
+                override.enter_context(bpy.context.temp_override(**context))
                 answer = bpy.ops.object.bake(
                     type="NORMAL" if normal else "EMIT", uv_layer=self.layer, margin=self.margin, use_clear=True,
                     save_mode="INTERNAL", target="IMAGE_TEXTURES", normal_space="TANGENT", normal_r="POS_X",
@@ -104,7 +110,7 @@ def carry(run: Transaction, obj: MeshObject, layer: str, margin: int) -> list[bp
     made = {}
     for key in keys:
         of_slot = [next((one for one in laid[it] if _key(one) == key), None) if it else None for it in shown]
-        made[key] = _baked(stage, of_slot, key[0])
+        made[key] = _baked(run, stage, of_slot, key[0])
     _remove_others(known, KINDS[:-1])
     bpy.data.images.remove(stage.blank)
     copies = {material: _copied(material, laid[material], made, layer) for material in laid if laid[material]}
@@ -126,7 +132,9 @@ def _key(laid: LaidImage) -> tuple[bpy.types.Image, int, bool]:
     return laid.image, laid.number, laid.normal
 
 
-def _baked(stage: _Stage, shown: list[LaidImage | None], source: bpy.types.Image) -> bpy.types.Image:
+def _baked(
+    run: Transaction, stage: _Stage, shown: list[LaidImage | None], source: bpy.types.Image
+) -> bpy.types.Image:
     """A new image for textures that show the same one. Raises TransferError."""
     width, height = source.size
     if not (width and height):
@@ -137,10 +145,10 @@ def _baked(stage: _Stage, shown: list[LaidImage | None], source: bpy.types.Image
         f"{source.name} {stage.layer}", width, height, alpha=alpha, float_buffer=source.is_float, is_data=space.is_data
     )
     made.colorspace_settings.name = space.name
-    stage.bake(shown, False, made)
+    stage.bake(run, shown, False, made)
     if alpha:
         opacity: Any = bpy.data.images.new(NAME, width, height, float_buffer=True, is_data=True)
-        stage.bake(shown, True, opacity)
+        stage.bake(run, shown, True, opacity)
         pixels, opaque = (compat.image_pixels(image) for image in (made, opacity))
         pixels[3::4] = opaque[::4]
         made.pixels.foreach_set(pixels)

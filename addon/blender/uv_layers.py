@@ -115,6 +115,21 @@ def _write(obj: MeshObject, layer_name: str, values: np.ndarray, surface: Surfac
     bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
+def set_edited_corners(
+    obj: MeshObject, layer_name: str, faces: np.ndarray, in_face: np.ndarray, uv: np.ndarray
+) -> None:
+    """Set the UVs (m, 2) of some corners of an object in Edit Mode, by face (m,) and number in it (m,). Raises
+    TransferError if they are not there."""
+    edited = bmesh.from_edit_mesh(obj.data)
+    layer = edited.loops.layers.uv.get(layer_name)
+    if layer is None or (len(faces) and faces.max() >= len(edited.faces)):
+        raise TransferError(f"{obj.name}: its mesh has changed during the run")
+    edited.faces.ensure_lookup_table()
+    for face, number, place in zip(faces.tolist(), in_face.tolist(), uv.tolist(), strict=True):
+        edited.faces[face].loops[number][layer].uv = place
+    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
+
+
 def _select(
     obj: MeshObject, layer_name: str, selected: list[np.ndarray], surface: Surface, faces: np.ndarray
 ) -> None:

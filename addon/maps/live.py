@@ -139,6 +139,9 @@ def _relaxed(
     koebe: ModuleType, piece: Island, places: np.ndarray, pins: np.ndarray | None, even: float, cancel: Any
 ) -> np.ndarray | None:
     """The places (n, 2) of a piece's vertices after it has settled; None if it does not."""
+    copies = np.column_stack([piece.source_vertex, places])
+    if len(np.unique(copies, axis=0)) < len(copies):
+        return None  # a new cut whose sides lie on each other: they would be in each other's way
     dial = koebe.EvenDial(piece.vertices, piece.triangles, uv=places, round=False)
     if pins is not None and has_pins(piece, pins):
         return pin_island(koebe, dial, piece, pins, even or LEAST_EVEN, cancel)

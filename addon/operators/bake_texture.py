@@ -33,9 +33,6 @@ class UV_OT_koebe_bake_texture(LayerEdit, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if bpy.app.version >= (5, 0, 0):  # it crashes at the next update after a bake that was broken off
-            cls.poll_message_set("Blender 5 may crash after a bake that is broken off. Use Blender 4")
-            return False
         return in_object_mode(cls, context, 1)
 
     def execute(self, context: bpy.types.Context) -> set[str]:

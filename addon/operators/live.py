@@ -16,10 +16,11 @@ from ..solver.errors import NativeError
 from ..solver.worker import Worker
 from ..state.option_properties import choice_of, settings_of
 from ..state.run_report import even_of
-from .modal_run import redraw
+from .modal_run import listen, redraw
 
 QUIET_SECONDS = 0.15  # without a change, before anything is computed: not during a drag
 POLL_SECONDS = 0.05
+OWN_SECONDS = 0.3  # after a look at the mesh, which Blender reports as a change of it: or looking would never end
 
 
 class _Live:
@@ -41,10 +42,14 @@ class _Live:
         self._job: LiveJob | None = None
         self._worker: Worker | None = None
         self._changed = 0.0  # seconds
+        self._looked = 0.0  # seconds, when a look has found nothing new
         self._is_new = True  # what is there now is no change: after undo, and at first
 
     def touch(self, is_new: bool = False) -> None:
         """The mesh has changed. @param is_new not by the hand"""
+        if not is_new and time.monotonic() - self._looked < OWN_SECONDS:
+            self._looked = 0.0
+            return
         self._changed, self._is_new = time.monotonic(), self._is_new or is_new
         if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
             bpy.app.timers.register(_tick, first_interval=POLL_SECONDS)
@@ -74,12 +79,9 @@ class _Live:
         if key != self._key:
             self._even = even_of(bpy.context, *key)
         self._key, self._is_new = key, False
-        if is_new or before is None:
-            self._state = now
-            return None
-        faces = now.concerned(before)
-        if not faces.any():
-            self._state = now
+        faces = None if is_new or before is None else now.concerned(before)
+        if before is None or faces is None or not faces.any():
+            self._state, self._looked = now, time.monotonic()
             return None
         self._next = now
         self._job = LiveJob(obj, key[1], before, now, faces, choice_of("parts", settings_of(bpy.context)), self._even)
@@ -159,11 +161,7 @@ HANDLERS = (
 
 def _listen(is_listening: bool) -> None:
     """Add the handlers, or remove them."""
-    for handlers, function in HANDLERS:
-        if function in handlers:
-            handlers.remove(function)
-        if is_listening:
-            handlers.append(function)
+    listen(HANDLERS, is_listening)
     if not is_listening:
         live.stop()
         if bpy.app.timers.is_registered(_tick):

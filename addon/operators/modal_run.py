@@ -3,7 +3,7 @@
 
 import time
 from collections.abc import Collection, Generator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 
@@ -30,6 +30,7 @@ POLL_SECONDS = 0.05  # interval between looks at a running computation: Esc acts
 READ_SECONDS = 0.1  # time to read Blender's data between two looks at the keys, if one step takes no longer
 SHOW_SECONDS = 0.25  # interval of progress reports: each makes Blender redraw the whole window
 DRAWING_SHARE = 0.2  # largest share of the time for these redraws: with software OpenGL one can take a second
+BAR_EDITORS = ("VIEW_3D", "IMAGE_EDITOR")  # that draw a bar of the progress
 SAME_TURN = 0.005  # an event so soon after a report came before the window was drawn
 # During a computation the view may move; everything else could change the mapped data.
 NAVIGATION = {
@@ -50,6 +51,15 @@ def redraw(context: bpy.types.Context, editors: Collection[str] = ()) -> None:
             area.tag_redraw()
 
 
+def listen(handlers: Collection[tuple[Any, Any]], is_listening: bool) -> None:
+    """Add functions to Blender's lists of handlers, or remove them. @param handlers a list and a function each"""
+    for functions, function in handlers:
+        if function in functions:
+            functions.remove(function)
+        if is_listening:
+            functions.append(function)
+
+
 def finish_early(job: Any) -> bool:
     """Whether the job ends with the best that it has, in place of being cancelled."""
     return hasattr(job, "finish_early") and job.finish_early()
@@ -60,7 +70,11 @@ class ModalRun(OperatorBase):
 
     A job has `compute(progress)`, which touches no Blender data, and a `cancel_token`. If it has `finish_early()`, the
     first Esc calls this, and the job is cancelled only if it says False.
+
+    bar  the share that is done and its words, for all windows, while an operator runs
     """
+
+    bar: ClassVar[tuple[float, str] | None] = None
 
     def _job(self, context: bpy.types.Context) -> Any:
         """The job. Raises KnownError, NativeError or OptionError."""
@@ -108,9 +122,12 @@ class ModalRun(OperatorBase):
         job = self._begun(context)
         if job is None:
             return {"CANCELLED"}
-        self._running = job
-        self._to_read = self._reading(context, job)
-        self._worker = None if self._to_read else Worker(job.compute)
+        to_read = self._reading(context, job)
+        return self._start(context, job, to_read, None if to_read else Worker(job.compute))
+
+    def _start(self, context: bpy.types.Context, job: Any, to_read: Any, worker: Worker | None) -> set[str]:
+        """Look after a computation until it ends."""
+        self._running, self._to_read, self._worker = job, to_read, worker
         self._read: float | None = None
         self._shown_at, self._shown = time.monotonic(), ""
         self._show_next: float | None = self._shown_at + SHOW_SECONDS
@@ -167,13 +184,15 @@ class ModalRun(OperatorBase):
     def _stop_polling(self, context: bpy.types.Context) -> None:
         context.window_manager.event_timer_remove(self._timer)
         context.workspace.status_text_set(None)
+        ModalRun.bar = None
+        redraw(context, BAR_EDITORS)
 
     def _show_progress(self, context: bpy.types.Context) -> None:
         if self._worker is None:
-            done = f"{100 * (self._read or 0.0):.0f} % read"
+            share, done = self._read or 0.0, f"{100 * (self._read or 0.0):.0f} % read"
         else:
             stage = STAGES.get(self._worker.stage, self._worker.stage)
-            done = f"{100 * self._worker.fraction:.0f} % done, {stage}"
+            share, done = self._worker.fraction, f"{100 * self._worker.fraction:.0f} % done, {stage}"
         text = f"Koebe UV: {done}      Esc: Cancel"
         now = time.monotonic()
         if self._show_next is None:
@@ -183,4 +202,6 @@ class ModalRun(OperatorBase):
                 self._show_next = max(self._shown_at + SHOW_SECONDS, now + pause)
         elif text != self._shown and now >= self._show_next:
             context.workspace.status_text_set(text)
+            ModalRun.bar = share, text
+            redraw(context, BAR_EDITORS)
             self._shown_at, self._shown, self._show_next = now, text, None

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The common part of operators that map objects: their objects, their options, their messages."""
 
-from typing import Any
+import dataclasses
+import time
+from typing import Any, ClassVar
 
 import bpy
 
@@ -9,8 +11,10 @@ from ..blender import edit_mode
 from ..blender.targets import target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
+from ..maps.errors import KnownError
 from ..maps.option_table import ROWS
 from ..maps.wording import failure_line
+from ..solver.worker import Worker
 from ..state import run_report
 from .answers import finished, refused
 from .modal_run import ModalRun, redraw
@@ -78,14 +82,61 @@ def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
     return True
 
 
+AT_ONCE = 0.3  # seconds for a run from the redo panel, before it goes on beside the window
+
+
+@dataclasses.dataclass
+class Waiting:
+    """A run from the redo panel that goes on.
+
+    label    of its operator, as of its undo step
+    preview  has written the last map, which is seen meanwhile
+    settled  the redo panel has ended: changes after that are the user's
+    last     the run that goes on now
+    done     the last map: the label of its operator, and its job
+    """
+
+    label: str
+    job: Job
+    worker: Worker
+    preview: Transaction
+    settled: bool = False
+
+    last: ClassVar["Waiting | None"] = None
+    done: ClassVar[tuple[str, Job] | None] = None
+
+
+def go_on(window: bpy.types.Window, run: Waiting) -> None:
+    """Look after a run once the redo panel has ended. It takes the place of the last one."""
+    forget_waiting()
+    Waiting.last = run
+
+    def begin() -> None:
+        if Waiting.last is run:
+            with bpy.context.temp_override(window=window):
+                operators: Any = bpy.ops.uv
+                operators.koebe_redo("INVOKE_DEFAULT")
+
+    bpy.app.timers.register(begin, first_interval=0.0)
+
+
+def forget_waiting() -> None:
+    """End the run that goes on."""
+    if Waiting.last is not None:
+        Waiting.last.job.cancel_token.cancel()
+        Waiting.last = None
+
+
 class MapOperator(ModalRun):
     """Mixin of operators that map the selected objects. Each kind of map makes its own job.
 
     options_shown  the names of the properties in the redo panel
+    redo_waits     a run from the redo panel goes on without a frozen window, if it is not done at once
     """
 
     bl_options = {"REGISTER", "UNDO"}
     options_shown: tuple[str, ...]
+    redo_waits: ClassVar[bool] = True
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -97,6 +148,34 @@ class MapOperator(ModalRun):
         layout.use_property_decorate = False
         for name in self.options_shown:
             draw_option(layout, self, name, context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        if bpy.app.background or context.window is None or not (self.options.is_repeat and self.redo_waits):
+            return super().execute(context)
+        job = self._begun(context)
+        if job is None:
+            return {"CANCELLED"}
+        worker, until = Worker(job.compute), time.monotonic() + AT_ONCE
+        while worker.running and time.monotonic() < until:
+            time.sleep(AT_ONCE / 50)
+        if worker.running:
+            go_on(context.window, Waiting(self.bl_label, job, worker, self._preview(context)))
+            return {"FINISHED"}
+        try:
+            worker.result()
+        except KnownError as error:
+            return self._refuse(error)
+        return self._finish(context, job)
+
+    def _preview(self, context: bpy.types.Context) -> Transaction:
+        """Write the operator's last map again, as the redo panel has undone it."""
+        run = Transaction()
+        if Waiting.done is not None and Waiting.done[0] == self.bl_label:
+            with run.part():
+                self._write(run, context, Waiting.done[1])
+            edit_mode.undo_all(context)
+        redraw(context)
+        return run
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> Job:
         raise NotImplementedError
@@ -113,6 +192,8 @@ class MapOperator(ModalRun):
             redraw(context)
             edit_mode.undo_all(context)
             answer = self._tell(job)
+            if answer == {"FINISHED"}:
+                Waiting.done = self.bl_label, job
             if selected and answer == {"CANCELLED"}:  # after this Blender makes no undo step
                 bpy.ops.ed.undo_push(message="Select Elements at Fault")
             return answer

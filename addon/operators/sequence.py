@@ -27,6 +27,7 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
     bl_label = "Koebe Sequence"
     bl_description = tooltip(__doc__)
     options_shown = ("source", *RANGE_NAMES, "target", "play", "checker", "checker_size")  # others are in the panel
+    redo_waits = False  # it changes the frame while it reads
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

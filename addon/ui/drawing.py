@@ -56,6 +56,22 @@ def segments(points: np.ndarray, pairs: np.ndarray | None, color: Color, width: 
     gpu.state.blend_set("NONE")
 
 
+def box(left: float, bottom: float, width: float, height: float, color: Color) -> None:
+    """Fill a rectangle."""
+    import gpu
+    from gpu_extras.batch import batch_for_shader
+
+    from ..blender import compat
+
+    points = [(left + x * width, bottom + y * height) for x in (0, 1) for y in (0, 1)]
+    shader = compat.flat_shader("UNIFORM_COLOR")
+    shader.bind()
+    shader.uniform_float("color", color)
+    gpu.state.blend_set("ALPHA")
+    batch_for_shader(shader, "TRI_STRIP", {"pos": points}).draw(shader)
+    gpu.state.blend_set("NONE")
+
+
 def text(content: str, x: float, y: float, color: Color = TEXT, centered: bool = True) -> None:
     """Write a line of text with its baseline at y, on a shadow."""
     import blf

@@ -24,6 +24,7 @@ from ..operators.lift import OBJECT_OT_koebe_lift
 from ..operators.moebius import UV_OT_koebe_moebius
 from ..operators.node_groups import NODE_OT_koebe_add_groups, NODE_OT_koebe_remove_groups
 from ..operators.option_presets import UV_OT_koebe_preset, UV_OT_koebe_reset
+from ..operators.relax_brush import UV_OT_koebe_relax
 from ..operators.render_layer import UV_OT_koebe_use_for_rendering
 from ..operators.select_from_report import (
     UV_OT_koebe_select_cuts,
@@ -106,7 +107,7 @@ class KOEBE_MT_tools(bpy.types.Menu):
 # Tools without options of the panel, and their words there.
 TOOLS: tuple[tuple[tuple[Any, str], ...], ...] = (
     ((UV_OT_koebe_copy_density, "Copy Texel Density"), (UV_OT_koebe_even, "Drag Even"),
-     (UV_OT_koebe_moebius, "Move Circles by Numbers")),
+     (UV_OT_koebe_moebius, "Move Circles by Numbers"), (UV_OT_koebe_relax, "Relax at a Place")),
     ((MESH_OT_koebe_fill_holes, "Fill Holes"), (MESH_OT_koebe_loops_around_holes, "Loops Around Holes"),
      (OBJECT_OT_koebe_flat_copy, "Flat Copy"), (UV_OT_koebe_flat_svg, "Flat SVG")),
     ((UV_OT_koebe_compare_shapes, "Compare Shapes"), (UV_OT_koebe_carry_texture, "Carry Texture"),

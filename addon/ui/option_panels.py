@@ -26,7 +26,7 @@ from ..state.option_properties import (
     option_names,
     settings_of,
 )
-from .panel_parts import ClosedPanel, draw_map_button, draw_message, draw_sew
+from .panel_parts import ClosedPanel, draw_map_button, draw_message, draw_sew, draw_unwrap
 
 
 class DiskPanel(ClosedPanel):
@@ -37,11 +37,24 @@ class DiskPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("cut", "outer", "center", "point", "balance"):
+        draw_option(column, settings, "cut", context)
+        draw_long(column, settings, "outer")
+        for name in ("center", "point", "balance"):
             draw_option(column, settings, name, context)
         draw_weights(column, settings, "importance", context)
         for name in ("loops", "tube", "upright", "symmetry", "polish"):
             draw_option(column, settings, name, context)
+
+
+def draw_long(column: bpy.types.UILayout, settings: KoebeSettings, option: str) -> None:
+    """Draw a choice whose name needs more room than Blender gives to names."""
+    row = column.row()
+    row.use_property_split = False
+    split = row.split(factor=0.54)
+    name = split.row()
+    name.alignment = "RIGHT"
+    name.label(text=ROWS[option].blender["label"])
+    split.prop(settings, option, text="")
 
 
 def draw_weights(column: bpy.types.UILayout, settings: KoebeSettings, option: str, context: bpy.types.Context) -> None:
@@ -75,8 +88,13 @@ class PartsPanel(ClosedPanel):
         column.prop(settings, "darts")
         draw_weights(column, settings, "show", context)
         draw_weights(column, settings, "importance", context)
-        for name in ("seams", "write_seams", "cut_at", "hard_angle", "cut_hard", "no_hard", "weld"):
+        for name in ("seams", "write_seams", "cut_at", "hard_angle"):
             draw_option(column, settings, name, context)
+        whole = column.column()
+        whole.use_property_split = False  # their names need the whole width
+        for name in ("cut_hard", "no_hard", "weld"):
+            draw_option(whole, settings, name, context)
+        draw_unwrap(column, settings, "PARTS", "Unwrap Along Seams", "UV_ISLANDSEL").seams = "only"
         draw_sew(column, settings)
         draw_live(column, context)
 

@@ -24,20 +24,23 @@ class PackingPanel(ClosedPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         column, settings = self.aligned_layout().column(), settings_of(context)
-        for name in ("pixels", "margin", "placement", "tiles"):
+        draw_flags(column, settings, "pixels")
+        for name in ("margin", "placement", "tiles"):
             draw_option(column, settings, name, context)
         draw_flags(column, settings, "stack", "stack_mirrored", "atlas", "rectify")
         column.separator()
         draw_density(column, context, settings)
         column.separator()
         draw_pack(column, settings)
+        if context.mode == "EDIT_MESH":
+            draw_pack(column, settings, "Pack Beside the Rest").keep_places = "OTHERS"
         draw_flags(column, settings, "average_scale")
         for name in ("keep_places", "seconds"):
             draw_option(column, settings, name, context)
 
 
 def draw_flags(column: bpy.types.UILayout, settings: KoebeSettings, *names: str) -> None:
-    """Switches that have the whole width for their names."""
+    """Options that have the whole width for their names."""
     flags = column.column()
     flags.use_property_split = False
     for name in names:

@@ -63,11 +63,12 @@ def draw_map_button(column: bpy.types.UILayout, settings: KoebeSettings, of: str
     return draw_unwrap(column, settings, SHAPE_OF[of], text, icon)
 
 
-def draw_pack(layout: bpy.types.UILayout, settings: KoebeSettings) -> None:
-    """The button that packs a UV layer, with the panel's options."""
-    button = layout.operator(UV_OT_koebe_pack.bl_idname, text="Pack Only", icon="PACKAGE")
+def draw_pack(layout: bpy.types.UILayout, settings: KoebeSettings, text: str = "Pack Only") -> Any:
+    """The button that packs a UV layer, with the panel's options: the operator's options."""
+    button = layout.operator(UV_OT_koebe_pack.bl_idname, text=text, icon="PACKAGE")
     for name in ("margin", "pixels", "average_scale", "tiles", "seconds", "keep_places"):
         setattr(button, name, getattr(settings, name))
+    return button
 
 
 def draw_sew(layout: bpy.types.UILayout, settings: KoebeSettings) -> None:

@@ -43,7 +43,12 @@ class MainPanel(KoebePanel):
         layout, settings = self.layout, settings_of(context)
         run = layout.column()
         run.scale_y = 1.6
-        draw_unwrap(run, settings, settings.shape, "Unwrap", "UV")
+        if context.mode == "EDIT_MESH":
+            split = run.split(factor=0.62, align=True)
+            draw_unwrap(split, settings, settings.shape, "Unwrap", "UV")
+            draw_unwrap(split, settings, settings.shape, "In Place", "NONE").placement = "keep"
+        else:
+            draw_unwrap(run, settings, settings.shape, "Unwrap", "UV")
         split = layout.split(factor=NAMES)
         split.label(text="Shape")
         split.prop(settings, "shape", text="")

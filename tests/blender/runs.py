@@ -60,6 +60,20 @@ def sewable():
     scenes.select_seams(obj)
 
 
+def relaxable():
+    """A mapped sheet in Edit Mode, with uneven UVs."""
+    states.new_file()
+    obj = scenes.add_sheet(6)
+    scenes.select(obj)
+    bpy.ops.uv.koebe_parts(seams="only", checker=False)
+    uv = scenes.corner_uv(obj.data, "Koebe") ** 2
+    obj.data.uv_layers["Koebe"].data.foreach_set("uv", uv.ravel())
+    states.consistent([obj])
+    scenes.select(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+
+
 def offending():
     """A report of the active object, which cannot be mapped, and of another one."""
     states.new_file()
@@ -299,6 +313,8 @@ RUNS = {
     "arrange in Edit Mode": (mapped_in_edit_mode, "uv.koebe_arrange", {"mode": "LEFT", "in_square": True}),
     "trim sheet": (mapped, "uv.koebe_trims", {"action": "GRID"}),
     "sew": (sewable, "uv.koebe_sew", {}),
+    "bake": (textured, "uv.koebe_bake_texture", {"layer": "Koebe", "margin": 2}),
+    "relax": (relaxable, "uv.koebe_relax", {"center": (0.5, 0.5), "radius": 0.2}),
     "flat copy": (mapped, "object.koebe_flat_copy", {}),
     "lift": (panels_and_closed, "object.koebe_lift", {"size": 0.4}),
     "relief of what is worn": (mapped, "object.koebe_lift", {"size": 0.4, "way": "raise"}),
@@ -312,8 +328,6 @@ RUNS = {
     "select what a warning speaks of": (flipped, "uv.koebe_select_warning", {}),
     "select what is flipped": (flipped, "uv.koebe_select_flipped", {}),
 }
-if bpy.app.version < (5, 0, 0):
-    RUNS["bake"] = (textured, "uv.koebe_bake_texture", {"layer": "Koebe", "margin": 2})
 
 
 def operator(name):

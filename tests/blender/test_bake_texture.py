@@ -5,8 +5,6 @@ import numpy as np
 import pytest
 import scenes
 
-pytestmark = pytest.mark.skipif(bpy.app.version >= (5, 0, 0), reason="Blender 5 may crash: poll refuses")
-
 SIZE = 32
 # From the square's corners in the old layer to those in the new one: a quarter turn, u' = 1 - v, v' = u.
 OLD, NEW = [[0, 0], [1, 0], [1, 1], [0, 1]], [[1, 0], [1, 1], [0, 1], [0, 0]]

@@ -35,3 +35,11 @@ def test_the_properties_that_it_names_are_the_ones_that_are_written(addon):
     text = " ".join(cell for row in rows() for cell in row)
     for key in (addon("blender.checker").MEMORY_KEY, addon("blender.distortion_attribute").MEMORY_KEY):
         assert key in text
+
+
+def test_no_job_takes_two_clicks_more_than_elsewhere():
+    jobs = list(csv.DictReader(TABLE.with_name("clicks.csv").read_text(encoding="utf-8").splitlines()))
+    assert len(jobs) == 40 and {job["operator"] for job in jobs} - {""} <= registered().keys()
+    for job in jobs:
+        others = [int(job[name]) for name in ("Blender", "Zen UV", "UVPackmaster", "RizomUV") if job[name]]
+        assert not (job["Koebe UV"] and others) or int(job["Koebe UV"]) <= min(others) + 1, job

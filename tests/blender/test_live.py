@@ -67,6 +67,18 @@ def cuts(uv):
     return [int((np.abs(grid[k - 1, :, 1] - grid[k, :, 0]).max(axis=-1) > 1e-5).sum()) for k in range(1, 12)]
 
 
+def test_a_cut_that_ends_inside_an_island_opens(live):
+    obj = edited(())
+    bpy.context.window_manager.koebe_live = True
+    follow(live)
+    mesh = bmesh.from_edit_mesh(obj.data)
+    for edge in mesh.edges:
+        edge.seam = all(vertex.index // 13 == 6 and vertex.index % 13 <= 6 for vertex in edge.verts)
+    bmesh.update_edit_mesh(obj.data)
+    follow(live)
+    assert live.live.message == "" and cuts(uv_of(obj)) == [6 * (k == 6) for k in range(1, 12)]
+
+
 def test_a_marked_and_a_cleared_seam_are_followed(live):
     obj = live_sheet(live)
     before = uv_of(obj)

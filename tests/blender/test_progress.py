@@ -20,7 +20,7 @@ def shown(addon, monkeypatch):
         operator = modal_run.ModalRun()
         operator._worker = SimpleNamespace(fraction=0.0, stage="factor")
         operator._shown_at, operator._shown, operator._show_next = now[0], "", now[0]
-        context = SimpleNamespace(workspace=SimpleNamespace(status_text_set=texts.append))
+        context = SimpleNamespace(workspace=SimpleNamespace(status_text_set=texts.append), screen=None)
         while now[0] < 100.0 + RUN:
             operator._worker.fraction += 0.01
             before = len(texts)

@@ -47,13 +47,13 @@ def test_a_blender_that_starts_with_it_enabled_says_nothing(tmp_path):
     assert code == 0 and "registered" in out and "Traceback" not in out + err
 
 
-def test_the_tool_comes_and_goes(addon, addon_name):
+def test_the_tools_come_and_go(addon, addon_name):
     tools = importlib.import_module("bl_ui.space_toolsystem_toolbar").IMAGE_PT_tools_active._tools["UV"]
     count = len(tools)
     here = hasattr(addon("ui.circle_tool").CirclesTool, "_bl_tool")
     assert here == (bpy.context.window_manager.keyconfigs.addon is not None)
     addon_utils.disable(addon_name)
-    assert len(tools) == count - 2 * here  # and its separator
+    assert len(tools) == count - 3 * here  # two, and their separator
     addon_utils.enable(addon_name)
     assert len(tools) == count
 
@@ -99,7 +99,7 @@ def test_an_operator_that_refuses_says_why(state):
 NOT_IN_MENUS = {  # operators that need a choice which only their button makes
     "uv.koebe_preset_add", "uv.koebe_select_warning", "object.koebe_show", "node.koebe_add_library",
     "node.koebe_remove_library", "uv.koebe_uniformize", "uv.koebe_parts", "uv.koebe_torus", "uv.koebe_ring",
-    "uv.koebe_sphere", "uv.koebe_schottky",
+    "uv.koebe_sphere", "uv.koebe_schottky", "uv.koebe_redo",
 }  # fmt: skip
 
 

@@ -75,6 +75,9 @@ def test_live_follows_a_seam_and_undo_goes_back(window):
         if window.run(PLACES) == 0:
             break
     assert window.run(PLACES) == 0
+    at_rest = "not next(bpy.app.timers.is_registered(m._tick) for n, m in __import__('sys').modules.items() " \
+              "if n.endswith('operators.live'))"  # fmt: skip
+    window.wait(at_rest, 10.0)  # looking at the mesh is no change of it
     window.picture_of_uvs("82_live")
     window.move(*window.middle("VIEW_3D"))
     window.key("ctrl+z")  # the new map

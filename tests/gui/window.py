@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 PICTURES = ROOT / "out" / os.environ.get("PICTURES", "gui")
-WIDTH, HEIGHT = 1280, 800
+WIDTH, HEIGHT = map(int, os.environ.get("SCREEN_SIZE", "1280x800").split("x"))
 START_SECONDS = 90
 TAB = {"VIEW_3D": 164, "IMAGE_EDITOR": 174}  # pixels from a sidebar's top to the tab Koebe, below Blender's own
 PARTS = (  # of the panel, that are closed at first
