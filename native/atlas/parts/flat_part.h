@@ -106,6 +106,11 @@ bool loops_apart(const FlatPart& part, const PlanarPoints& uv);
 /// Whether all faces are upright, and loops are simple, apart and not turned, in 64 bits. @param points (V, 2)
 bool lies_one_to_one(const FlatPart& part, const PlanarPoints& points);
 
+/// Mends a part that overlaps itself by noise: moves corners of slivers that are turned over, and vertices of the
+/// boundary that lie behind another edge of it, each time by at most the noise. Nothing changes if that does not help.
+/// @param noise in the unit of the points
+void mend_noise(FlatPart& part, double noise);
+
 /// Turns flipped faces back where the part lies in its tile, for example the unit square. First the boundary is held.
 /// If flips are left, all vertices move, as long as no loops cross.
 /// @param uv (V, 2) in [0, 1]^2 or another tile, changed in place @return faces still flipped as 32-bit floats
