@@ -429,7 +429,7 @@ bool draw_out(const std::array<Index, 2>& a, const std::array<Index, 2>& b, doub
                 continue;
             least = depth;
             moved = v;
-            way = -(depth + drawn_out / most_off * most) * inward;
+            way = -(depth + drawn_out / noise_reach * most) * inward;
         }
     }
     if (moved >= 0) points.row(moved) += way;
@@ -441,7 +441,7 @@ bool draw_out(const std::array<Index, 2>& a, const std::array<Index, 2>& b, doub
 void mend_noise(FlatPart& part, double noise)
 {
     const PlanarPoints before = part.points;
-    const double most = most_off * noise;
+    const double most = noise_reach * noise;
     PlanarPoints& points = part.points;
     std::vector<Index> next(static_cast<std::size_t>(part.surface.vertex_count), -1), previous(next);
     for (const VertexLoop& loop : part.surface.loops)

@@ -20,7 +20,7 @@ namespace koebe {
 namespace {
 
 constexpr double flat = 1e-4;               // of the region's size: distance from its plane,
-constexpr double most_bent = 0.5;           // radians: the most that noise bends an edge of a region
+constexpr double most_noise_bend = 0.5;     // radians: the most that noise bends an edge of a region
 constexpr double sliver = 1e-6;             // of the region's area: its own normal is only rounding
 constexpr double same_shape = 2e-3;         // and of its image from a similar one
 constexpr double long_outer_edge = 0.05;    // in roots of the area: such an edge is straight by itself,
@@ -89,7 +89,7 @@ private:
                     longest, (point(layout_.triangles(face, k)) - point(layout_.triangles(face, (k + 1) % 3))).norm());
             if (layout_.noise > 0.0) angle += layout_.noise * longest / std::max(2.0 * areas_[face], 1e-300);
         }
-        return normal(f).dot(normal(g)) > std::cos(std::min(angle, most_bent));
+        return normal(f).dot(normal(g)) > std::cos(std::min(angle, most_noise_bend));
     }
 
     void measure_regions(HardFigures& figures) const

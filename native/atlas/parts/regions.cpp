@@ -25,14 +25,15 @@ constexpr NoiseLevel noise_levels[] = {{3e-5, 0.25, 0.01}, {1e-4, 0.25, 0.01}, {
                                        {1e-3, 0.25, 0.01}, {2e-3, 0.4, 0.02},  {4e-3, 0.6, 0.03}};
 constexpr NoiseLevel slight_noise[] = {{1e-4, 0.15, 0.01}};  // tried first: most surfaces have none
 constexpr NoiseLevel any_noise[] = {{3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
-constexpr double worth_noise = 0.1;   // of the area: large regions hold so much more with noise than without
-constexpr double still_grows = 0.03;  // of the area: a level that holds so much more is better
-constexpr double by_chance = 2.5;     // standard deviations of the sum of bends, if their signs are random
-constexpr double most_area = 0.6;     // of the area, in regions of several faces: then there is no noise
-constexpr double upright = 0.1;       // least cosine between a face's normal and its plane's
+constexpr double worth_noise = 0.1;        // of the area: large regions hold so much more with noise than without
+constexpr std::size_t fewest_planes = 12;  // of surfaces on which noise is looked for: a box of triangles
+constexpr double still_grows = 0.03;       // of the area: a level that holds so much more is better
+constexpr double by_chance = 2.5;          // standard deviations of the sum of bends, if their signs are random
+constexpr double most_area = 0.6;          // of the area, in regions of several faces: then there is no noise
+constexpr double upright = 0.1;            // least cosine between a face's normal and its plane's
 constexpr int most_fits = 8;
 constexpr double much_larger = 20.0;  // times larger regions have faces beside them that are off by more
-constexpr int most_rounds = 8;
+constexpr int absorbing_rounds = 8;
 
 class RegionGrowth {
 public:
@@ -55,7 +56,7 @@ public:
         std::ranges::stable_sort(seeds, std::ranges::greater(), [&](Index f) { return surface_.areas[f]; });
         for (const Index seed : seeds)
             if (regions_.of[seed] < 0) add_region(seed);
-        for (int round = 0; regions_.noise > 0.0 && round < most_rounds && absorb(); ++round) continue;
+        for (int round = 0; regions_.noise > 0.0 && round < absorbing_rounds && absorb(); ++round) continue;
         return std::move(regions_);
     }
 
@@ -113,7 +114,7 @@ private:
             const Index t = surface_.surface.twin[h], f = face_of(h);
             if (t == no_twin || regions_.of[f] == regions_.of[face_of(t)]) continue;
             const RegionPlane &own = regions_.planes[regions_.of[f]], &other = regions_.planes[regions_.of[face_of(t)]];
-            const double most = most_off * regions_.noise;
+            const double most = noise_reach * regions_.noise;
             if (!(other.area > much_larger * own.area) || !lies_near(other, f, least_cosine(f, most), most)) continue;
             regions_.of[f] = regions_.of[face_of(t)];
             any = true;
@@ -160,7 +161,7 @@ private:
 };
 
 /// The bends of edges, positive where the edge is concave.
-struct Bends {
+struct EdgeBends {
     double sum = 0.0, all = 0.0, square = 0.0;
     Index count = 0;
     void add(double bend)
@@ -177,10 +178,11 @@ struct Bends {
     }
 };
 
-/// The share of the area in large regions whose edges bend to both sides: noise. @param large of the area
-double noisy_share(const CutSurface& surface, const PlanarRegions& regions, double large)
+/// The share of the area in large regions of several faces. With noise only if their edges bend to both sides.
+/// @param large of the area
+double large_share(const CutSurface& surface, const PlanarRegions& regions, double large)
 {
-    std::vector<Bends> bends(regions.planes.size());
+    std::vector<EdgeBends> bends(regions.planes.size());
     const auto side = [&](Index h, int k) -> Eigen::RowVector3d {
         const Index from = k == 1 ? h : previous_halfedge(h);
         return surface.vertices.row(target(surface.surface.triangles, from)) -
@@ -194,13 +196,14 @@ double noisy_share(const CutSurface& surface, const PlanarRegions& regions, doub
     }
     const double whole = surface.areas.sum();
     double share = 0.0;
-    Bends together;
+    EdgeBends together;
     for (std::size_t r = 0; r < bends.size(); ++r) {
-        if (!(regions.planes[r].area >= large * whole) || bends[r].count == 0 || !bends[r].both_sides()) continue;
+        if (!(regions.planes[r].area >= large * whole) || bends[r].count == 0) continue;
+        if (regions.noise > 0.0 && !bends[r].both_sides()) continue;
         share += regions.planes[r].area;
         if (bends[r].all > 0.0) together.add(bends[r].sum / bends[r].all * regions.planes[r].area);
     }
-    return together.both_sides() ? share / whole : 0.0;
+    return regions.noise > 0.0 && !together.both_sides() ? 0.0 : share / whole;
 }
 
 /// The share of the area in regions of several faces.
@@ -220,12 +223,13 @@ PlanarRegions planar_regions(const CutSurface& surface)
 {
     const double diagonal = (surface.vertices.colwise().maxCoeff() - surface.vertices.colwise().minCoeff()).norm();
     PlanarRegions exact = RegionGrowth(surface, stored_digits * diagonal, false).run();
+    if (exact.planes.size() < fewest_planes) return exact;
     const auto at_level = [&](const NoiseLevel& level) {
         PlanarRegions regions = RegionGrowth(surface, level.tolerance * diagonal, true).run();
-        const double share = noisy_share(surface, regions, level.large);
+        const double share = large_share(surface, regions, level.large);
         return std::pair(std::move(regions), share);
     };
-    const double least = noisy_share(surface, exact, noise_levels[0].large) + worth_noise;
+    const double least = large_share(surface, exact, noise_levels[0].large) + worth_noise;
     const auto is_noisy = [&](const NoiseLevel& level) {
         return at_level(level).second >= std::max(least, level.share);
     };

@@ -23,7 +23,7 @@ struct RegionPlane {
 inline constexpr double alone = 1.0 + 1e-9;
 
 /// Of the noise: how far single faces of a region may lie off its plane.
-inline constexpr double most_off = 3.0;
+inline constexpr double noise_reach = 3.0;
 
 struct PlanarRegions {
     std::vector<Index> of;            ///< (F) region of each face
