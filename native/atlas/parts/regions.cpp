@@ -27,6 +27,7 @@ constexpr NoiseLevel slight_noise[] = {{1e-4, 0.15, 0.01}};  // tried first: mos
 constexpr NoiseLevel any_noise[] = {{3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
 constexpr double worth_noise = 0.1;        // of the area: large regions hold so much more with noise than without
 constexpr std::size_t fewest_planes = 12;  // of surfaces on which noise is looked for: a box of triangles
+constexpr double sharp_edge = 0.94;        // cosine of 20 degrees between the planes on both sides of a crease
 constexpr double still_grows = 0.03;       // of the area: a level that holds so much more is better
 constexpr double by_chance = 2.5;          // standard deviations of the sum of bends, if their signs are random
 constexpr double most_area = 0.6;          // of the area, in regions of several faces: then there is no noise
@@ -178,7 +179,9 @@ struct EdgeBends {
     }
 };
 
-/// The share of the area in large regions of several faces. With noise only if their edges bend to both sides.
+/// The share of the area in large regions of several faces. With noise only if their edges bend to both
+/// sides, most of their outlines are creases, and heights of neighbours over the plane differ
+/// by chance: a wave goes on beyond the region, or lifts neighbours alike.
 /// @param large of the area
 double large_share(const CutSurface& surface, const PlanarRegions& regions, double large)
 {
@@ -188,9 +191,23 @@ double large_share(const CutSurface& surface, const PlanarRegions& regions, doub
         return surface.vertices.row(target(surface.surface.triangles, from)) -
                surface.vertices.row(origin(surface.surface.triangles, from));
     };
+    std::vector<double> outline(bends.size(), 0.0), sharp(outline), heights(outline), steps(outline);
     for (Index h = 0; h < static_cast<Index>(surface.surface.twin.size()); ++h) {
-        const Index t = surface.surface.twin[h];
-        if (t < h || regions.of[face_of(h)] != regions.of[face_of(t)]) continue;
+        const Index t = surface.surface.twin[h], own = regions.of[face_of(h)];
+        const Index other = t == no_twin ? -1 : regions.of[face_of(t)];
+        const auto height = [&](Index v) {
+            return (surface.vertices.row(v) - regions.planes[own].origin).dot(regions.planes[own].normal);
+        };
+        const double from = height(origin(surface.surface.triangles, h)),
+                     to = height(target(surface.surface.triangles, h));
+        heights[own] += from * from;
+        steps[own] += (to - from) * (to - from);
+        if (own != other) {
+            outline[own] += surface.lengths[h];
+            if (other < 0 || regions.planes[own].normal.dot(regions.planes[other].normal) < sharp_edge)
+                sharp[own] += surface.lengths[h];
+        }
+        if (t < h || own != other) continue;
         // The signed volume between the faces.
         bends[regions.of[face_of(h)]].add(side(h, 1).cross(-side(h, 0)).dot(side(t, 0)));
     }
@@ -199,7 +216,9 @@ double large_share(const CutSurface& surface, const PlanarRegions& regions, doub
     EdgeBends together;
     for (std::size_t r = 0; r < bends.size(); ++r) {
         if (!(regions.planes[r].area >= large * whole) || bends[r].count == 0) continue;
-        if (regions.noise > 0.0 && !bends[r].both_sides()) continue;
+        const bool rough = steps[r] > heights[r];
+        if (regions.noise > 0.0 && !(rough && bends[r].both_sides() && sharp[r] > tolerance::majority * outline[r]))
+            continue;
         share += regions.planes[r].area;
         if (bends[r].all > 0.0) together.add(bends[r].sum / bends[r].all * regions.planes[r].area);
     }
