@@ -10,9 +10,9 @@
 namespace koebe {
 namespace {
 
-constexpr int coarse_side = 192;      // cells of the square at first, where islands cover
-constexpr double first_share = 0.5;   // that share of it
-constexpr int refinement = 4;         // fine cells along a coarse one, twice
+constexpr int coarse_side = 192;     // cells of the square at first, where islands cover
+constexpr double first_share = 0.5;  // that share of it
+constexpr int refinement = 4;        // fine cells along a coarse one, twice
 constexpr int first_squeeze = 100, second_squeeze = 500;
 constexpr int most_larger = 20;       // squares that are tried until the islands have room
 constexpr int most_failures = 40;     // disturbed arrangements in a row
