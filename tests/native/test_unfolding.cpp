@@ -229,6 +229,23 @@ TEST(Unfolding, NoiseDoesNotHideTheSidesOfABox)
     EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), 0.0, 1.5 * noise), 8.0 * noise);
 }
 
+TEST(Unfolding, SliversThatNoiseTurnsOverStayInTheirPlanes)
+{
+    // Two rows of vertices nearly meet, and noise moves them through each other.
+    Solid rough = box(1.0, 1.5, 2.0, 8);
+    for (std::size_t v = 0; v < rough.points.size(); ++v) {
+        if (std::abs(rough.points[v][0] - 0.375) < 1e-9) rough.points[v][0] = 0.25 + 1e-4;
+        for (int axis = 0; axis < 3; ++axis)
+            rough.points[v][axis] += 1e-3 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
+    }
+    const CutSurface surface = surface_of(rough);
+    const auto parts = unfold_hard(surface);
+    ASSERT_TRUE(parts);
+    EXPECT_GT(parts->noise, 0.0);
+    EXPECT_TRUE(parts->rest.empty());
+    for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
+}
+
 TEST(Unfolding, ABallIsNotHard)
 {
     for (const int n : {3, 8}) {

@@ -7,6 +7,7 @@
 #include "cut/disjoint_sets.h"
 #include "parts/dart_rounds.h"
 #include "parts/darts.h"
+#include "parts/flat_repair.h"
 #include "parts/regions.h"
 #include "parts/tension.h"
 #include "planar/boundary_crossings.h"
@@ -28,6 +29,7 @@ namespace koebe {
 namespace {
 
 constexpr double flat_angle = 1e-3;         // radians by which the angles round a flat vertex may miss a full turn
+constexpr double turned_by_noise = 1.0;     // radians that an edge as short as the noise may add to that
 constexpr double same_place = 1e-5;         // in roots of the surface's area
 constexpr double most_single = 0.75;        // of a chart's area, in faces that are alone in their planes
 constexpr double plate_to_strip = 2.0;      // a plate is so many times larger than its neighbours
@@ -44,6 +46,7 @@ public:
     {
         net_ = seamed(surface.vertices, surface.surface, surface.polygon, surface.shown);
         charts_.at.resize(net_.twin.size());
+        charts_.noise = regions_.noise;
         charts_.near = std::max(same_place * std::sqrt(surface.areas.sum()), 2.0 * regions_.tolerance);
         for (const Index region : regions_.of) charts_.plane.push_back(regions_.planes[region].area);
         planar_ = group_ = charts_.region = regions_.of;
@@ -182,8 +185,11 @@ private:
         std::vector<double> sum(static_cast<std::size_t>(chart.fan_count), 0.0);
         std::vector<Index> leaving(sum.size(), no_twin);
         std::vector<char> outside(sum.size(), 0);
+        std::vector<double> noise(sum.size(), flat_angle);
         for (Index h = 0; h < chart.halfedge_count(); ++h) {
             const Index v = origin(chart.fans, h), here = in_net(chart, h);
+            for (const Index end : {v, target(chart.fans, h)})
+                noise[end] = std::max(noise[end], turned_by_noise * regions_.noise / surface_.lengths[here]);
             const Complex corner = in_plane(here);
             sum[v] += std::arg((in_plane(previous_halfedge(here)) - corner) / (in_plane(next_halfedge(here)) - corner));
             leaving[v] = h;
@@ -191,7 +197,7 @@ private:
         }
         std::vector<Index> tips;
         for (std::size_t v = 0; v < sum.size(); ++v)
-            if (!outside[v] && !(std::abs(sum[v] - 2.0 * std::numbers::pi) < flat_angle)) tips.push_back(leaving[v]);
+            if (!outside[v] && !(std::abs(sum[v] - 2.0 * std::numbers::pi) < noise[v])) tips.push_back(leaving[v]);
         return tips;
     }
 
@@ -434,6 +440,7 @@ std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& c
     } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
         return {};
     }
+    if (charts.noise > 0.0 && !lies_one_to_one(part, part.points)) mend_noise(part, charts.noise);
     if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part, charts.near), narrow_gap)) return {};
     if (!survives_storing(part)) return {};
     part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());

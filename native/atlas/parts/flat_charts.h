@@ -28,6 +28,7 @@ struct FlatCharts {
     std::set<Index> tips;                   ///< vertices where darts end
     std::vector<Index> region;              ///< (F) planar region (regions.h)
     std::vector<double> plane;              ///< (F) area of the planar region (regions.h) that a face belongs to
+    double noise = 0.0;                     ///< as in PlanarRegions
     double near = 0.0;                      ///< places are the same up to this distance
 };
 

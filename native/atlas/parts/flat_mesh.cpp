@@ -183,9 +183,13 @@ std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& 
     layout.vertices = of_area_one(vertices, triangles).vertices;
     layout.triangles = triangles;
     std::vector<FlatPart> hard;
-    if (hard_first)
-        opened =
-            opened_without_hard_parts(vertices, undivided, layout.vertices, std::move(opened), options, hard, context);
+    if (hard_first) {
+        HardSurfaces found =
+            opened_without_hard_parts(vertices, undivided, layout.vertices, std::move(opened), options, context);
+        hard = std::move(found.parts);
+        opened = std::move(found.rest);
+        layout.noise = found.noise;
+    }
     if (!faces.face.empty()) {
         const auto torn = torn_edges(faces, undivided.rows(), hard, opened.left_out);
         kept.insert(kept.end(), torn.begin(), torn.end());
@@ -242,14 +246,9 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     for (int attempt = 0; may_divide && attempt < most_divisions; ++attempt) {
         const DividedFaces divided = divided_faces(vertices, triangles, options.polygon, kept);
         if (divided.face.empty()) break;
-        try {
-            if (std::optional<FlatMesh> mesh = flat_mesh_of(divided, vertices, triangles, options, kept, context))
-                return std::move(*mesh);
-        } catch (const InputError&) {
-            break;  // an error names faces of the input
-        } catch (const TopologyError&) {
-            break;
-        }
+        if (attempt == 0) of_area_one(vertices, triangles);  // an error names faces of the input
+        if (std::optional<FlatMesh> mesh = flat_mesh_of(divided, vertices, triangles, options, kept, context))
+            return std::move(*mesh);
     }
     return *flat_mesh_of({triangles, options.polygon, {}, {}}, vertices, triangles, options, kept, context);
 }

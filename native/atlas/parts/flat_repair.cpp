@@ -4,11 +4,14 @@
 #include "core/errors.h"
 #include "embedding/embedded_map.h"
 #include "foldover/untangle.h"
+#include "parts/regions.h"
+#include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <utility>
@@ -19,6 +22,7 @@ namespace {
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
 constexpr double rounded_height = 2.5e-7;  // UV units: a face with that height is upright as stored
 constexpr int most_nudges = 200;           // rounds in which a face gets it
+constexpr double drawn_out = 0.1;          // of the noise: gap between edges that it made cross
 
 /// Faces that are not upright, seen from some corner, as they are stored. @param uv in [0, 1]^2
 Index stored_flips(const Surface& surface, const PlanarPoints& uv)
@@ -28,6 +32,23 @@ Index stored_flips(const Surface& surface, const PlanarPoints& uv)
     for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f)
         count += StoredFace(surface.triangles, points, f).doubtful();
     return count;
+}
+
+/// Moves the corner opposite to the longest edge of a face, so that the face is that high.
+/// @return false, and nothing moves, if the face is higher, or so low that it is no sliver
+bool raise_sliver(const Triangles& triangles, Eigen::Index f, double height, double lowest, PlanarPoints& points)
+{
+    const auto edge = [&](int k) -> Eigen::RowVector2d {
+        return points.row(triangles(f, (k + 2) % 3)) - points.row(triangles(f, (k + 1) % 3));
+    };
+    int corner = 0;
+    for (int k = 1; k < 3; ++k)
+        if (edge(k).squaredNorm() > edge(corner).squaredNorm()) corner = k;
+    const Eigen::RowVector2d base = edge(corner);
+    const double length = base.norm(), now = 2.0 * signed_area(points, triangles, f) / length;
+    if (!(now < height && now > lowest)) return false;
+    points.row(triangles(f, corner)) += (height - now) / length * Eigen::RowVector2d(-base[1], base[0]);
+    return true;
 }
 
 /// Moves a corner of each face that only rounding turns over, such as a sliver where solids were cut, by that rounding.
@@ -40,35 +61,90 @@ PlanarPoints without_rounded_flips(const FlatPart& part, PlanarPoints uv)
     bool any = true;
     for (int round = 0; any && round < most_nudges; ++round) {
         any = false;
-        for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-            if (!StoredFace(stored(triangles(f, 0)), stored(triangles(f, 1)), stored(triangles(f, 2))).doubtful())
-                continue;
-            // The corner opposite to the longest edge gets that height over it.
-            const auto edge = [&](int k) -> Eigen::RowVector2d {
-                return uv.row(triangles(f, (k + 2) % 3)) - uv.row(triangles(f, (k + 1) % 3));
-            };
-            int corner = 0;
-            for (int k = 1; k < 3; ++k)
-                if (edge(k).squaredNorm() > edge(corner).squaredNorm()) corner = k;
-            const Eigen::RowVector2d base = edge(corner);
-            const double length = base.norm(), now = 2.0 * signed_area(uv, triangles, f) / length;
-            if (!(std::abs(now) < height)) continue;
-            uv.row(triangles(f, corner)) += (height - now) / length * Eigen::RowVector2d(-base[1], base[0]);
-            any = true;
-        }
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+            if (StoredFace(stored(triangles(f, 0)), stored(triangles(f, 1)), stored(triangles(f, 2))).doubtful() &&
+                raise_sliver(triangles, f, height, -height, uv))
+                any = true;
     }
     return uv;
 }
 
+/// Moves an end of one of two boundary edges that cross out of the face at the other edge, by at most this much.
+/// @param a, b the edges' ends @return false, and nothing moves, if it lies deeper
+bool draw_out(const std::array<Index, 2>& a, const std::array<Index, 2>& b, double most, PlanarPoints& points)
+{
+    double least = most;
+    Index moved = -1;
+    Eigen::RowVector2d way;
+    for (const auto& [edge, ends] : {std::pair(a, b), std::pair(b, a)}) {
+        const Eigen::RowVector2d from = points.row(edge[0]), along = points.row(edge[1]) - from;
+        const double length = along.norm();
+        if (!(length > 0.0)) continue;
+        const Eigen::RowVector2d inward(-along[1] / length, along[0] / length);
+        for (const Index v : ends) {
+            const Eigen::RowVector2d arm = points.row(v) - from;
+            const double depth = arm.dot(inward), place = arm.dot(along) / (length * length);
+            if (v == edge[0] || v == edge[1] || !(depth >= 0.0 && depth < least && place > 0.0 && place < 1.0))
+                continue;
+            least = depth;
+            moved = v;
+            way = -(depth + drawn_out / noise_reach * most) * inward;
+        }
+    }
+    if (moved >= 0) points.row(moved) += way;
+    return moved >= 0;
+}
+
 }  // namespace
 
-/// A map that is one to one, for any part. The longest loop is the outer loop.
 PlanarPoints embedded_anew(const Vertices& vertices, const Surface& surface, const ExecutionContext& context)
 {
     std::vector<VertexLoop> loops = surface.loops;
     std::ranges::stable_sort(loops, std::ranges::greater(),
                              [&](const VertexLoop& loop) { return loop_edges(vertices, loop).sum(); });
     return freely_embedded(vertices, surface, loops, context);
+}
+
+void mend_noise(FlatPart& part, double noise)
+{
+    const PlanarPoints before = part.points;
+    const double most = noise_reach * noise;
+    PlanarPoints& points = part.points;
+    std::vector<Index> next(static_cast<std::size_t>(part.surface.vertex_count), -1), previous(next);
+    for (const VertexLoop& loop : part.surface.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            next[loop[i]] = loop[(i + 1) % loop.size()];
+            previous[next[loop[i]]] = loop[i];
+        }
+    const auto inward = [&](Index a, Index b) -> Eigen::RowVector2d {
+        return Eigen::RowVector2d(points(a, 1) - points(b, 1), points(b, 0) - points(a, 0)).stableNormalized();
+    };
+    // Corners of the boundary that lie nearly in one place are drawn into their faces.
+    const auto draw_in = [&](Index a, Index b) {
+        bool any = false;
+        for (const Index v : {a, next[a]})
+            for (const Index w : {b, next[b]})
+                if (v != w && (points.row(v) - points.row(w)).norm() < most) {
+                    for (const Index u : {v, w})
+                        points.row(u) +=
+                            drawn_out * noise * (inward(previous[u], u) + inward(u, next[u])).stableNormalized();
+                    any = true;
+                }
+        return any;
+    };
+    bool any = true;
+    for (int round = 0; any && round < most_nudges; ++round) {
+        any = false;
+        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
+            if (!(signed_area(points, part.surface.triangles, f) > 0.0) &&
+                raise_sliver(part.surface.triangles, f, 2.0 * rounded_height, -most, points))
+                any = true;
+        if (any) continue;
+        for (const auto& [a, b] : crossing_boundary_edges(part.surface.loops, points, 0.0))
+            if (draw_out({a, next[a]}, {b, next[b]}, most, points) || draw_in(a, b)) any = true;
+    }
+    // It must stay where it was, up to some times the noise.
+    if (!lies_one_to_one(part, points) || (points - before).rowwise().norm().maxCoeff() > 2.0 * most) points = before;
 }
 
 Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContext& context)

@@ -20,6 +20,7 @@ namespace koebe {
 namespace {
 
 constexpr double flat = 1e-4;               // of the region's size: distance from its plane,
+constexpr double most_noise_bend = 0.5;     // radians: the most that noise bends an edge of a region
 constexpr double sliver = 1e-6;             // of the region's area: its own normal is only rounding
 constexpr double same_shape = 2e-3;         // and of its image from a similar one
 constexpr double long_outer_edge = 0.05;    // in roots of the area: such an edge is straight by itself,
@@ -77,12 +78,26 @@ private:
         }
     }
 
+    /// Whether faces that meet are bent by less than half a degree, or than noise bends them.
+    bool in_one_plane(Eigen::Index f, Eigen::Index g) const
+    {
+        double angle = tolerance::coplanar;
+        for (const Eigen::Index face : {f, g}) {
+            double longest = 0.0;
+            for (int k = 0; k < 3; ++k)
+                longest = std::max(
+                    longest, (point(layout_.triangles(face, k)) - point(layout_.triangles(face, (k + 1) % 3))).norm());
+            if (layout_.noise > 0.0) angle += layout_.noise * longest / std::max(2.0 * areas_[face], 1e-300);
+        }
+        return normal(f).dot(normal(g)) > std::cos(std::min(angle, most_noise_bend));
+    }
+
     void measure_regions(HardFigures& figures) const
     {
         DisjointSets sets(layout_.part.size());
         each_edge([&](auto begin, auto end) {
             for (auto side = begin + 1; side < end; ++side)
-                if (normal(begin->face).dot(normal(side->face)) > std::cos(tolerance::coplanar))
+                if (in_one_plane(begin->face, side->face))
                     sets.join(static_cast<Index>(begin->face), static_cast<Index>(side->face));
         });
         std::map<Index, std::vector<Eigen::Index>> regions;
@@ -147,9 +162,11 @@ private:
                 miss[k] = std::max(miss[k],
                                    std::abs(image[i] - factor[k] / square * (k == 0 ? place[i] : std::conj(place[i]))));
         const auto part_of = [&](Eigen::Index f) { return layout_.part[f]; };
-        is_whole = std::min(miss[0], miss[1]) < same_shape * image_size &&
+        const double same = std::max(same_shape, size > 0.0 ? 2.0 * layout_.noise / size : 0.0) *
+                            image_size;  // the planes beside it are off, too
+        is_whole = std::min(miss[0], miss[1]) < same &&
                    std::ranges::all_of(faces, [&](Eigen::Index f) { return part_of(f) == part_of(faces.front()); });
-        return off < flat * size;
+        return off < std::max(flat * size, layout_.noise);
     }
 
     bool meet(const FaceSide& one, const FaceSide& other) const

@@ -24,11 +24,11 @@ UnfoldOptions unfolding_of(const PartsOptions& options)
     return {options.hard_angle, options.cut_hard, options.roomy};
 }
 
-OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
-                                        OpenedSurface connected, const PartsOptions& options,
-                                        std::vector<FlatPart>& parts, ExecutionContext& context)
+HardSurfaces opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
+                                       OpenedSurface connected, const PartsOptions& options, ExecutionContext& context)
 {
-    OpenedSurface opened;
+    HardSurfaces found;
+    auto& [parts, opened, noise] = found;
     std::vector<Index> rest;
     std::vector<FlatPart> roomier;
     int handles = 0;
@@ -40,6 +40,7 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
         whole.shown = cut_prices(options.show, piece.source_vertex);
         // Its flat and rolled regions are parts, with cuts for room and without; the rest is opened below.
         if (std::optional<UnfoldedParts> hard = hard_parts(whole, context, unfolding_of(options))) {
+            noise = std::max(noise, hard->noise);
             for (const Index f : hard->rest) rest.push_back(piece.source_face[f]);
             if (hard->roomier.empty()) hard->roomier = hard->parts;
             for (const auto& [own, all] : {std::pair(&hard->parts, &parts), std::pair(&hard->roomier, &roomier)}) {
@@ -64,7 +65,7 @@ OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangle
     }
     opened.left_out = std::move(connected.left_out);
     opened.handles = handles;
-    return opened;
+    return found;
 }
 
 void name_by_source(const SurfacePiece& piece, std::vector<FlatPart>& parts)

@@ -17,14 +17,17 @@ bool may_unfold(const PartsOptions& options);
 
 UnfoldOptions unfolding_of(const PartsOptions& options);
 
+struct HardSurfaces {
+    std::vector<FlatPart> parts;  ///< the hard parts, by numbers of the input
+    OpenedSurface rest;           ///< the other faces, opened. Its handles are those of all surfaces
+    double noise = 0.0;           ///< the largest of the surfaces (UnfoldedParts)
+};
+
 /// @param vertices, triangles of the input @param scaled the vertices, so that all areas sum to 1
 /// @param connected the input's surfaces, not opened (OpenOptions::open). Hard surfaces lose their parts (unfolding.h).
 /// Faces may be divided (divided_faces.h), and are whole in the rest
-/// @param parts takes the hard parts, by numbers of the input
-/// @return the other faces, opened. Its handles are those of all surfaces
-OpenedSurface opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
-                                        OpenedSurface connected, const PartsOptions& options,
-                                        std::vector<FlatPart>& parts, ExecutionContext& context);
+HardSurfaces opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
+                                       OpenedSurface connected, const PartsOptions& options, ExecutionContext& context);
 
 /// Names elements by those from which the piece's came. @param parts by numbers of the piece
 void name_by_source(const SurfacePiece& piece, std::vector<FlatPart>& parts);

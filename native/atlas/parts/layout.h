@@ -27,6 +27,7 @@ struct PartsLayout {
     double even = 0.0;            ///< the E of all parts but the parts of `not_even`
     std::vector<Index> not_even;  ///< faces whose parts stayed conformal
     double maps = 0.0;            ///< number of faces mapped, over the faces of the mesh
+    double noise = 0.0;           ///< up to which planar regions are flat (PlanarRegions); 0: up to rounding
 };
 
 /// The parts before they are packed, in the unit of the layout's vertices.

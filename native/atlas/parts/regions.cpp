@@ -9,35 +9,43 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace koebe {
 namespace {
 
 constexpr double stored_digits = 1e-5;  // in the diagonal of the surface's box: coordinates with five digits
 /// A level of noise: the tolerance in that unit, and the share of the area in large regions from which it is taken. A
-/// patch of a ball is no large region at the first level.
+/// patch of a ball is no large region at the first levels.
 struct NoiseLevel {
-    double tolerance, share;
+    double tolerance, share, large;
 };
-constexpr NoiseLevel noise_levels[] = {{3e-4, 0.25}, {4e-3, 0.6}};  // a coarse scan, noise of 0.1 %
-constexpr double large_region = 0.03;                               // of the area: noise hides no smaller region
-constexpr double most_area = 0.6;  // of the area, in regions of several faces: then there is no noise
-constexpr double upright = 0.1;    // least cosine between a face's normal and its plane's
+constexpr NoiseLevel noise_levels[] = {{3e-5, 0.25, 0.01}, {1e-4, 0.25, 0.01}, {3e-4, 0.25, 0.01},
+                                       {1e-3, 0.25, 0.01}, {2e-3, 0.4, 0.02},  {4e-3, 0.6, 0.03}};
+constexpr NoiseLevel slight_noise[] = {{1e-4, 0.15, 0.01}};  // tried first: most surfaces have none
+constexpr NoiseLevel any_noise[] = {{3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
+constexpr double worth_noise = 0.1;        // of the area: large regions hold so much more with noise than without
+constexpr std::size_t fewest_planes = 12;  // of surfaces on which noise is looked for: a box of triangles
+constexpr double sharp_edge = 0.94;        // cosine of 20 degrees between the planes on both sides of a crease
+constexpr double still_grows = 0.03;       // of the area: a level that holds so much more is better
+constexpr double by_chance = 2.5;          // standard deviations of the sum of bends, if their signs are random
+constexpr double most_area = 0.6;          // of the area, in regions of several faces: then there is no noise
+constexpr double upright = 0.1;            // least cosine between a face's normal and its plane's
 constexpr int most_fits = 8;
+constexpr double much_larger = 20.0;  // times larger regions have faces beside them that are off by more
+constexpr int absorbing_rounds = 8;
 
 class RegionGrowth {
 public:
-    RegionGrowth(const CutSurface& surface, double tolerance)
+    RegionGrowth(const CutSurface& surface, double tolerance, bool noisy)
         : surface_(surface), vector_area_(surface.areas.size(), 3), least_cosine_(surface.areas.size())
     {
         regions_.tolerance = tolerance;
+        if (noisy) regions_.noise = tolerance;
         for (Index f = 0; f < faces(); ++f) {
             vector_area_.row(f) = 0.5 * (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0));
-            // A vertex off by the tolerance turns the normal by the tolerance over the height.
-            const double longest = surface.lengths.segment<3>(3 * static_cast<Eigen::Index>(f)).maxCoeff();
-            const double angle =
-                tolerance::coplanar + 2.0 * tolerance * longest / std::max(2.0 * surface.areas[f], 1e-300);
-            least_cosine_[f] = angle < 0.5 * std::numbers::pi ? std::max(std::cos(angle), upright) : upright;
+            least_cosine_[f] = least_cosine(f, tolerance);
         }
     }
 
@@ -49,12 +57,23 @@ public:
         std::ranges::stable_sort(seeds, std::ranges::greater(), [&](Index f) { return surface_.areas[f]; });
         for (const Index seed : seeds)
             if (regions_.of[seed] < 0) add_region(seed);
+        for (int round = 0; regions_.noise > 0.0 && round < absorbing_rounds && absorb(); ++round) continue;
         return std::move(regions_);
     }
 
 private:
     Index faces() const { return static_cast<Index>(surface_.areas.size()); }
     Eigen::RowVector3d corner(Index f, int k) const { return surface_.vertices.row(surface_.surface.triangles(f, k)); }
+
+    /// A vertex off by the tolerance turns a face's normal by the tolerance over the height.
+    double least_cosine(Index f, double tolerance) const
+    {
+        const double longest = surface_.lengths.segment<3>(3 * static_cast<Eigen::Index>(f)).maxCoeff();
+        const double angle =
+            tolerance::coplanar + 2.0 * tolerance * longest / std::max(2.0 * surface_.areas[f], 1e-300);
+        if (angle < 0.5 * std::numbers::pi) return std::max(std::cos(angle), upright);
+        return regions_.noise > 0.0 ? -1.0 : upright;  // noise may turn a sliver over
+    }
 
     /// The plane of least squares for faces weighted by area, with their common vector area as its normal.
     RegionPlane plane_of(const std::vector<Index>& own) const
@@ -76,10 +95,32 @@ private:
 
     bool lies_in(const RegionPlane& plane, Index f) const
     {
-        if (vector_area_.row(f).dot(plane.normal) < least_cosine_[f] * surface_.areas[f]) return false;
+        return lies_near(plane, f, least_cosine_[f], regions_.tolerance);
+    }
+
+    bool lies_near(const RegionPlane& plane, Index f, double cosine, double tolerance) const
+    {
+        if (vector_area_.row(f).dot(plane.normal) < cosine * surface_.areas[f]) return false;
         for (int k = 0; k < 3; ++k)
-            if (!(std::abs((corner(f, k) - plane.origin).dot(plane.normal)) <= regions_.tolerance)) return false;
+            if (!(std::abs((corner(f, k) - plane.origin).dot(plane.normal)) <= tolerance)) return false;
         return true;
+    }
+
+    /// Faces beside a much larger region that lie in its plane up to a few times the noise become faces of it: the few
+    /// of many faces that are off by more. @return whether there are any
+    bool absorb()
+    {
+        bool any = false;
+        for (Index h = 0; h < 3 * faces(); ++h) {
+            const Index t = surface_.surface.twin[h], f = face_of(h);
+            if (t == no_twin || regions_.of[f] == regions_.of[face_of(t)]) continue;
+            const RegionPlane &own = regions_.planes[regions_.of[f]], &other = regions_.planes[regions_.of[face_of(t)]];
+            const double most = noise_reach * regions_.noise;
+            if (!(other.area > much_larger * own.area) || !lies_near(other, f, least_cosine(f, most), most)) continue;
+            regions_.of[f] = regions_.of[face_of(t)];
+            any = true;
+        }
+        return any;
     }
 
     /// The faces that lie in this plane and are connected with the seed. They get the number of the next region.
@@ -120,41 +161,79 @@ private:
     PlanarRegions regions_;
 };
 
-/// The share of the area in large regions whose edges bend to both sides: noise. On a curved surface they bend to one.
-double noisy_share(const CutSurface& surface, const PlanarRegions& regions)
+/// The bends of edges, positive where the edge is concave.
+struct EdgeBends {
+    double sum = 0.0, all = 0.0, square = 0.0;
+    Index count = 0;
+    void add(double bend)
+    {
+        ++count;
+        sum += bend;
+        all += std::abs(bend);
+        square += bend * bend;
+    }
+    /// Whether they go to both sides, as noise does. On a curved surface they go to one.
+    bool both_sides() const
+    {
+        return !(std::abs(sum) > std::max(tolerance::majority * all, by_chance * std::sqrt(square)));
+    }
+};
+
+/// The share of the area in large regions of several faces. With noise only if their edges bend to both
+/// sides, most of their outlines are creases, and heights of neighbours over the plane differ
+/// by chance: a wave goes on beyond the region, or lifts neighbours alike.
+/// @param large of the area
+double large_share(const CutSurface& surface, const PlanarRegions& regions, double large)
 {
-    std::vector<double> sum(regions.planes.size(), 0.0), all(sum);
+    std::vector<EdgeBends> bends(regions.planes.size());
     const auto side = [&](Index h, int k) -> Eigen::RowVector3d {
         const Index from = k == 1 ? h : previous_halfedge(h);
         return surface.vertices.row(target(surface.surface.triangles, from)) -
                surface.vertices.row(origin(surface.surface.triangles, from));
     };
+    std::vector<double> outline(bends.size(), 0.0), sharp(outline), heights(outline), steps(outline);
     for (Index h = 0; h < static_cast<Index>(surface.surface.twin.size()); ++h) {
-        const Index t = surface.surface.twin[h];
-        if (t < h || regions.of[face_of(h)] != regions.of[face_of(t)]) continue;
-        // The signed volume between the faces: positive where the edge is concave.
-        const double bend = side(h, 1).cross(-side(h, 0)).dot(side(t, 0));
-        sum[regions.of[face_of(h)]] += bend;
-        all[regions.of[face_of(h)]] += std::abs(bend);
+        const Index t = surface.surface.twin[h], own = regions.of[face_of(h)];
+        const Index other = t == no_twin ? -1 : regions.of[face_of(t)];
+        const auto height = [&](Index v) {
+            return (surface.vertices.row(v) - regions.planes[own].origin).dot(regions.planes[own].normal);
+        };
+        const double from = height(origin(surface.surface.triangles, h)),
+                     to = height(target(surface.surface.triangles, h));
+        heights[own] += from * from;
+        steps[own] += (to - from) * (to - from);
+        if (own != other) {
+            outline[own] += surface.lengths[h];
+            if (other < 0 || regions.planes[own].normal.dot(regions.planes[other].normal) < sharp_edge)
+                sharp[own] += surface.lengths[h];
+        }
+        if (t < h || own != other) continue;
+        // The signed volume between the faces.
+        bends[regions.of[face_of(h)]].add(side(h, 1).cross(-side(h, 0)).dot(side(t, 0)));
     }
     const double whole = surface.areas.sum();
     double share = 0.0;
-    for (std::size_t r = 0; r < sum.size(); ++r)
-        if (regions.planes[r].area >= large_region * whole && std::abs(sum[r]) < tolerance::majority * all[r])
-            share += regions.planes[r].area;
-    return share / whole;
+    EdgeBends together;
+    for (std::size_t r = 0; r < bends.size(); ++r) {
+        if (!(regions.planes[r].area >= large * whole) || bends[r].count == 0) continue;
+        const bool rough = steps[r] > heights[r];
+        if (regions.noise > 0.0 && !(rough && bends[r].both_sides() && sharp[r] > tolerance::majority * outline[r]))
+            continue;
+        share += regions.planes[r].area;
+        if (bends[r].all > 0.0) together.add(bends[r].sum / bends[r].all * regions.planes[r].area);
+    }
+    return regions.noise > 0.0 && !together.both_sides() ? 0.0 : share / whole;
 }
 
-/// The share of the area in regions of several faces, or large ones.
+/// The share of the area in regions of several faces.
 double flat_share(const CutSurface& surface, const PlanarRegions& regions)
 {
     std::vector<Index> faces(regions.planes.size(), 0);
     for (const Index region : regions.of) ++faces[region];
-    const double whole = surface.areas.sum();
     double share = 0.0;
     for (std::size_t r = 0; r < faces.size(); ++r)
-        if (faces[r] > 1 || regions.planes[r].area >= large_region * whole) share += regions.planes[r].area;
-    return share / whole;
+        if (faces[r] > 1) share += regions.planes[r].area;
+    return share / surface.areas.sum();
 }
 
 }  // namespace
@@ -162,12 +241,31 @@ double flat_share(const CutSurface& surface, const PlanarRegions& regions)
 PlanarRegions planar_regions(const CutSurface& surface)
 {
     const double diagonal = (surface.vertices.colwise().maxCoeff() - surface.vertices.colwise().minCoeff()).norm();
-    PlanarRegions exact = RegionGrowth(surface, stored_digits * diagonal).run();
-    if (flat_share(surface, exact) >= most_area) return exact;
-    for (const auto& [tolerance, share] : noise_levels)
-        if (PlanarRegions noisy = RegionGrowth(surface, tolerance * diagonal).run();
-            noisy_share(surface, noisy) >= share)
-            return noisy;
+    PlanarRegions exact = RegionGrowth(surface, stored_digits * diagonal, false).run();
+    if (exact.planes.size() < fewest_planes) return exact;
+    const auto at_level = [&](const NoiseLevel& level) {
+        PlanarRegions regions = RegionGrowth(surface, level.tolerance * diagonal, true).run();
+        const double share = large_share(surface, regions, level.large);
+        return std::pair(std::move(regions), share);
+    };
+    const double least = large_share(surface, exact, noise_levels[0].large) + worth_noise;
+    const auto is_noisy = [&](const NoiseLevel& level) {
+        return at_level(level).second >= std::max(least, level.share);
+    };
+    if (flat_share(surface, exact) >= most_area ? std::ranges::none_of(slight_noise, is_noisy)
+                                                : std::ranges::none_of(any_noise, is_noisy))
+        return exact;
+    // The first level at which large regions hold nearly as much as at the next level.
+    std::optional<PlanarRegions> found;
+    double most = 0.0;
+    for (const NoiseLevel& level : noise_levels) {
+        auto [regions, share] = at_level(level);
+        if (found && share < most + still_grows) break;
+        if (share < std::max(least, level.share)) continue;
+        found = std::move(regions);
+        most = share;
+    }
+    if (found) return std::move(*found);
     return exact;
 }
 

@@ -22,16 +22,21 @@ struct RegionPlane {
 /// Of a face's area: a plane that is no larger holds no other face.
 inline constexpr double alone = 1.0 + 1e-9;
 
+/// Of the noise: how far single faces of a region may lie off its plane.
+inline constexpr double noise_reach = 3.0;
+
 struct PlanarRegions {
     std::vector<Index> of;            ///< (F) region of each face
     std::vector<RegionPlane> planes;  ///< (regions)
     double tolerance = 0.0;           ///< the largest distance of a vertex from its plane
+    double noise = 0.0;               ///< the tolerance, if it is that of noise; else 0
 };
 
 /// Each region grows from its largest face over all neighbours whose vertices lie near its plane. The plane is fitted
 /// again until the region stops to grow. So thin faces, whose own normals are only rounding, belong to the plane around
-/// them. The tolerance is that of stored coordinates; a larger one is taken for noise, if large regions then hold most
-/// of the area.
+/// them. The tolerance is that of stored coordinates. If few faces share a plane then, larger tolerances are tried, up
+/// to 0.4 % of the diagonal of the surface's box. The first one is taken for the noise at which large regions, whose
+/// edges bend to both sides, hold as much of the area as at the next one.
 PlanarRegions planar_regions(const CutSurface& surface);
 
 }  // namespace koebe

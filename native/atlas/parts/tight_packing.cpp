@@ -10,9 +10,10 @@
 namespace koebe {
 namespace {
 
-constexpr int coarse_side = 256;      // cells of the square at first, where islands cover
-constexpr double first_share = 0.5;   // that share of it
-constexpr int refinement = 4;         // fine cells along a coarse one
+constexpr int coarse_side = 192;     // cells of the square at first, where islands cover
+constexpr double first_share = 0.5;  // that share of it
+constexpr int refinement = 4;        // fine cells along a coarse one, twice
+constexpr int first_squeeze = 100, second_squeeze = 500;
 constexpr int most_larger = 20;       // squares that are tried until the islands have room
 constexpr int most_failures = 40;     // disturbed arrangements in a row
 constexpr double coarse_share = 0.8;  // of the work
@@ -70,7 +71,7 @@ public:
         scale_ = std::sqrt(first_share / area_) * side_ * static_cast<double>(grid_cell);
         if (!is_drawable() || !pack_coarsely(static_cast<std::int64_t>(coarse_share * static_cast<double>(most))))
             return {{}, 0.0, margin_};
-        if (!refine(most)) return {{}, 0.0, margin_};
+        if (!refine(most, first_squeeze) || !refine(most, second_squeeze)) return {{}, 0.0, margin_};
         return result();
     }
 
@@ -203,14 +204,15 @@ private:
         }
     }
 
-    bool refine(std::int64_t most)
+    /// On a finer board. @param parts of the square's side, by which it becomes smaller at first
+    bool refine(std::int64_t most, int parts)
     {
         draw_finely();
         const auto work = static_cast<std::int64_t>((1.0 - coarse_share) * static_cast<double>(most));
         Separation separation(drawn_.masks);
         for (int k = 0; !separation.separate(side_, spots_, true, work); side_ += 2)
             if (++k == most_larger) return false;
-        for (int step = side_ / 100; step > 0 && separation.work() < work && !is_over();) {
+        for (int step = side_ / parts; step > 0 && separation.work() < work && !is_over();) {
             std::vector<IslandSpot> spots = squeezed(side_ - step);
             if (separation.separate(side_ - step, spots, true, work))
                 take(side_ - step, std::move(spots));

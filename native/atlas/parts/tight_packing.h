@@ -24,7 +24,7 @@ struct TightSearch {
 };
 
 /// Packs islands by moving them apart in a square that becomes smaller and smaller: first on a coarse board, anywhere
-/// and in any turn (`separation.h`); then on a fine board, along short ways.
+/// and in any turn (`separation.h`); then on finer boards, along short ways.
 /// @return a scale of 0 if it found no packing
 IslandPacking pack_tightly(const std::vector<Outline>& outlines, double margin, const TightSearch& search,
                            const PackingTime& time = {});

@@ -129,6 +129,8 @@ public:
         std::erase_if(charts_.rest, [&](Index f) { return chart_[f] >= 0; });
     }
 
+    double noise() const { return charts_.noise; }
+
     double cut_length() const
     {
         double length = 0.0;
@@ -478,7 +480,7 @@ std::optional<UnfoldedParts> unfolded_once(const CutSurface& surface, ExecutionC
     Unfolding unfolding(surface, std::move(charts), options);
     if (options.roomy) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
-    return UnfoldedParts{unfolding.parts(), {}, {}, unfolding.cut_length()};
+    return UnfoldedParts{unfolding.parts(), {}, {}, unfolding.cut_length(), unfolding.noise()};
 }
 
 std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, ExecutionContext& context,
@@ -490,7 +492,7 @@ std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, Executio
     if (options.roomy) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
     unfolding.attach_rest(context);
-    UnfoldedParts found{unfolding.parts(), {}, unfolding.rest(), unfolding.cut_length()};
+    UnfoldedParts found{unfolding.parts(), {}, unfolding.rest(), unfolding.cut_length(), unfolding.noise()};
     if (options.roomy && !options.cut_hard) found.roomier = unfolding.roomier(found.parts, context);
     return found;
 }

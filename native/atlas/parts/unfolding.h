@@ -23,6 +23,7 @@ struct UnfoldedParts {
     std::vector<FlatPart> roomier;
     std::vector<Index> rest;  ///< faces in no part, ascending
     double cut_length = 0.0;  ///< in the unit of the vertices
+    double noise = 0.0;       ///< of the planar regions, in that unit (PlanarRegions)
 };
 
 /// Cuts a surface along its creases into charts, and lays the charts flat. A chart that closes round a hole, such as
