@@ -3,6 +3,7 @@
 #include "core/connectivity.h"
 #include "core/length.h"
 #include "core/numbering.h"
+#include "cost/costs.h"
 #include "mesh/connected_pieces.h"
 #include "surface/face_vectors.h"
 
@@ -47,6 +48,19 @@ CutSurface cut_surface(const Vertices& vertices, Surface surface, std::vector<In
                                      whole.vertices.row(target(whole.surface.triangles, h)));
     whole.polygon = std::move(polygon);
     return whole;
+}
+
+double length_as_cut(const CutSurface& whole, Index halfedge)
+{
+    const Triangles& triangles = whole.surface.triangles;
+    return whole.lengths[halfedge] *
+           price_of_edge(whole.shown, origin(triangles, halfedge), target(triangles, halfedge));
+}
+
+double length_as_cut(const PartMesh& part, Index halfedge)
+{
+    const Index a = origin(part.surface.triangles, halfedge), b = target(part.surface.triangles, halfedge);
+    return length_of(part.vertices.row(a) - part.vertices.row(b)) * price_of_edge(part.shown, a, b);
 }
 
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)

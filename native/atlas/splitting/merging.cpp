@@ -27,7 +27,7 @@ std::shared_ptr<const Part> common_origin(const Part& a, const Part& b)
     return {};
 }
 
-/// Lengths of the borders between parts.
+/// Lengths of the borders between parts, as cuts.
 std::map<std::pair<int, int>, double> borders(const CutSurface& whole, const std::vector<PartPointer>& parts)
 {
     std::vector<int> label(whole.areas.size(), -1);
@@ -38,7 +38,7 @@ std::map<std::pair<int, int>, double> borders(const CutSurface& whole, const std
         const Index t = whole.surface.twin[h];
         if (t == no_twin || t < h) continue;
         const int a = label[face_of(h)], b = label[face_of(t)];
-        if (a != b) result[std::minmax(a, b)] += whole.lengths[h];
+        if (a != b) result[std::minmax(a, b)] += length_as_cut(whole, h);
     }
     return result;
 }

@@ -36,9 +36,7 @@ public:
           is_cut_(twin_.size(), 0),
           passes_(fixed_places(whole.surface))
     {
-        for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h)
-            price_.push_back(whole.lengths[h] *
-                             price_of_edge(whole.shown, origin(triangles_, h), target(triangles_, h)));
+        for (Index h = 0; h < static_cast<Index>(twin_.size()); ++h) price_.push_back(length_as_cut(whole, h));
         note_directions();
     }
 
