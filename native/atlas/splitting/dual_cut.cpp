@@ -1,6 +1,7 @@
 #include "splitting/dual_cut.h"
 
 #include "core/connectivity.h"
+#include "core/length.h"
 #include "core/numbering.h"
 
 #if defined(__GNUC__) && !defined(__clang__)
@@ -31,6 +32,12 @@ using Graph = boost::adjacency_list<
     boost::property<boost::edge_capacity_t, double,
                     boost::property<boost::edge_residual_capacity_t, double,
                                     boost::property<boost::edge_reverse_t, Traits::edge_descriptor>>>>;
+
+double edge_length(const PartMesh& part, Index h)
+{
+    return length_of(part.vertices.row(origin(part.surface.triangles, h)) -
+                     part.vertices.row(target(part.surface.triangles, h)));
+}
 
 void add_edge(Graph& graph, Index a, Index b, double capacity)
 {
@@ -179,7 +186,7 @@ std::vector<int> minimum_cut(const PartMesh& part, const std::vector<Side>& give
         Index a = node[face_of(h)], b = node[face_of(t)];
         if (a == b || a + b == source + sink) continue;
         if (a > b) std::swap(a, b);
-        const double length = length_as_cut(part, h) * (factor.size() > 0 ? factor[h] : 1.0);
+        const double length = edge_length(part, h) * (factor.size() > 0 ? factor[h] : 1.0);
         if (a == source)
             to_source[b] += length;
         else if (a == sink)

@@ -62,8 +62,9 @@ double band_width(const PartMesh& both, const std::vector<int>& label, const std
     return width;
 }
 
-/// Factors on the lengths of edges (3F), by their curvature. Outside the band it counts not.
-VectorXd hollows(const PartMesh& both, const VectorXd& curvature, const std::vector<char>& in_band)
+/// Factors on the lengths of edges (3F), by their curvature and by what is shown. Outside the band curvature counts
+/// not.
+VectorXd visibility(const PartMesh& both, const VectorXd& curvature, const std::vector<char>& in_band)
 {
     const Triangles& triangles = both.surface.triangles;
     const auto of_edge = [&](Index h) {
@@ -76,18 +77,21 @@ VectorXd hollows(const PartMesh& both, const VectorXd& curvature, const std::vec
             squares += of_edge(h) * of_edge(h);
             count += 1.0;
         }
-    VectorXd factor = VectorXd::Ones(triangles.size());
+    VectorXd factor(triangles.size());
+    for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
+        factor[h] = price_of_edge(both.shown, origin(triangles, h), target(triangles, h));
     if (count == 0.0) return factor;
     const double mean = sum / count, deviation = std::sqrt(std::max(squares / count - mean * mean, 0.0));
     if (!(deviation > 0.0)) return factor;
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
-        factor[h] = hollow_factor((of_edge(h) - mean) / deviation);
+        factor[h] *= hollow_factor((of_edge(h) - mean) / deviation);
     return factor;
 }
 
 struct BorderCost {
-    double length = 0.0;  // as cuts,
-    double hidden = 0.0;  // and shorter in hollows
+    double length = 0.0;
+    double shown = 0.0;  // longer where the surface is shown
+    double seen = 0.0;   // with the factors
 };
 
 BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, const VectorXd& factor)
@@ -96,8 +100,11 @@ BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, cons
     for (Index h = 0; h < static_cast<Index>(both.surface.twin.size()); ++h) {
         const Index t = both.surface.twin[h];
         if (t == no_twin || t < h || label[face_of(t)] == label[face_of(h)]) continue;
-        cost.length += length_as_cut(both, h);
-        cost.hidden += length_as_cut(both, h) * factor[h];
+        const Index a = origin(both.surface.triangles, h), b = target(both.surface.triangles, h);
+        const double length = (both.vertices.row(a) - both.vertices.row(b)).norm();
+        cost.length += length;
+        cost.shown += length_as_cut(both, h);
+        cost.seen += length * factor[h];
     }
     return cost;
 }
@@ -136,12 +143,12 @@ std::pair<PartPointer, PartPointer> moved_border(const CutSurface& whole, const 
             in_band[f] = 0;
         }
     // It becomes the cut of least weighted length there, if that is worth it: not longer, no more pieces or loops.
-    const VectorXd factor = hollows(both, curvature, in_band);
+    const VectorXd factor = visibility(both, curvature, in_band);
     const std::vector<int> cut = minimum_cut(both, sides, factor);
     if (cut.empty() || cut == label) return {};
     const BorderCost before = border_cost(both, label, factor), after = border_cost(both, cut, factor);
-    if (!(after.hidden < (1.0 - tuning::noticeable) * before.hidden) ||
-        after.length > (1.0 + tuning::noticeable) * before.length)
+    if (!(after.seen < (1.0 - tuning::noticeable) * before.seen) ||
+        after.shown > (1.0 + tuning::noticeable) * before.shown)
         return {};
     Index pieces = 0;
     connected_pieces(both, cut, pieces);
