@@ -57,12 +57,6 @@ double length_as_cut(const CutSurface& whole, Index halfedge)
            price_of_edge(whole.shown, origin(triangles, halfedge), target(triangles, halfedge));
 }
 
-double length_as_cut(const PartMesh& part, Index halfedge)
-{
-    const Index a = origin(part.surface.triangles, halfedge), b = target(part.surface.triangles, halfedge);
-    return length_of(part.vertices.row(a) - part.vertices.row(b)) * price_of_edge(part.shown, a, b);
-}
-
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces)
 {
     std::sort(faces.begin(), faces.end());

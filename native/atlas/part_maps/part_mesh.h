@@ -50,7 +50,6 @@ struct PartMesh {
 
 /// The length of an edge as a cut, with its factor where it is seen (cost/costs.h).
 double length_as_cut(const CutSurface& whole, Index halfedge);
-double length_as_cut(const PartMesh& part, Index halfedge);
 
 /// @param faces connected by edges @throws TopologyError as require_bordered_genus_zero: a closed surface
 PartMesh part_mesh(const CutSurface& whole, std::vector<Index> faces);

@@ -103,7 +103,7 @@ BorderCost border_cost(const PartMesh& both, const std::vector<int>& label, cons
         const Index a = origin(both.surface.triangles, h), b = target(both.surface.triangles, h);
         const double length = (both.vertices.row(a) - both.vertices.row(b)).norm();
         cost.length += length;
-        cost.shown += length_as_cut(both, h);
+        cost.shown += length * price_of_edge(both.shown, a, b);
         cost.seen += length * factor[h];
     }
     return cost;

@@ -1,6 +1,7 @@
 #include "splitting/splitting.h"
 
 #include "core/connectivity.h"
+#include "core/length.h"
 #include "cost/costs.h"
 #include "execution/side_by_side.h"
 #include "splitting/halving.h"
@@ -43,7 +44,8 @@ double border_length(const PartMesh& part, const std::vector<int>& label)
     for (Index h = 0; h < static_cast<Index>(part.surface.twin.size()); ++h) {
         const Index t = part.surface.twin[h];
         if (t == no_twin || t < h || label[face_of(t)] == label[face_of(h)]) continue;
-        length += length_as_cut(part, h);
+        length += length_of(part.vertices.row(origin(part.surface.triangles, h)) -
+                            part.vertices.row(target(part.surface.triangles, h)));
     }
     return length;
 }
