@@ -18,14 +18,14 @@ from ..solver.worker import Worker
 from ..state.run_report import forget
 from .answers import refused
 from .modal_run import redraw
-from .polls import has_targets
+from .polls import OnTargets
 from .tooltip import tooltip
 
 POLL_SECONDS = 0.01
 NO_ISLAND = "no island is there whose faces are not turned over: begin on one that is shown"
 
 
-class UV_OT_koebe_relax(bpy.types.Operator):
+class UV_OT_koebe_relax(OnTargets, bpy.types.Operator):
     """Brush over UVs to relax them: texels become more even, and the map stays one to one. Borders of islands and
     pinned UVs stay. Esc puts all back"""
 
@@ -33,6 +33,7 @@ class UV_OT_koebe_relax(bpy.types.Operator):
     bl_label = "Koebe Relax"
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO", "BLOCKING"}
+    needs, modes = "Works on the UVs of a mesh object in Edit Mode", ("EDIT_MESH",)
     shown: ClassVar[tuple[int, int] | None] = None  # pixel of the region under a brush that works
 
     center: FloatVectorProperty(
@@ -47,10 +48,6 @@ class UV_OT_koebe_relax(bpy.types.Operator):
         description="How even texels become under the brush. 0: angles are kept",
     )
     layer: StringProperty(name="UV Layer", description="UV layer. Without a name, the active layer")
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return has_targets(cls, context, "Works on the UVs of a mesh object in Edit Mode", ("EDIT_MESH",))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """One dab."""
