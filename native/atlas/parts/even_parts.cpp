@@ -234,9 +234,15 @@ private:
         return stitch_parts(parts_, even, {cut_price(), options_.piece * cut_price()}, context_);
     }
 
+    /// Whether a single part has all of the surface without a cut: a long sheet stays as long as it is.
+    bool is_uncut_sheet() const
+    {
+        return parts_.size() == 1 && parts_.front().flat.slit == 0.0 && parts_.front().flat.dart_length == 0.0;
+    }
+
     bool cut_for_room()
     {
-        if (options_.loops != LoopForm::free || !options_.roomy) return false;
+        if (options_.loops != LoopForm::free || !options_.roomy || is_uncut_sheet()) return false;
         return cut_parts_for_room(parts_, room_price(options_.darts, options_.piece), options_.threads, context_);
     }
 

@@ -20,11 +20,13 @@ constexpr double stored_digits = 1e-5;  // in the diagonal of the surface's box:
 /// patch of a ball is no large region at the first levels.
 struct NoiseLevel {
     double tolerance, share, large;
+    bool waves = false;
 };
 constexpr NoiseLevel noise_levels[] = {{3e-5, 0.25, 0.01}, {1e-4, 0.25, 0.01}, {3e-4, 0.25, 0.01},
                                        {1e-3, 0.25, 0.01}, {2e-3, 0.4, 0.02},  {4e-3, 0.6, 0.03}};
 constexpr NoiseLevel slight_noise[] = {{1e-4, 0.15, 0.01}};  // tried first: most surfaces have none
 constexpr NoiseLevel any_noise[] = {{3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
+constexpr NoiseLevel sheet_waves{4e-3, 0.6, 0.03, true};  // tried last: a sheet with low waves is flat
 constexpr double worth_noise = 0.1;        // of the area: large regions hold so much more with noise than without
 constexpr std::size_t fewest_planes = 12;  // of surfaces on which noise is looked for: a box of triangles
 constexpr double sharp_edge = 0.94;        // cosine of 20 degrees between the planes on both sides of a crease
@@ -179,11 +181,10 @@ struct EdgeBends {
     }
 };
 
-/// The share of the area in large regions of several faces. With noise only if their edges bend to both
-/// sides, most of their outlines are creases, and heights of neighbours over the plane differ
-/// by chance: a wave goes on beyond the region, or lifts neighbours alike.
-/// @param large of the area
-double large_share(const CutSurface& surface, const PlanarRegions& regions, double large)
+/// The share of the area in large regions of several faces. With noise only if their edges bend to both sides, most of
+/// their outlines are creases, and heights of neighbours over the plane differ by chance: a wave goes on beyond the
+/// region, or lifts neighbours alike. At a level with waves these may be waves.
+double large_share(const CutSurface& surface, const PlanarRegions& regions, const NoiseLevel& level)
 {
     std::vector<EdgeBends> bends(regions.planes.size());
     const auto side = [&](Index h, int k) -> Eigen::RowVector3d {
@@ -215,10 +216,10 @@ double large_share(const CutSurface& surface, const PlanarRegions& regions, doub
     double share = 0.0;
     EdgeBends together;
     for (std::size_t r = 0; r < bends.size(); ++r) {
-        if (!(regions.planes[r].area >= large * whole) || bends[r].count == 0) continue;
+        if (!(regions.planes[r].area >= level.large * whole) || bends[r].count == 0) continue;
         const bool rough = steps[r] > heights[r];
-        if (regions.noise > 0.0 && !(rough && bends[r].both_sides() && sharp[r] > tolerance::majority * outline[r]))
-            continue;
+        const bool is_plane = level.waves || (rough && sharp[r] > tolerance::majority * outline[r]);
+        if (regions.noise > 0.0 && !(is_plane && bends[r].both_sides())) continue;
         share += regions.planes[r].area;
         if (bends[r].all > 0.0) together.add(bends[r].sum / bends[r].all * regions.planes[r].area);
     }
@@ -245,27 +246,29 @@ PlanarRegions planar_regions(const CutSurface& surface)
     if (exact.planes.size() < fewest_planes) return exact;
     const auto at_level = [&](const NoiseLevel& level) {
         PlanarRegions regions = RegionGrowth(surface, level.tolerance * diagonal, true).run();
-        const double share = large_share(surface, regions, level.large);
+        const double share = large_share(surface, regions, level);
         return std::pair(std::move(regions), share);
     };
-    const double least = large_share(surface, exact, noise_levels[0].large) + worth_noise;
+    const double least = large_share(surface, exact, noise_levels[0]) + worth_noise;
     const auto is_noisy = [&](const NoiseLevel& level) {
         return at_level(level).second >= std::max(least, level.share);
     };
-    if (flat_share(surface, exact) >= most_area ? std::ranges::none_of(slight_noise, is_noisy)
-                                                : std::ranges::none_of(any_noise, is_noisy))
-        return exact;
-    // The first level at which large regions hold nearly as much as at the next level.
-    std::optional<PlanarRegions> found;
-    double most = 0.0;
-    for (const NoiseLevel& level : noise_levels) {
-        auto [regions, share] = at_level(level);
-        if (found && share < most + still_grows) break;
-        if (share < std::max(least, level.share)) continue;
-        found = std::move(regions);
-        most = share;
+    const bool is_flat = flat_share(surface, exact) >= most_area;
+    if (is_flat ? std::ranges::any_of(slight_noise, is_noisy) : std::ranges::any_of(any_noise, is_noisy)) {
+        // The first level at which large regions hold nearly as much as at the next level.
+        std::optional<PlanarRegions> found;
+        double most = 0.0;
+        for (const NoiseLevel& level : noise_levels) {
+            auto [regions, share] = at_level(level);
+            if (found && share < most + still_grows) break;
+            if (share < std::max(least, level.share)) continue;
+            found = std::move(regions);
+            most = share;
+        }
+        if (found) return std::move(*found);
     }
-    if (found) return std::move(*found);
+    if (!is_flat)
+        if (auto [regions, share] = at_level(sheet_waves); share >= sheet_waves.share) return std::move(regions);
     return exact;
 }
 

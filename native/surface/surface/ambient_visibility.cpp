@@ -15,7 +15,8 @@ namespace koebe {
 namespace {
 
 constexpr double most_directions = 32.0, fewest_directions = 8.0;
-constexpr double most_rays = 1e5;  // in all: of the vertices of a large mesh, which has no coarser one, fewer directions
+constexpr double most_rays =
+    1e5;  // in all: of the vertices of a large mesh, which has no coarser one, fewer directions
 constexpr double golden_angle = 2.399963229728653;  // the turn from one direction to the next: they spread evenly
 constexpr double off_surface = 1e-3;                // start of a ray, over the extent
 constexpr int most_looks = 500;                     // at boxes and faces, for a ray: needles that cross have no tree
