@@ -218,8 +218,9 @@ double large_share(const CutSurface& surface, const PlanarRegions& regions, cons
     for (std::size_t r = 0; r < bends.size(); ++r) {
         if (!(regions.planes[r].area >= level.large * whole) || bends[r].count == 0) continue;
         const bool rough = steps[r] > heights[r];
-        const bool is_plane = level.waves || (rough && sharp[r] > tolerance::majority * outline[r]);
-        if (regions.noise > 0.0 && !(is_plane && bends[r].both_sides())) continue;
+        if (level.waves && !(std::abs(bends[r].sum) < tolerance::majority * bends[r].all)) continue;
+        if (regions.noise > 0.0 && !(rough && bends[r].both_sides() && sharp[r] > tolerance::majority * outline[r]))
+            continue;
         share += regions.planes[r].area;
         if (bends[r].all > 0.0) together.add(bends[r].sum / bends[r].all * regions.planes[r].area);
     }
@@ -245,7 +246,7 @@ PlanarRegions planar_regions(const CutSurface& surface)
     PlanarRegions exact = RegionGrowth(surface, stored_digits * diagonal, false).run();
     if (exact.planes.size() < fewest_planes) return exact;
     const auto at_level = [&](const NoiseLevel& level) {
-        PlanarRegions regions = RegionGrowth(surface, level.tolerance * diagonal, true).run();
+        PlanarRegions regions = RegionGrowth(surface, level.tolerance * diagonal, !level.waves).run();
         const double share = large_share(surface, regions, level);
         return std::pair(std::move(regions), share);
     };
