@@ -25,7 +25,7 @@ from ..state import moved_circles
 from ..state.run_report import report_of
 from .answers import refused
 from .modal_run import redraw
-from .polls import OnTargets
+from .polls import OnTargets, region_under_mouse
 from .tooltip import tooltip
 
 NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to hold a hole, longest click, to snap to the middle
@@ -135,9 +135,8 @@ class UV_OT_koebe_moebius(OnTargets, bpy.types.Operator):
     # ---------------------------------------------------------------- by hand
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        space, region = context.space_data, context.region
-        by_hand = event.type == "LEFTMOUSE" and space is not None and space.type == "IMAGE_EDITOR"
-        if bpy.app.background or not by_hand or region is None or region.type != "WINDOW":
+        region = region_under_mouse(context, event)
+        if region is None:
             return self.execute(context)
         context.evaluated_depsgraph_get()
         self._region = region

@@ -18,7 +18,7 @@ from ..solver.worker import Worker
 from ..state.run_report import forget
 from .answers import refused
 from .modal_run import redraw
-from .polls import OnTargets
+from .polls import OnTargets, region_under_mouse
 from .tooltip import tooltip
 
 POLL_SECONDS = 0.01
@@ -88,9 +88,8 @@ class UV_OT_koebe_relax(OnTargets, bpy.types.Operator):
         return {"FINISHED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        space, region = context.space_data, context.region
-        by_hand = event.type == "LEFTMOUSE" and space is not None and space.type == "IMAGE_EDITOR"
-        if bpy.app.background or not by_hand or region is None or region.type != "WINDOW":
+        region = region_under_mouse(context, event)
+        if region is None:
             return self.execute(context)
         self._region = region
         self._at = event.mouse_region_x, event.mouse_region_y

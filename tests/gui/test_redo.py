@@ -20,6 +20,15 @@ BAR = "next(m.ModalRun.bar for n, m in __import__('sys').modules.items() if n.en
 ROW = {"keep_angles": (170, 88)}  # pixels from the pointer to rows of the panel that F9 opens
 
 
+def unwrapped(window):
+    """The map after one press of Unwrap."""
+    window.prepare(MODEL)
+    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
+    window.wait(DONE, 240.0)
+    window.settle()
+    return window.run(HASH)
+
+
 def change(window, name):
     """Open the redo panel in the middle of the 3D View, click a switch, and wait until a run goes on."""
     window.move(*window.middle("VIEW_3D"))
@@ -34,11 +43,7 @@ def change(window, name):
 
 
 def test_the_window_lives_while_the_redo_panel_computes(window):
-    window.prepare(MODEL)
-    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
-    window.wait(DONE, 240.0)
-    window.settle()
-    first = window.run(HASH)
+    first = unwrapped(window)
     window.run("heart.silences.clear()")
     change(window, "keep_angles")
     assert window.run(HASH) == first, "the last map is seen"
@@ -70,11 +75,7 @@ def test_the_window_lives_while_the_redo_panel_computes(window):
 
 
 def test_a_second_change_takes_the_place_of_the_first(window):
-    window.prepare(MODEL)
-    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
-    window.wait(DONE, 240.0)
-    window.settle()
-    first = window.run(HASH)
+    first = unwrapped(window)
     change(window, "keep_angles")
     xdotool("click", "1")  # the same switch: back to the first map's options, while the other run goes on
     window.settle()
@@ -86,11 +87,7 @@ def test_a_second_change_takes_the_place_of_the_first(window):
 
 
 def test_going_on_ends_the_run(window):
-    window.prepare(MODEL)
-    window.click(*window.find_button("VIEW_3D", "koebe_unwrap"))
-    window.wait(DONE, 240.0)
-    window.settle()
-    first = window.run(HASH)
+    first = unwrapped(window)
     change(window, "keep_angles")
     window.run("bpy.context.view_layer.objects.active.location.x += 1")
     window.wait(f"{BAR} is None", 10.0)
