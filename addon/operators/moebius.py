@@ -25,8 +25,9 @@ from ..state import moved_circles
 from ..state.run_report import report_of
 from .answers import refused
 from .modal_run import redraw
-from .polls import OnTargets, region_under_mouse
+from .polls import OnTargets
 from .tooltip import tooltip
+from .uv_drag import UvDrag
 
 NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to hold a hole, longest click, to snap to the middle
 HINTS = {
@@ -36,7 +37,7 @@ HINTS = {
 }
 
 
-class UV_OT_koebe_moebius(OnTargets, bpy.types.Operator):
+class UV_OT_koebe_moebius(OnTargets, UvDrag, bpy.types.Operator):
     """Move the circles of a map. Drag the disk or a hole, click a hole to make it the rim, or drag outside the disk to
     turn it. Angles are kept and circles stay circles"""
 
@@ -135,11 +136,9 @@ class UV_OT_koebe_moebius(OnTargets, bpy.types.Operator):
     # ---------------------------------------------------------------- by hand
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        region = region_under_mouse(context, event)
-        if region is None:
+        if not self._press(context, event):
             return self.execute(context)
         context.evaluated_depsgraph_get()
-        self._region = region
         place = self._place(event.mouse_region_x, event.mouse_region_y)
         try:
             jobs, problems = _jobs(context, "", self.layer, lambda job: job.domain_at(*place, REACH) is not None)
@@ -164,11 +163,6 @@ class UV_OT_koebe_moebius(OnTargets, bpy.types.Operator):
         self._grip = Grip.at(domain, *place, NEAR * self._pixel)
         self._pressed, self._dragging, self._live = (event.mouse_x, event.mouse_y), False, False
         self._back: Callable[[], None] | None = None
-
-    def _place(self, x: float, y: float) -> tuple[float, float]:
-        """The place of the UVs at a pixel of the region."""
-        u, v = self._region.view2d.region_to_view(x, y)
-        return u, v
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         try:

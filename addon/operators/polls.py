@@ -53,15 +53,6 @@ def in_object_mode(
     return True
 
 
-def region_under_mouse(context: bpy.types.Context, event: bpy.types.Event) -> bpy.types.Region | None:
-    """The region of the UV Editor in which the mouse was pressed. None if the operator was called in another way."""
-    space, region = context.space_data, context.region
-    by_hand = event.type == "LEFTMOUSE" and space is not None and space.type == "IMAGE_EDITOR"
-    if bpy.app.background or not by_hand or region is None or region.type != "WINDOW":
-        return None
-    return region
-
-
 def native_or_error(operator: bpy.types.Operator) -> ModuleType | None:
     """The native package, or None if it is missing, and then an error is reported."""
     try:

@@ -18,14 +18,15 @@ from ..solver.worker import Worker
 from ..state.run_report import forget
 from .answers import refused
 from .modal_run import redraw
-from .polls import OnTargets, region_under_mouse
+from .polls import OnTargets
 from .tooltip import tooltip
+from .uv_drag import UvDrag
 
 POLL_SECONDS = 0.01
 NO_ISLAND = "no island is there whose faces are not turned over: begin on one that is shown"
 
 
-class UV_OT_koebe_relax(OnTargets, bpy.types.Operator):
+class UV_OT_koebe_relax(OnTargets, UvDrag, bpy.types.Operator):
     """Brush over UVs to relax them: texels become more even, and the map stays one to one. Borders of islands and
     pinned UVs stay. Esc puts all back"""
 
@@ -88,10 +89,8 @@ class UV_OT_koebe_relax(OnTargets, bpy.types.Operator):
         return {"FINISHED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        region = region_under_mouse(context, event)
-        if region is None:
+        if not self._press(context, event):
             return self.execute(context)
-        self._region = region
         self._at = event.mouse_region_x, event.mouse_region_y
         self.center, pixels = self._place(*self._at), context.scene.koebe_relax_radius
         self.radius = pixels * self._pixel()[0]
@@ -107,11 +106,6 @@ class UV_OT_koebe_relax(OnTargets, bpy.types.Operator):
         context.window_manager.modal_handler_add(self)
         self._show(context)
         return {"RUNNING_MODAL"}
-
-    def _place(self, x: float, y: float) -> tuple[float, float]:
-        """The place of the UVs at a pixel of the region."""
-        u, v = self._region.view2d.region_to_view(x, y)
-        return u, v
 
     def _pixel(self) -> tuple[float, float]:
         """The width and the height of a pixel in UVs."""

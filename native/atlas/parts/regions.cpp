@@ -183,7 +183,7 @@ struct EdgeBends {
 
 /// The share of the area in large regions of several faces. With noise only if their edges bend to both sides, most of
 /// their outlines are creases, and heights of neighbours over the plane differ by chance: a wave goes on beyond the
-/// region, or lifts neighbours alike. At a level with waves these may be waves.
+/// region, or lifts neighbours alike. For low waves of a sheet only the bends are asked, those of each region.
 double large_share(const CutSurface& surface, const PlanarRegions& regions, const NoiseLevel& level)
 {
     std::vector<EdgeBends> bends(regions.planes.size());
