@@ -31,7 +31,7 @@ FlatPart ring_part(int around, int rows, double (*radius)(double))
         for (int i = 0; i < around; ++i) {
             const double angle = 2.0 * pi * i / around, height = j / double(rows), r = radius(height);
             part.vertices.row(at(i, j)) << r * std::cos(angle), r * std::sin(angle), height;
-            const Complex z = std::polar(0.2 + 0.4 * height, -angle);
+            const Complex z = std::polar(0.2 + 0.4 * height, angle);
             part.points.row(at(i, j)) << z.real(), z.imag();
         }
     part.vertices /= std::sqrt(face_areas(part.vertices, part.surface.triangles).sum());
@@ -116,13 +116,15 @@ TEST(ThroughCuts, a_rolled_panel_is_cut_along_once_and_lies_flat)
     ASSERT_GT(before, 1e-3);
     const std::vector<HeldPart> parts = cut(part, {5e-4, 5e-4});
     ASSERT_EQ(parts.size(), 1U);
-    const FlatPart& open = parts[0].flat;
+    FlatPart open = parts[0].flat;
     EXPECT_EQ(open.surface.loops.size(), 1U);
     EXPECT_EQ(open.faces, part.faces);
     EXPECT_GE(open.slit, 1.0 / std::sqrt(pi) - 1e-3);  // its height, of area 1,
     EXPECT_LE(open.slit, 1.1 / std::sqrt(pi));         // along edges
-    EXPECT_LT(energy(open), 1e-3 * before);
+    EXPECT_LT(energy(open), 1e-2 * before);
     EXPECT_TRUE(lies_one_to_one(open, open.points));
+    relax(open);
+    EXPECT_LT(energy(open), 1e-9 * before);
 }
 
 TEST(ThroughCuts, what_is_true_to_size_is_neither_moved_nor_cut_however_thin_its_faces)
@@ -158,7 +160,7 @@ TEST(ThroughCuts, cuts_that_are_opened_together_split_nothing_and_refused_ones_d
 
 TEST(ThroughCuts, pieces_are_the_part_and_without_a_price_of_pieces_nothing_is_split)
 {
-    FlatPart part = ring_part(24, 24, [](double h) { return 0.3 + 0.25 * std::sin(2.0 * pi * h); });
+    FlatPart part = ring_part(24, 24, [](double h) { return 0.3 - 0.25 * std::sin(2.0 * pi * h); });
     relax(part);
     EXPECT_EQ(cut(part, {1e-5, {}}).size(), 1U);
     EXPECT_FALSE(promising_through_cuts(part, even, {1e-5, 1e-5}, {}).empty());

@@ -231,8 +231,9 @@ void split_chords(PlanarMesh& mesh, Index boundary_count)
 PlanarMesh mesh_of_unit_size(const std::vector<VectorXcd>& polygons, Index boundary_count,
                              const PlanarMeshOptions& options)
 {
-    const SizeField size(polygons, options.longest, options.gradation);
     std::vector<Complex> interior;
+    if (options.bare) return planar_arrays(PlanarRegion(polygons, interior), polygons, interior);
+    const SizeField size(polygons, options.longest, options.gradation);
     {
         PlanarRegion region(polygons, interior);
         refine(region, size, interior, boundary_count);

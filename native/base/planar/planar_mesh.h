@@ -15,6 +15,8 @@ struct PlanarMeshOptions {
     double gradation = 0.25;
     /// Rounds of smoothing; each ends with a new Delaunay triangulation.
     int smoothing = 8;
+    /// No interior points, and inner edges may join two boundary vertices.
+    bool bare = false;
 };
 
 struct PlanarMesh {

@@ -76,10 +76,11 @@ private:
 
     double weight(Eigen::Index f) const { return problem_.weight.size() > 0 ? problem_.weight[f] : 1.0; }
 
-    Worth worth(const FoldoverPlaces& places) const
+    /// @param upright_only stops at a face that is not upright, whose worth is of no use
+    Worth worth(const FoldoverPlaces& places, bool upright_only = false) const
     {
         Worth result;
-        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
+        for (Eigen::Index f = 0; f < problem_.triangles.rows() && !(upright_only && result.worst <= 0.0); ++f) {
             const FaceMap map = face_map(places, f);
             result.energy += weight(f) * energy_(map, problem_.floor[f]);
             result.worst = std::min(result.worst, map.determinant() - problem_.floor[f]);
@@ -146,7 +147,7 @@ private:
         hindered_ = false;
         for (int i = 0; i < halvings; ++i, share *= 0.5) {
             FoldoverPlaces trial = system_.moved(step, share);
-            const Worth there = worth(trial);
+            const Worth there = worth(trial, options_.strict);
             if (options_.strict && !(there.worst > 0.0)) continue;
             if (there.energy <= before + armijo * share * slope + (options_.least > 0.0 ? rounded * before : 0.0)) {
                 if (options_.refuses && options_.refuses(trial)) {

@@ -27,6 +27,7 @@ TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const s
       uv_(uv),
       place_(surface.vertex_count, Place::inside),
       flap_(surface.vertex_count, 0),
+      held_(surface.vertex_count, 0),
       loop_of_(surface.vertex_count, -1),
       vertex_faces_(surface.triangles, surface.vertex_count)
 {

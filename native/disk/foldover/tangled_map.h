@@ -39,8 +39,8 @@ public:
     Place place(Index vertex) const { return place_[vertex]; }
     void set_place(Index vertex, Place place) { place_[vertex] = place; }
     /// Keeps the vertex where it is from now on.
-    void hold(Index vertex) { held_.push_back(vertex); }
-    bool held(Index vertex) const { return std::ranges::find(held_, vertex) != held_.end(); }
+    void hold(Index vertex) { held_[vertex] = 1; }
+    bool held(Index vertex) const { return held_[vertex] != 0; }
     /// Whether the vertex lies on its circle, up to inner_circle_tolerance.
     bool near_circle(Index vertex) const;
 
@@ -71,7 +71,7 @@ private:
     PlanarPoints& uv_;
     std::vector<Place> place_;
     std::vector<char> flap_;  // 1 for vertices off their circles from the start: flap rims
-    std::vector<Index> held_;
+    std::vector<char> held_;
     std::vector<int> loop_of_;
     VertexFaces vertex_faces_;
 };

@@ -8,7 +8,7 @@
 namespace koebe {
 
 struct VoidMesh {
-    PlanarPoints points;  ///< (V + n, 2) points of the surface, four corners of the frame, other points of the void
+    PlanarPoints points;  ///< (V + 4, 2) points of the surface, and the corners of the frame
     Triangles triangles;  ///< triangles of the void only, counter-clockwise
 };
 
@@ -23,8 +23,7 @@ VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& poi
 /// @param weight of each of these triangles; small, so that they only hold the loops apart
 /// @param gap wanted width between loops, in the unit of the points: wider triangles stay as wide, narrower ones lose
 /// at most half their width; 0: they stay upright
-/// @param problem its floors are set; empty weights become 1. New points follow its own ones: all are free but the
-/// frame
+/// @param problem its floors are set; empty weights become 1. The frame's corners follow its own points, and are held
 void add_void(const VoidMesh& around, double weight, double gap, FoldoverProblem& problem);
 
 }  // namespace koebe
