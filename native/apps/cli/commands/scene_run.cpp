@@ -49,10 +49,7 @@ Json scene_report(const SceneInput& scene, const std::vector<MappedMesh>& mapped
 {
     if (mapped.size() == 1) {
         Json report = mapped.front().report;
-        if (Json& seconds = report["seconds"]; seconds.is_object())
-            seconds.update({{"read", scene.seconds}, {"write", written}, {"total", total}});
-        else
-            seconds = total;
+        report["seconds"].update({{"read", scene.seconds}, {"write", written}, {"total", total}});
         return report;
     }
     Json meshes = Json::array();
