@@ -136,6 +136,7 @@ int finish_scene(const MapRequest& request, const SceneInput& scene, std::vector
                  const Stopwatch& run, const CancelToken& token)
 {
     const Stopwatch writing;
+    const ProfiledStage stage("write");
     std::vector<std::vector<GltfPoint>> uvs;
     for (MappedMesh& mesh : mapped) uvs.push_back(std::move(mesh.uvs));
     std::vector<Warning> warnings = scene_warnings(scene, mapped);
