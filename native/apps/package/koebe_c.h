@@ -14,6 +14,8 @@
 #define KOEBE_C_NOEXCEPT
 #endif
 
+/* NOLINTBEGIN(readability-identifier-naming): the names are those of C. */
+
 /* What a call returns: the exit codes of the command. */
 enum koebe_status {
     KOEBE_DONE = 0,
@@ -65,5 +67,7 @@ KOEBE_C_FUNCTION int koebe_uniformize(const double* vertices, int64_t vertex_cou
                                       int64_t triangle_count, const koebe_options* options, double* uv,
                                       koebe_circle* circles, int64_t circle_count, koebe_report* report, char* message,
                                       size_t message_size) KOEBE_C_NOEXCEPT;
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #endif

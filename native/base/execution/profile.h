@@ -24,6 +24,7 @@ public:
     ProfiledStage() = default;
     explicit ProfiledStage(const char* name) { begin(name); }
     ProfiledStage(const ProfiledStage&) noexcept {}  // a copy has no stage
+    // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): an assignment changes nothing
     ProfiledStage& operator=(const ProfiledStage&) noexcept { return *this; }
     ~ProfiledStage()
     {
