@@ -99,7 +99,7 @@ def figures(result):
         "angle_error": result.angle_error_deg["mean"],
         "flipped": result.flipped,
         "below_resolution": result.below_resolution,
-        "seconds": result.seconds,
+        "seconds": result.seconds["total"],
     }
 
 

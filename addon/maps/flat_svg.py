@@ -2,7 +2,6 @@
 """Flat pieces as SVG for cutting and engraving, in millimetres, with one group per piece."""
 
 from collections.abc import Sequence
-from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
@@ -22,11 +21,13 @@ def flat_svg(named: Sequence[tuple[str, FlatLayout]], millimetres: float, edges:
 
     Holes come before the outline of their piece, as they must be cut first.
     """
+    from xml.sax.saxutils import escape, quoteattr  # brings urllib and http, which the start has no time for
+
     width, height, groups = BORDER, 0.0, []
     tallest = max(float(layout.points[:, 1].max()) for _, layout in named) * millimetres
     for name, layout in named:
         at = millimetres * layout.points * [1.0, -1.0] + [width, BORDER + tallest]
-        groups += _object(name, layout, at, edges)
+        groups += _object([quoteattr(f"{name} {k}") for k in range(1, len(layout.pieces) + 1)], layout, at, edges)
         width += float(layout.points[:, 0].max()) * millimetres + BORDER
         height = BORDER + tallest + BORDER
     wide, high = _number(width), _number(height)
@@ -39,10 +40,10 @@ def flat_svg(named: Sequence[tuple[str, FlatLayout]], millimetres: float, edges:
     ])  # fmt: skip
 
 
-def _object(name: str, layout: FlatLayout, at: np.ndarray, edges: bool) -> list[str]:
+def _object(ids: Sequence[str], layout: FlatLayout, at: np.ndarray, edges: bool) -> list[str]:
     lines = []
-    for number, piece in enumerate(layout.pieces, 1):
-        lines.append(f"<g id={quoteattr(f'{name} {number}')}>")
+    for own, piece in zip(ids, layout.pieces, strict=True):
+        lines.append(f"<g id={own}>")
         lines += [_path("hole", HOLE, at[hole]) for hole in piece.holes]
         lines += [_path("outline", CUT, at[piece.outline]), "</g>"]
     if edges and len(layout.edges):

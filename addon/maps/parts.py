@@ -105,7 +105,7 @@ class PartsOutcome(Outcome):
             f"texel density 1 : {density_text(self.mapped[0].figure('density_ratio_5_95'))}",
             f"angle error {self.mapped[0].figure('angle_error_stored_deg')['mean']:.2f}°",
             counted(self.mapped[0].flipped, "flip"),
-            f"{result.seconds:.2f} s",
+            f"{result.seconds['total']:.2f} s",
         ]
         if result.stacked:
             words.insert(1, counted(len(result.stacked), "part") + " stacked")
@@ -138,7 +138,7 @@ class PartsOutcome(Outcome):
         result = one.result
         return {
             "parts": len(result.parts), "angle_error": one.figure("angle_error_stored_deg")["mean"],
-            "flipped": one.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds,
+            "flipped": one.flipped, "flipped_faces": one.flipped_faces.tolist(), "seconds": result.seconds["total"],
             "density": one.figure("density_ratio_5_95"),
             "coverage": result.coverage if one.coverage is None else one.coverage,
             "cut_length": result.cut_length, "even": result.even,

@@ -2,6 +2,7 @@
 
 import json
 import re
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -101,3 +102,10 @@ def test_the_program_of_the_cpp_page_is_the_one_that_the_tests_build():
     page = (ROOT / "docs" / "cpp.md").read_text(encoding="utf-8")
     program = (ROOT / "tests" / "consumer" / "page.cpp").read_text(encoding="utf-8")
     assert re.search(r"```cpp\n(.*?)```", page, re.DOTALL)[1] == program.partition("\n")[2]
+
+
+def test_the_call_from_c_on_that_page_is_one_that_the_tests_build():
+    page = (ROOT / "docs" / "cpp.md").read_text(encoding="utf-8")
+    program = (ROOT / "tests" / "consumer" / "ring.c").read_text(encoding="utf-8")
+    call = re.search(r"```c\n(.*?)```", page, re.DOTALL)[1]
+    assert textwrap.indent(call, " " * 4) in program

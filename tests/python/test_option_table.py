@@ -26,7 +26,8 @@ MAPS = {  # function, struct
     "lift": (koebe.lift, _koebe.LiftOptions),
 }
 COMMANDS = sorted({*MAPS, "ricci"} - {"certified"})
-KINDS = {"number", "integer", "flag", "choice", "vertex", "loop", "steps", "weights", "page", "text", "array"}
+OTHERS = {"fill", "compare", "transfer", "fit"}  # commands that make no map
+KINDS = {"number", "integer", "flag", "choice", "vertex", "loop", "steps", "weights", "page", "text", "file", "array"}
 OF_READING = {"weld", "cut_at"}  # obeyed where a surface is read: no struct of a map has it
 
 
@@ -38,7 +39,7 @@ def rows_in(front, of):
 def test_every_row_is_of_the_form():
     for row in TABLE:
         assert row["kind"] in KINDS and row["does"] and not row["does"].endswith("."), row["name"]
-        assert set(row["maps"].split()) <= {*MAPS, "ricci", "shapes", "module", "planar"}, row["name"]
+        assert set(row["maps"].split()) <= {*MAPS, "ricci", "shapes", "module", "planar", *OTHERS}, row["name"]
         assert set(row.get("in", "command").split()) <= {"command", "python", "blender", "batch", "arrays"}, row["name"]
         assert ("choices" in row) == (row["kind"] in ("choice", "loop")), row["name"]
         assert row["kind"] != "choice" or row["default"] in [word for word, _, _ in row["choices"]], row["name"]
@@ -169,9 +170,7 @@ def test_defaults_may_be_left_to_the_table():
     given = {"cut": True, "loops": "free", "darts": 0.5, "round_cuts": False, "most_lost": 0.5, "pixels": 64,
              "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False,
              "hard_angle": 45.0, "cut_hard": True, "no_hard": True}  # fmt: skip
-    _, said = _options.filled(
-        "parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | given
-    )
+    _, said = _options.filled("parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | given)
     assert said == {
         "even": None, "loops": "free", "darts": 0.5, "price": 0.03, "cut": True, "round_cuts": False,
         "most_lost": 0.5, "density": None, "pixels": 64,

@@ -39,14 +39,14 @@ nlohmann::ordered_json to_json(const FlattenResult& result)
                           {"rows", sheet.rows},
                           {"labels", std::move(labels)}});
     }
-    return report_json_of_run(result, {{"pieces", std::move(pieces)},
-                                       {"seams", std::move(seams)},
-                                       {"stretch_percent", stretch_json(result.stretch)},
-                                       {"cut_length_mm", result.cut_length},
-                                       {"darts", result.darts},
-                                       {"pages", result.pattern.pages()},
-                                       {"page_mm", {result.pattern.page.width, result.pattern.page.height}},
-                                       {"sheets", std::move(sheets)}});
+    return report_json(result, {{"pieces", std::move(pieces)},
+                                {"seams", std::move(seams)},
+                                {"stretch_percent", stretch_json(result.stretch)},
+                                {"cut_length_mm", result.cut_length},
+                                {"darts", result.darts},
+                                {"pages", result.pattern.pages()},
+                                {"page_mm", {result.pattern.page.width, result.pattern.page.height}},
+                                {"sheets", std::move(sheets)}});
 }
 
 }  // namespace koebe

@@ -109,13 +109,6 @@ Json report_json(const MapReport& map, const Json& own)
     return report;
 }
 
-Json report_json_of_run(const MapReport& map, const Json& own)
-{
-    Json report = report_json(map, own);
-    report["seconds"] = map.seconds.total;
-    return report;
-}
-
 Json report_json(const SweptMapReport& map, const Json& own)
 {
     Json all{{"converged", map.converged}, {"sweeps", map.sweeps}, {"changes", map.changes}};

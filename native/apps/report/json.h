@@ -23,8 +23,6 @@ KOEBE_API nlohmann::ordered_json to_json(const UniformizeResult& result);
 /// The report of every map, around its own entries: version, input, vertices, faces; own entries; converged, unless
 /// these have it; the distortion, seconds, peak_memory_mb, warnings.
 nlohmann::ordered_json report_json(const MapReport& map, const nlohmann::ordered_json& own);
-/// The same, with the seconds of the whole run in place of those of its stages.
-nlohmann::ordered_json report_json_of_run(const MapReport& map, const nlohmann::ordered_json& own);
 /// The own entries begin with converged, sweeps and changes.
 nlohmann::ordered_json report_json(const SweptMapReport& map, const nlohmann::ordered_json& own);
 

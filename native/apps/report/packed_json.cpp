@@ -10,12 +10,12 @@ nlohmann::ordered_json to_json(const PackedLayer& result)
     Json islands = Json::array();
     for (const LayerIsland& island : result.islands)
         islands.push_back({{"faces", island.faces}, {"overlaps", island.overlaps}, {"locked", island.locked}});
-    return report_json_of_run(result, {{"islands", std::move(islands)},
-                                       {"overlaps", result.overlaps},
-                                       {"tiles", result.tiles},
-                                       {"margin", result.margin},
-                                       {"scale", result.scale},
-                                       {"coverage", result.coverage}});
+    return report_json(result, {{"islands", std::move(islands)},
+                                {"overlaps", result.overlaps},
+                                {"tiles", result.tiles},
+                                {"margin", result.margin},
+                                {"scale", result.scale},
+                                {"coverage", result.coverage}});
 }
 
 }  // namespace koebe

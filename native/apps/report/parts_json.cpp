@@ -17,24 +17,24 @@ nlohmann::ordered_json to_json(const PartsResult& result)
     Json stacked = Json::array();
     for (const StackedPart& one : result.stacked)
         stacked.push_back({{"part", one.part}, {"onto", one.onto}, {"mirrored", one.mirrored}});
-    return report_json_of_run(result, {{"parts", std::move(parts)},
-                                       {"stacked", std::move(stacked)},
-                                       {"tiles", result.tiles},
-                                       {"converged", result.converged},
-                                       {"cut_length", result.cut_length},
-                                       {"slit_length", result.slit_length},
-                                       {"darts", result.darts},
-                                       {"dart_length", result.dart_length},
-                                       {"handles_cut", result.handles_cut},
-                                       {"density_ratio_5_95", result.density_ratio_5_95},
-                                       {"density", result.density},
-                                       {"even_area", result.even_area},
-                                       {"margin", result.margin},
-                                       {"coverage", result.coverage},
-                                       {"regions", result.regions},
-                                       {"whole", result.whole},
-                                       {"aligned", result.aligned},
-                                       {"maps", result.maps}});
+    return report_json(result, {{"parts", std::move(parts)},
+                                {"stacked", std::move(stacked)},
+                                {"tiles", result.tiles},
+                                {"converged", result.converged},
+                                {"cut_length", result.cut_length},
+                                {"slit_length", result.slit_length},
+                                {"darts", result.darts},
+                                {"dart_length", result.dart_length},
+                                {"handles_cut", result.handles_cut},
+                                {"density_ratio_5_95", result.density_ratio_5_95},
+                                {"density", result.density},
+                                {"even_area", result.even_area},
+                                {"margin", result.margin},
+                                {"coverage", result.coverage},
+                                {"regions", result.regions},
+                                {"whole", result.whole},
+                                {"aligned", result.aligned},
+                                {"maps", result.maps}});
 }
 
 }  // namespace koebe

@@ -7,6 +7,6 @@ void koebe::cli::end_with_input() {}  // no process starts this one
 int main(int argc, char** argv)
 {
     using namespace koebe::cli;
-    constexpr AddSubcommand added[]{add_uniformize, add_parts, add_fit};
-    return command_of(added, argc, argv);
+    constexpr NamedSubcommand known[]{{"uniformize", add_uniformize}, {"parts", add_parts}, {"fit", add_fit}};
+    return command_of(known, argc, argv);
 }

@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "cost/tolerances.h"
 #include "cost/tuning.h"
+#include "execution/profile.h"
 #include "part_maps/even_pole.h"
 #include "pipeline/uniformize.h"
 #include "surface/intrinsic_metric.h"
@@ -191,6 +192,7 @@ const char* to_string(PartKind kind) noexcept { return word_of(kind, std::array{
 
 PartMap map_part(const PartMesh& part, MapPurpose purpose, ExecutionContext& context)
 {
+    const ProfiledStage profiled("map");
     PartMap map;
     bool done = false;
     if (part.surface.loops.size() == 2) try {

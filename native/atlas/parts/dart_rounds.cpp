@@ -3,6 +3,7 @@
 #include "core/connectivity.h"
 #include "cost/tuning.h"
 #include "even/even_forces.h"
+#include "execution/profile.h"
 #include "execution/side_by_side.h"
 #include "parts/darts.h"
 #include "parts/tension.h"
@@ -349,6 +350,7 @@ bool survives_storing(const FlatPart& flat)
 
 void cut_darts(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context)
 {
+    const ProfiledStage profiled("darts");
     DartRounds rounds(parts, even, price, threads, context);
     for (int i = 0; i < most_dart_rounds; ++i)
         if (!rounds.round()) return;

@@ -3,6 +3,7 @@
 #include "circles/circle_fit.h"
 #include "cost/costs.h"
 #include "even/even_map.h"
+#include "execution/profile.h"
 #include "execution/side_by_side.h"
 #include "parts/carried_parts.h"
 #include "parts/dart_rounds.h"
@@ -105,6 +106,7 @@ public:
 
     void relax(double even, const std::function<EvenEffort(const FlatPart&)>& effort_of)
     {
+        const ProfiledStage profiled("relax");
         std::vector<char> moved(parts_.size(), 0);
         side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
             auto& [flat, round] = parts_[k];

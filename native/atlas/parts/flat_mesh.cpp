@@ -7,6 +7,7 @@
 #include "cost/costs.h"
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
+#include "execution/stopwatch.h"
 #include "parts/divided_faces.h"
 #include "parts/hard_surface.h"
 #include "parts/mesh_parts.h"
@@ -168,6 +169,7 @@ std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& 
                                      const PartsOptions& given, std::vector<std::array<Index, 2>>& kept,
                                      ExecutionContext& context)
 {
+    Stopwatch stage;
     context.begin_stage("topology", 0.0, 0.05);
     const Triangles& triangles = faces.triangles;
     PartsOptions options = given;
@@ -208,7 +210,9 @@ std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& 
     std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, options);
     if (!hard.empty() && !options.importance.empty())
         pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
+    mesh.seconds.topology = stage.lap();
     MeshParts parts = mesh_parts(std::move(pieces), options, context);
+    mesh.seconds.iterate = stage.lap();
     layout.even = parts.even;
     layout.not_even = std::move(parts.not_even);
     layout.maps = parts.maps;

@@ -2,6 +2,7 @@
 
 #include "core/numbering.h"
 #include "cost/costs.h"
+#include "execution/profile.h"
 #include "parts/hard_room.h"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ UnfoldOptions unfolding_of(const PartsOptions& options)
 HardSurfaces opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
                                        OpenedSurface connected, const PartsOptions& options, ExecutionContext& context)
 {
+    const ProfiledStage profiled("flat regions");
     HardSurfaces found;
     auto& [parts, opened, noise] = found;
     std::vector<Index> rest;

@@ -4,6 +4,7 @@
 #include "cut/open_surface.h"
 #include "parts/flat_part.h"
 #include "parts/parts.h"
+#include "quality/report.h"
 
 #include <vector>
 
@@ -38,7 +39,8 @@ struct FlatMesh {
     std::vector<Index> polygon;  ///< (F') of the faces in the parts
     /// The faces in the parts are pieces of the input's (divided_faces.h); empty: they are the input's.
     std::vector<Index> face;
-    Triangles undivided;  ///< (F, 3) the input's faces; empty as well
+    Triangles undivided;   ///< (F, 3) the input's faces; empty as well
+    StageSeconds seconds;  ///< topology and iterate
 };
 
 /// Sums the parts' slits and darts for the layout.

@@ -5,7 +5,6 @@
 #include "cost/tolerances.h"
 #include "cut/disjoint_sets.h"
 #include "execution/memory_limit.h"
-#include "execution/peak_memory.h"
 #include "execution/run_on_copies.h"
 #include "execution/stopwatch.h"
 #include "opened/disk_packing.h"
@@ -13,6 +12,7 @@
 #include "parts/tile_packing.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
+#include "quality/map_clock.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
 
@@ -325,7 +325,7 @@ void report_layer_distortion(const Vertices& vertices, Triangles triangles, cons
 PackedLayer packed(const Vertices& given, const Triangles& triangles, const PackedLayerOptions& options,
                    ExecutionContext& context)
 {
-    const Stopwatch run;
+    MapClock clock;
     check_layer(triangles, options);
     require_memory_for_faces(triangles.rows());
     const double margin = margin_in_square(options.margin, options.pixels);
@@ -355,6 +355,7 @@ PackedLayer packed(const Vertices& given, const Triangles& triangles, const Pack
         if (any_locked) as_it_is = locked_density(islands, areas, layer.unit);
         scale_to_areas(islands, areas);
     }
+    clock.end(&StageSeconds::topology);
     // Their places.
     context.begin_stage("pack", 0.2, 1.0);
     const MovedOutlines moved = outlines_in_unit(islands);
@@ -374,6 +375,7 @@ PackedLayer packed(const Vertices& given, const Triangles& triangles, const Pack
     } else {
         packing = pack_on_tiles(moved.outlines, margin, options.tiles, time);
     }
+    clock.end(&StageSeconds::iterate);
     result.uv = options.uv;  // of islands that keep their place
     double area = 0.0;
     for (std::size_t i = 0; i < moved.island.size(); ++i) {
@@ -414,8 +416,7 @@ PackedLayer packed(const Vertices& given, const Triangles& triangles, const Pack
                                        " that overlap or touch themselves, as before",
                                    overlapping});
     }
-    result.peak_memory_mb = peak_memory_mb();
-    result.seconds.total = run.elapsed();
+    clock.finish(result, context);
     return result;
 }
 

@@ -7,9 +7,7 @@
 #include "cost/costs.h"
 #include "even/even_map.h"
 #include "execution/memory_limit.h"
-#include "execution/peak_memory.h"
 #include "execution/side_by_side.h"
-#include "execution/stopwatch.h"
 #include "foldover/convex_polygons.h"
 #include "linear/dense_spd.h"
 #include "opened/disk_packing.h"
@@ -22,6 +20,7 @@
 #include "parts/tile_packing.h"
 #include "parts/upright_parts.h"
 #include "planar/planar_predicates.h"
+#include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
@@ -264,7 +263,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
                     const std::function<double()>& length_of_unit, const Eigen::RowVector3d& up,
                     ExecutionContext& context)
 {
-    const Stopwatch run;
+    MapClock clock;
     require_options(options);
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
@@ -273,6 +272,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
     if (options.show.empty() && options.importance.empty() && options.slits.empty()) cut_alike(mesh);
     mend_rims(mesh.polygon, mesh.parts, options.threads, context);
+    clock.take(mesh.seconds);
 
     // Pack them.
     const double unit = length_of_unit();
@@ -302,8 +302,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     warn_concave_polygons(polygons, layout.uv.unaryExpr(&as_stored), result.warnings);
     take_verdict({.most_lost = options.most_lost, .advice = lower_price}, result);
     result.part = std::move(layout.part);
-    result.peak_memory_mb = peak_memory_mb();
-    result.seconds.total = run.elapsed();
+    clock.finish(result, context);
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/numbering.h"
+#include "execution/profile.h"
 #include "splitting/mirrored_coarse.h"
 #include "surface/mirror.h"
 #include "surface/mirror_plane.h"
@@ -39,6 +40,7 @@ std::vector<char> coarse_seams(const CutSurface& fine, const CoarseSurface& coar
 
 Proxy proxy_of(const PieceInput& input, PieceSurface fine, Index faces, ExecutionContext& context)
 {
+    const ProfiledStage profiled("proxy");
     Proxy proxy{std::move(fine), {}, {}, false, {}};
     const CutSurface& whole = proxy.fine.whole;
     const std::vector<Index> image = find_mirror(whole.vertices, whole.surface.triangles, whole.polygon).vertex;

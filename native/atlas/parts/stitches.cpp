@@ -5,6 +5,7 @@
 #include "core/numbering.h"
 #include "cut/disjoint_sets.h"
 #include "even/even_map.h"
+#include "execution/profile.h"
 #include "parts/carried_parts.h"
 #include "parts/part_borders.h"
 #include "parts/part_look.h"
@@ -193,6 +194,7 @@ std::optional<std::vector<FlatPart>> stitched(std::vector<FlatPart> parts, const
 
 bool stitch_parts(std::vector<HeldPart>& held, double even, const ThroughPrice& price, ExecutionContext& context)
 {
+    const ProfiledStage profiled("stitches");
     std::vector<FlatPart> parts;
     for (HeldPart& part : held) parts.push_back(std::move(part.flat));
     LayoutState now(parts, even);

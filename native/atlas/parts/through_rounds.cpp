@@ -4,6 +4,7 @@
 #include "core/numbering.h"
 #include "cost/costs.h"
 #include "even/even_forces.h"
+#include "execution/profile.h"
 #include "execution/side_by_side.h"
 #include "parts/darts.h"
 #include "parts/roomy_cuts.h"
@@ -313,6 +314,7 @@ bool cut_groups(std::vector<HeldPart>& parts, int threads, ExecutionContext& con
 bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughPrice& price, int threads,
                        ExecutionContext& context)
 {
+    const ProfiledStage profiled("through cuts");
     return cut_groups(parts, threads, context, [&](std::vector<HeldPart> group, ExecutionContext& own) {
         return MirrorGroup(std::move(group), price).cut(even, own);
     });
@@ -320,6 +322,7 @@ bool cut_parts_through(std::vector<HeldPart>& parts, double even, const ThroughP
 
 bool cut_parts_for_room(std::vector<HeldPart>& parts, const ThroughPrice& price, int threads, ExecutionContext& context)
 {
+    const ProfiledStage profiled("cuts for room");
     std::vector<const FlatPart*> flats;
     for (const HeldPart& part : parts) flats.push_back(&part.flat);
     const double square = square_for_all(flats);

@@ -3,6 +3,7 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "cost/costs.h"
+#include "execution/profile.h"
 #include "execution/side_by_side.h"
 #include "mesh/nearest_first.h"
 #include "splitting/concavity.h"
@@ -212,6 +213,7 @@ Borders next_borders(Borders& borders)
 void hide_cuts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                ExecutionContext& context, SplitEffort& effort)
 {
+    const ProfiledStage profiled("hidden cuts");
     if (parts.size() < 2) return;
     const VectorXd curvature = mean_curvature(whole, tuning::hollow_scale);
     for (Borders borders = longest_borders(whole, parts); !borders.empty();) {

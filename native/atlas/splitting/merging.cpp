@@ -1,5 +1,6 @@
 #include "core/connectivity.h"
 #include "cost/tuning.h"
+#include "execution/profile.h"
 #include "execution/side_by_side.h"
 #include "splitting/piece_forecast.h"
 #include "splitting/splitting.h"
@@ -114,6 +115,7 @@ PartPointer merged(const CutSurface& whole, const SplitOptions& options, const P
 bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                  RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort)
 {
+    const ProfiledStage profiled("merge");
     struct Candidate {
         PartPointer a, b;
         double border;

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "cost/costs.h"
+#include "execution/profile.h"
 #include "mesh/connected_pieces.h"
 
 #include <Eigen/Eigenvalues>
@@ -96,6 +97,7 @@ std::vector<std::vector<Index>> faces_of_sides(const CutSurface& whole, const Mi
 bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,
                     std::vector<PartPointer>& parts, ExecutionContext& context, SplitEffort& effort)
 {
+    const ProfiledStage profiled("symmetry");
     if (mirror.image.empty()) return false;
     if (parts.size() < 2) return true;
     // Parts that stay need no new map.

@@ -3,6 +3,7 @@
 #include "circles/moebius.h"
 #include "core/connectivity.h"
 #include "cost/tuning.h"
+#include "execution/profile.h"
 #include "execution/side_by_side.h"
 #include "part_maps/log_polar.h"
 
@@ -168,6 +169,7 @@ std::vector<Proposal> tubes_about(const PartMesh& part, const PartMap& map, cons
 
 std::vector<Proposal> proposals(const PartMesh& part, const PartMap& map, int threads, ExecutionContext& context)
 {
+    const ProfiledStage profiled("proposals");
     std::vector<Proposal> all;
     const std::vector<Window> windows = best_windows(part, map);
     for (const Window& window : windows) all.push_back(propose(map, window));

@@ -1,6 +1,7 @@
 #include "splitting/straight_borders.h"
 
 #include "core/connectivity.h"
+#include "execution/profile.h"
 #include "splitting/straight_paths.h"
 
 #include <algorithm>
@@ -107,6 +108,7 @@ private:
 void straighten_borders(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                         ExecutionContext& context, SplitEffort& effort)
 {
+    const ProfiledStage profiled("straight borders");
     if (parts.size() > 1) BorderStraightener(whole, options, parts).straighten(context, effort);
 }
 

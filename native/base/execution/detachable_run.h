@@ -53,7 +53,8 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
         CancelToken token;
     };
     auto shared = std::make_shared<Shared>();
-    std::thread thread([shared, compute = std::move(compute)]() mutable {
+    std::thread thread([shared, compute = std::move(compute), stage = detail::stage_here()]() mutable {
+        const ProfiledThread profiled(stage);
         ExecutionContext inner(
             [&shared](double fraction, const std::string& stage) {
                 const std::scoped_lock lock(shared->mutex);
@@ -76,6 +77,7 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
         shared->done = true;
         shared->changed.notify_one();
     });
+    const ProfiledStage waiting("wait");
     try {
         std::unique_lock lock(shared->mutex);
         while (!shared->done || !shared->reports.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/errors.h"
+#include "execution/profile.h"
 
 #include <algorithm>
 #include <atomic>
@@ -56,10 +57,17 @@ public:
     }
 
     /// Passes on another context's report on the whole.
-    void report(double overall, const std::string& stage) { begin_stage(stage, overall, overall); }
+    void report(double overall, const std::string& stage) { show_stage(stage, overall, overall); }
 
     /// Opens a stage that covers [begin, end] of the whole.
     void begin_stage(std::string stage, double begin, double end)
+    {
+        profiled_.begin(stage);
+        show_stage(std::move(stage), begin, end);
+    }
+
+private:
+    void show_stage(std::string stage, double begin, double end)
     {
         stage_ = std::move(stage);
         begin_ = begin;
@@ -67,11 +75,11 @@ public:
         advance(0.0);
     }
 
-private:
     ProgressCallback progress_;
     CancelToken token_;
     PollCallback poll_;
     std::string stage_;
+    ProfiledStage profiled_;
     double begin_ = 0.0;
     double end_ = 1.0;
     double reported_ = 0.0;

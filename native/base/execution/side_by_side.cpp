@@ -59,9 +59,11 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
     };
     const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
     const std::size_t most = threads > 0 ? static_cast<std::size_t>(threads) : cores;
+    detail::StageNode* const stage = detail::stage_here();
     std::vector<std::thread> others;
     for (std::size_t k = 1; k < std::min(most, count); ++k) try {
             others.emplace_back([&] {
+                const ProfiledThread profiled(stage);
                 ExecutionContext own({}, {}, [&left, &context] {
                     if (left) throw Cancelled();
                     context.checkpoint();
@@ -94,7 +96,10 @@ void side_by_side(std::size_t count, int threads, ExecutionContext& context,
         cancelled = std::current_exception();
         left = true;
     }
-    for (std::thread& other : others) other.join();
+    {
+        const ProfiledStage waiting("wait");
+        for (std::thread& other : others) other.join();
+    }
     if (cancelled) std::rethrow_exception(cancelled);
     if (shared.error) std::rethrow_exception(shared.error);
     context.advance(1.0);  // another thread may have done the last piece

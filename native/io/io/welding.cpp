@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -106,22 +108,31 @@ private:
 };
 
 /// Both ends of each edge that one triangle has, each edge once.
-std::vector<std::array<Index, 2>> rim_edges(const Triangles& triangles)
+std::vector<std::array<Index, 2>> rim_edges(const Triangles& triangles, Eigen::Index vertex_count)
 {
+    const auto each_edge = [&](const auto& work) {
+        for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+            for (int k = 0; k < 3; ++k) {
+                const Index a = triangles(t, k), b = triangles(t, (k + 1) % 3);
+                if (a != b) work(std::min(a, b), std::max(a, b));
+            }
+    };
+    // The larger ends, by the smaller one.
+    std::vector<std::size_t> begin(static_cast<std::size_t>(vertex_count) + 1, 0);
+    each_edge([&](Index a, Index) { ++begin[static_cast<std::size_t>(a) + 1]; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<Index> ends(begin.back());
+    std::vector<std::size_t> place = begin;
+    each_edge([&](Index a, Index b) { ends[place[a]++] = b; });
     std::vector<std::array<Index, 2>> edges;
-    edges.reserve(static_cast<std::size_t>(triangles.size()));
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        for (int k = 0; k < 3; ++k) {
-            const Index a = triangles(t, k), b = triangles(t, (k + 1) % 3);
-            if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
+    for (Index a = 0; a < static_cast<Index>(vertex_count); ++a) {
+        const std::span own = std::span(ends).subspan(begin[a], place[a] - begin[a]);
+        std::ranges::sort(own);
+        for (std::size_t i = 0, next = 0; i < own.size(); i = next) {
+            for (next = i + 1; next < own.size() && own[next] == own[i];) ++next;
+            if (next == i + 1) edges.push_back({a, own[i]});
         }
-    std::ranges::sort(edges);
-    std::size_t kept = 0;
-    for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
-        for (next = i + 1; next < edges.size() && edges[next] == edges[i];) ++next;
-        if (next == i + 1) edges[kept++] = edges[i];
     }
-    edges.resize(kept);
     return edges;
 }
 
@@ -158,7 +169,7 @@ std::vector<Index> weld(const Vertices& vertices, double distance)
 std::optional<Warning> coincident_vertices(const Vertices& vertices, const Triangles& triangles)
 {
     // The vertices of rims, with the shortest edge of the rims at each.
-    const std::vector<std::array<Index, 2>> edges = rim_edges(triangles);
+    const std::vector<std::array<Index, 2>> edges = rim_edges(triangles, vertices.rows());
     std::vector<double> shortest(static_cast<std::size_t>(vertices.rows()), std::numeric_limits<double>::infinity());
     std::vector<Index> rim;
     for (const auto& [a, b] : edges) {
@@ -177,11 +188,7 @@ std::optional<Warning> coincident_vertices(const Vertices& vertices, const Trian
     constexpr double close = 0.01;  // of an edge
     const Vertices points = vertices(rim, Eigen::all);
     const std::vector<Index> first = weld(points, close * lengths[lengths.size() / 2]);
-    DisjointSets sets(static_cast<std::size_t>(vertices.rows()));
-    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-        for (const int k : {1, 2}) sets.join(triangles(t, 0), triangles(t, k));
-    const std::size_t before = component_count(sets, triangles);
-    std::vector<Index> found;
+    std::vector<Index> found;  // in pairs
     double farthest = 0.0;
     for (std::size_t i = 0; i < rim.size(); ++i) {
         const Index v = rim[i], other = rim[static_cast<std::size_t>(first[i])];
@@ -189,12 +196,17 @@ std::optional<Warning> coincident_vertices(const Vertices& vertices, const Trian
         if (v == other || apart > close * std::min(shortest[v], shortest[other])) continue;
         farthest = std::max(farthest, apart);
         found.insert(found.end(), {v, other});
-        sets.join(v, other);
     }
     if (found.empty()) return {};
-    sort_unique(found);
 
+    // The components as they are, and with the pairs joined.
+    DisjointSets sets(static_cast<std::size_t>(vertices.rows()));
+    for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+        for (const int k : {1, 2}) sets.join(triangles(t, 0), triangles(t, k));
+    const std::size_t before = component_count(sets, triangles);
+    for (std::size_t i = 0; i < found.size(); i += 2) sets.join(found[i], found[i + 1]);
     const std::size_t after = component_count(sets, triangles);
+    sort_unique(found);
     const std::string distance = farthest == 0.0 ? "0" : shown_distance(farthest);
     std::string sentence = counted(found.size(), "vertex") + " of rims lie " +
                            (farthest == 0.0 ? "at the place" : "within " + distance) +

@@ -4,7 +4,6 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "execution/memory_limit.h"
-#include "execution/peak_memory.h"
 #include "execution/side_by_side.h"
 #include "flatten/allowance.h"
 #include "flatten/less_stretch.h"
@@ -16,6 +15,7 @@
 #include "parts/flat_mesh.h"
 #include "parts/flat_repair.h"
 #include "planar/planar_predicates.h"
+#include "quality/map_clock.h"
 #include "quality/shared_warnings.h"
 
 #include <algorithm>
@@ -195,6 +195,7 @@ FlatMesh cut_and_flat(const Vertices& vertices, const Triangles& triangles, cons
 FlattenResult compute(const Vertices& vertices, const Triangles& triangles, const FlattenOptions& options,
                       const Page& page, const std::function<double()>& length_of_unit, ExecutionContext& context)
 {
+    MapClock clock;
     require_memory_for_faces(triangles.rows());
     fix_product_blocks();
     // Cut, lay flat, and leave out pieces that nobody can cut out.
@@ -203,6 +204,7 @@ FlattenResult compute(const Vertices& vertices, const Triangles& triangles, cons
     std::vector<FlatPart>& parts = mesh.parts;
     std::vector<Index> tiny = leave_out_tiny_pieces(parts, unit);
     std::erase_if(tiny, [&](Index f) { return f >= static_cast<Index>(triangles.rows()); });
+    clock.take(mesh.seconds);
     // Allowances around the pieces, places on the pages, and seams that both sides show.
     context.begin_stage("pack", 0.9, 1.0);
     side_by_side(parts.size(), options.threads, context,
@@ -244,7 +246,7 @@ FlattenResult compute(const Vertices& vertices, const Triangles& triangles, cons
     result.warnings = warnings_of(layout, left_out, tiny);
     result.part = std::move(layout.part);
     result.pattern = std::move(placed.pattern);
-    result.peak_memory_mb = peak_memory_mb();
+    clock.finish(result, context);
     return result;
 }
 

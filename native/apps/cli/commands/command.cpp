@@ -1,12 +1,16 @@
 #include "cli/commands/command.h"
 
 #include "cli/commands/subcommand.h"
+#include "cli/files/output_files.h"
+#include "cli/options/option_table.h"
 #include "cli/options/wrong_usage.h"
 #include "cli/process/error_line.h"
 #include "cli/process/scarce_memory.h"
 #include "cli/process/standard_streams.h"
 #include "core/numbering.h"
+#include "execution/profile.h"
 #include "exit_code.h"
+#include "io/atomic_file.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +20,7 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -101,7 +106,38 @@ int end_of_parsing(const CLI::App& app, const CLI::ParseError& error)
     return fail(error_line("WrongUsage", words.empty() ? error.what() : words) + " (see koebe --help)", wrong_usage);
 }
 
-int run_command(std::span<const AddSubcommand> added, int argc, char** argv)
+/// @throws CLI::ValidationError the profile is standard output, or another file of the command
+void require_own_file(const CLI::App& command, const std::string& profile)
+{
+    const OutputFile own{"--profile", profile};
+    require_different_files({own}, {}, true);
+    for (const CLI::Option* const option : command.get_options())
+        if (option->get_name() != own.name && (option->get_positional() || option->get_type_name() == "FILE"))
+            for (const std::string& path : option->results())
+                require_different_files({{option->get_name(), path}, own}, {}, false);
+}
+
+/// Runs the command, and writes where its time went, unless it throws. @return an ExitCode
+int run_profiled(const Subcommand& command, const std::string& profile)
+{
+    require_writable_files({{"--profile", profile}}, false);
+    take_profile("koebe " + command.options->get_name());
+    const int code = command.run();
+    AtomicFile file(profile);
+    file.write(folded_profile());
+    file.commit();
+    return code;
+}
+
+/// The sub-commands that are parsed: all cost 2 ms, so only what the first word names, if it names one.
+std::vector<NamedSubcommand> needed(std::span<const NamedSubcommand> known, std::string_view word)
+{
+    if (word == "--version") return {};
+    const auto named = std::ranges::find(known, word, &NamedSubcommand::name);
+    return named == known.end() ? std::vector(known.begin(), known.end()) : std::vector{*named};
+}
+
+int run_command(std::span<const NamedSubcommand> known, int argc, char** argv)
 {
     CLI::App app("Conformal maps of surfaces with holes onto circle domains.", "koebe");
     app.set_version_flag("--version", KOEBE_VERSION);
@@ -111,34 +147,40 @@ int run_command(std::span<const AddSubcommand> added, int argc, char** argv)
                "A file is written as .koebe-PROCESS-NUMBER.tmp in its folder and then renamed: it is whole or absent.\n"
                "Where it is a symbolic link, the link stays and its target is replaced.");
     std::vector<Subcommand> commands;
-    for (const AddSubcommand add : added) commands.push_back(add(app));
+    std::string profile;
+    for (const NamedSubcommand& one : needed(known, argc > 1 ? argv[1] : "")) {
+        CLI::App& options = *commands.emplace_back(one.add(app)).options;
+        if (const OptionRow* const row = find_row(options.get_name(), "profile")) add_value(options, *row, profile);
+    }
+    const auto is_parsed = [](const Subcommand& command) { return command.options->parsed(); };
     try {
         app.parse(argc, argv);
+        const Subcommand& command = *std::ranges::find_if(commands, is_parsed);
+        if (profile.empty()) return command.run();
+        require_own_file(*command.options, profile);
+        return run_profiled(command, profile);
     } catch (const CLI::ParseError& error) {
         return end_of_parsing(app, error);
     }
-    for (const Subcommand& command : commands)
-        if (command.options->parsed()) return command.run();
-    return wrong_usage;
 }
 
 }  // namespace
 
 int koebe::cli::command(int argc, char** argv)
 {
-#define KOEBE_ADD(name) add_##name,
-    constexpr AddSubcommand all[]{KOEBE_SUBCOMMANDS(KOEBE_ADD)};
+#define KOEBE_ADD(name) {#name, add_##name},
+    constexpr NamedSubcommand all[]{KOEBE_SUBCOMMANDS(KOEBE_ADD)};
 #undef KOEBE_ADD
     return command_of(all, argc, argv);
 }
 
-int koebe::cli::command_of(std::span<const AddSubcommand> added, int argc, char** argv)
+int koebe::cli::command_of(std::span<const NamedSubcommand> known, int argc, char** argv)
 {
     keep_standard_streams();
     try {
         return run_guarded([&] {
             prepare_for_scarce_memory();
-            return run_command(added, argc, argv);
+            return run_command(known, argc, argv);
         });
     } catch (...) {  // there was no memory even for the error's line
         end_for_memory();

@@ -24,6 +24,7 @@ void write_map(const MapRequest& request, const MapKind<Result>& kind, const Mes
                const Stopwatch& run, ExecutionContext& context)
 {
     const Stopwatch writing;
+    context.begin_stage("write", 1.0, 1.0);
     const ThreadShare threads(request.options.threads);
     std::vector<AtomicFile> files;
     add_losses("", kind.write_mesh(files.emplace_back(request.output), input, result), result.warnings);

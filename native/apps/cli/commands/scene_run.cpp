@@ -49,10 +49,7 @@ Json scene_report(const SceneInput& scene, const std::vector<MappedMesh>& mapped
 {
     if (mapped.size() == 1) {
         Json report = mapped.front().report;
-        if (Json& seconds = report["seconds"]; seconds.is_object())
-            seconds.update({{"read", scene.seconds}, {"write", written}, {"total", total}});
-        else
-            seconds = total;
+        report["seconds"].update({{"read", scene.seconds}, {"write", written}, {"total", total}});
         return report;
     }
     Json meshes = Json::array();
@@ -139,6 +136,7 @@ int finish_scene(const MapRequest& request, const SceneInput& scene, std::vector
                  const Stopwatch& run, const CancelToken& token)
 {
     const Stopwatch writing;
+    const ProfiledStage stage("write");
     std::vector<std::vector<GltfPoint>> uvs;
     for (MappedMesh& mesh : mapped) uvs.push_back(std::move(mesh.uvs));
     std::vector<Warning> warnings = scene_warnings(scene, mapped);

@@ -51,7 +51,12 @@ KOEBE_SUBCOMMANDS(KOEBE_DECLARE)
 
 using AddSubcommand = Subcommand (*)(CLI::App& app);
 
+struct NamedSubcommand {
+    const char* name;
+    AddSubcommand add;
+};
+
 /// Parses, runs one of the sub-commands, and turns errors into one line and an exit code, as command().
-int command_of(std::span<const AddSubcommand> added, int argc, char** argv);
+int command_of(std::span<const NamedSubcommand> known, int argc, char** argv);
 
 }  // namespace koebe::cli

@@ -33,6 +33,7 @@ PlanarPoints uvs_of(const MeshFile& file, const PolygonMesh& polygons, int set)
 MeshInput read_and_triangulate(const std::filesystem::path& path, ReadOptions options)
 {
     const Stopwatch reading;
+    const ProfiledStage stage("read");
     const ThreadShare threads(options.threads);
     MeshInput input;
     input.file = read_hashed(path, options, input.sha256);

@@ -10,6 +10,7 @@ namespace {
 SceneInput read_scene(const std::filesystem::path& path, const ReadOptions& options)
 {
     const Stopwatch reading;
+    const ProfiledStage stage("read");
     const ThreadShare threads(options.threads);
     SceneInput scene;
     scene.file = read_hashed(path, options, scene.sha256);

@@ -112,6 +112,7 @@ CLI::Option* add_value(CLI::App& app, const OptionRow& row, bool& value)
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::string& value)
 {
     CLI::Option* const option = app.add_option(row.flag(), value, std::string(row.does));
+    if (row.kind == "file") return finished(option, row);
     const auto check = [](const std::string& name) { return page_named(name) ? std::string() : page_help(name); };
     return finished(option->check(CLI::Validator(check, "", "page"))->capture_default_str(), row);
 }

@@ -39,7 +39,7 @@ CLI::Option* add_value(CLI::App& app, const OptionRow& row, double& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::optional<double>& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, int& value);
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, bool& value);
-/// Adds the name of a page (flatten/page.h).
+/// Adds the name of a page (core/page.h), or of a file.
 CLI::Option* add_value(CLI::App& app, const OptionRow& row, std::string& value);
 /// Adds a choice among words; set() gets the number of the chosen word.
 CLI::Option* add_choice(CLI::App& app, const OptionRow& row, int chosen, const std::function<void(int)>& set);

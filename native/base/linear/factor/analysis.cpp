@@ -4,6 +4,7 @@
 #include "core/sort_unique.h"
 #include "core/types.h"
 #include "execution/memory_limit.h"
+#include "execution/profile.h"
 #include "execution/thread_share.h"
 #include "linear/cholmod_support.h"
 #include "linear/factor/dissection.h"
@@ -324,6 +325,7 @@ double Analysis::memory() const
 
 Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last, bool by_fill)
 {
+    const ProfiledStage profiled("order");
     Analysis result;
     Supernodes& l = result.supernodes;
     l = last.empty() ? supernodes_by_groups(matrix) : supernodes_with_last(matrix, last, by_fill);
@@ -335,6 +337,7 @@ Analysis analyze(const SparseMatrix& matrix, const std::vector<Index>& last, boo
 
 std::optional<Analysis> analyze_in_pieces(const SparseMatrix& matrix, const std::vector<Index>& last, Index piece_rows)
 {
+    const ProfiledStage profiled("order");
     const Dissection dissection = dissect(matrix, last, piece_rows);
     if (dissection.nodes.size() < 2) return std::nullopt;
     return AnalysisInPieces(matrix, last).run(dissection);

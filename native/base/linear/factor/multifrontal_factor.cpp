@@ -2,6 +2,7 @@
 
 #include "core/errors.h"
 #include "execution/memory_limit.h"
+#include "execution/profile.h"
 #include "linear/dense_blas.h"
 
 #include <algorithm>
@@ -207,6 +208,7 @@ void MultifrontalFactor::eliminate(Index s)
 
 void MultifrontalFactor::refactorize(const std::vector<MatrixXd>& blocks)
 {
+    const ProfiledStage profiled("eliminate");
     changing_.upward([&](const std::vector<Index>& supernodes) {
         for (const Index s : supernodes) {
             std::copy_n(kept_columns_[s].data(), kept_columns_[s].size(), l_.values(s));

@@ -1,5 +1,6 @@
 #include "linear/factor/selected_inverse.h"
 
+#include "execution/profile.h"
 #include "execution/thread_share.h"
 #include "linear/dense_blas.h"
 #include "linear/factor/subtrees.h"
@@ -86,6 +87,7 @@ private:
 
 std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vector<std::vector<Index>>& sets)
 {
+    const ProfiledStage profiled("invert");
     std::vector<char> needed(l.count(), 0);
     for (const std::vector<Index>& set : sets)
         for (const Index v : set)

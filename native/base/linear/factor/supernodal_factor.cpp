@@ -1,6 +1,7 @@
 #include "linear/factor/supernodal_factor.h"
 
 #include "execution/each_in_pieces.h"
+#include "execution/profile.h"
 #include "linear/factor/front.h"
 #include "linear/factor/piece_factor.h"
 
@@ -21,6 +22,7 @@ SupernodalFactor::SupernodalFactor(Analysis analysis)
 
 void SupernodalFactor::factorize(const SparseMatrix& matrix)
 {
+    const ProfiledStage profiled("eliminate");
     const MatrixPlaces* const places = is_in_pieces() ? nullptr : pattern_.places(matrix, *this);
     RestPool pool;
     std::vector<LowerMatrix> rests(parts_.size());
@@ -101,6 +103,7 @@ MatrixXd SupernodalFactor::solve(const MatrixXd& right_hand_side) const
 
 void SupernodalFactor::solve_lower(MatrixXd& x) const
 {
+    const ProfiledStage profiled("substitute");
     const Index columns = static_cast<Index>(x.cols()), top_count = size() - tops_;
     std::vector<MatrixXd> arrived(piece_count_);
     each_beside(piece_count_, [&](std::size_t p) {
@@ -133,6 +136,7 @@ void SupernodalFactor::solve_lower(const FactorPart& part, MatrixXd& x, MatrixXd
 
 void SupernodalFactor::solve_upper(MatrixXd& x) const
 {
+    const ProfiledStage profiled("substitute");
     for (std::size_t p = parts_.size(); p-- > piece_count_;) solve_upper(parts_[p], x);
     each_beside(piece_count_, [&](std::size_t p) { solve_upper(parts_[p], x); });
 }

@@ -28,9 +28,8 @@ class FlattenResult(DomainMap):
                      middle), height_mm (of capitals), angle_deg (counter-clockwise)
     svg              list of SVG documents, one a page
     dxf              the text of a DXF file (R12)
-    seconds          in all
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
-    below_resolution, flipped_faces, peak_memory_mb, warnings, version    as in MapReport; the area of
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version    as in MapReport; the area of
                      pieces that were left out is lost
     """
 

@@ -10,6 +10,7 @@ from .._signatures import PartsOptions, Unpack
 from ..errors import InputError
 from .domain_map import DomainMap, prepared
 from .input import polygons_of
+from .result import Seconds
 from .source import Source
 
 
@@ -34,10 +35,9 @@ class PartsResult(DomainMap):
     regions          number of planar regions of the surface with more than 1 % of the area
     whole            share of the area of these regions that lie in one part, similar to the region; 1 without any
     aligned          share of the length of straight outer edges that lie within 0.1 degrees of an axis in the UVs
-    seconds          in all
     maps             faces mapped in all maps, in faces of the mesh
     converged, angle_error_deg, angle_error_stored_deg, lost_area, beltrami, area_distortion, conformal_energy, flipped,
-    below_resolution, flipped_faces, peak_memory_mb, warnings, version    as in MapReport. Faces in no
+    below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version    as in MapReport. Faces in no
                      part count in lost_area only, and only if they have no area at all
     """
 
@@ -56,7 +56,7 @@ class PartsResult(DomainMap):
     regions: int
     whole: float
     aligned: float
-    seconds: float
+    seconds: Seconds
     maps: float
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
