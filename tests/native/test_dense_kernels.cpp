@@ -239,6 +239,28 @@ TEST_P(DenseKernelsTest, EverySetGivesTheSameBits)
     }
 }
 
+TEST_P(DenseKernelsTest, CommonBitsAreCountedOneByOne)
+{
+    std::uint64_t state = 1;
+    const auto column = [&](int rows) {
+        std::vector<std::uint64_t> words;
+        for (int row = 0; row < rows; ++row) words.push_back(state = state * 6364136223846793005ULL + 1);
+        return words;
+    };
+    for (const int rows : {0, 1, 30, 31, 32, 200})
+        for (const int shift : {0, 1, 17, 63}) {
+            const auto own = column(rows), left = column(rows), right = column(rows);
+            std::int64_t expected = 0;
+            for (int row = 0; row < rows; ++row)
+                for (int bit = 0; bit < 64; ++bit) {
+                    const int from = bit + shift;
+                    const std::uint64_t other = from < 64 ? left[row] >> from : right[row] >> (from - 64);
+                    expected += static_cast<std::int64_t>(own[row] >> bit & other & 1U);
+                }
+            EXPECT_EQ(kernels_.common_bits(own.data(), left.data(), right.data(), shift, rows), expected);
+        }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sets, DenseKernelsTest, testing::ValuesIn(sets()),
                          [](const auto& set) { return std::string(set.param.name); });
 

@@ -1,39 +1,12 @@
 #include "parts/cell_mask.h"
 
+#include "kernels/dense_kernels.h"
 #include "parts/bit_row.h"
 
 #include <algorithm>
 #include <cstddef>
 
 namespace koebe {
-namespace {
-
-constexpr int rows_in_a_sum = 31;  // at most 8 bits of each in a byte of the sum
-constexpr std::uint64_t even_bits = 0x5555555555555555, even_pairs = 0x3333333333333333,
-                        low_halves = 0x0f0f0f0f0f0f0f0f, even_bytes = 0x00ff00ff00ff00ff,
-                        each_word = 0x0001000100010001;
-
-/// Bits that are set in both `own` and the columns `left` and `right`, moved by `shift` bits. The loop has neither
-/// branches nor calls, so compilers do several rows at a time on any processor.
-std::int64_t count_shared(const std::uint64_t* own, const std::uint64_t* left, const std::uint64_t* right, int shift,
-                          int rows)
-{
-    std::int64_t sum = 0;
-    for (int first = 0; first < rows; first += rows_in_a_sum) {
-        const int end = std::min(rows, first + rows_in_a_sum);
-        std::uint64_t bytes = 0;
-        for (int row = first; row < end; ++row) {
-            std::uint64_t bits = own[row] & (left[row] >> shift | right[row] << 1 << (word_bits - 1 - shift));
-            bits -= bits >> 1 & even_bits;
-            bits = (bits & even_pairs) + (bits >> 2 & even_pairs);
-            bytes += (bits + (bits >> 4)) & low_halves;
-        }
-        sum += static_cast<std::int64_t>(((bytes & even_bytes) + (bytes >> 8 & even_bytes)) * each_word >> 48);
-    }
-    return sum;
-}
-
-}  // namespace
 
 CellMask::CellMask(const CellShape& shape) : width_(shape.width), height_(shape.height)
 {
@@ -61,9 +34,10 @@ std::int64_t CellMask::shared(const CellMask& other, int x, int y, std::int64_t&
     const std::uint64_t* others =
         &other.words_[static_cast<std::size_t>(column / word_bits) * static_cast<std::size_t>(other.height_) +
                       static_cast<std::size_t>(bottom - y)];
+    const auto common_bits = kernels::chosen().common_bits;
     std::int64_t sum = 0;
     for (int word = 0; word < words; ++word, own += height_, others += other.height_)
-        sum += count_shared(own, others, others + other.height_, column % word_bits, top - bottom);
+        sum += common_bits(own, others, others + other.height_, column % word_bits, top - bottom);
     work += static_cast<std::int64_t>(top - bottom) * words;
     return sum;
 }

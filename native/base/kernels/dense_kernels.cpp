@@ -8,6 +8,7 @@
 
 #include "kernels/dense_kernels.h"
 
+#include "kernels/common_bits.h"
 #include "kernels/dense_product.h"
 #include "kernels/dense_triangle.h"
 
@@ -172,7 +173,7 @@ const DenseKernels& KOEBE_INSTRUCTION_SET()
 #define KOEBE_ENTRY(name, parameters, arguments) name,
         KOEBE_DENSE_KERNELS(KOEBE_ENTRY)
 #undef KOEBE_ENTRY
-    };
+            common_bits};
     return kernels;
 }
 

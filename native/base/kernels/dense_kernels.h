@@ -1,7 +1,9 @@
 // The dense kernels of BLAS and LAPACK that linear/ calls. They give the same bits on every processor, so that a map
 // depends on its surface only. They follow Fortran's calling convention (netlib.org/blas, LAPACK Users' Guide, section
-// 2): all arguments by address, matrices by columns.
+// 2): all arguments by address, matrices by columns. One more kernel counts bits, for packing.
 #pragma once
+
+#include <cstdint>
 
 /// X(name, parameters): `name` as in BLAS and LAPACK, without the underscore.
 #define KOEBE_DENSE_KERNELS(X)                                                                                         \
@@ -50,6 +52,10 @@ struct DenseKernels {
 #define KOEBE_MEMBER(name, parameters, arguments) void(*name) parameters;
     KOEBE_DENSE_KERNELS(KOEBE_MEMBER)
 #undef KOEBE_MEMBER
+    /// The number of bits set both in `own` and in the columns `left` and `right` side by side, moved by `shift` bits.
+    /// @param shift 0 to 63 @param rows words of each column
+    std::int64_t (*common_bits)(const std::uint64_t* own, const std::uint64_t* left, const std::uint64_t* right,
+                                int shift, int rows);
 };
 
 /// The same source compiled for several processors. This one runs on every processor of the target.
