@@ -11,6 +11,7 @@ import numpy as np
 
 from .._comparable import Comparable
 from .._fields import areas
+from .._native import _koebe
 from .._option_table import rows
 from .._options import callback, number, token
 from .._progress import Progress
@@ -97,7 +98,7 @@ def cortex(
     even: float = 0.825,
     darts: float = 0.005,
     progress: Progress | None = None,
-    cancel: Any = None,
+    cancel: "_koebe.CancelToken | None" = None,
 ) -> FlatCortex:
     """Lay a hemisphere of the cortex flat: the medial wall is left out, cuts are found, and no face turns over.
 
