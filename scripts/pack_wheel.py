@@ -88,7 +88,7 @@ def local(module: Path, command: Path) -> dict[str, Path]:
 
 def members(compiled: dict[str, Path], tag: str, version: str) -> dict[str, bytes]:
     """What the wheel holds but for its RECORD: path -> content."""
-    sources = [*PACKAGE.rglob("*.py"), PACKAGE / "py.typed"]
+    sources = [*PACKAGE.rglob("*.py"), *PACKAGE.rglob("*.pyi"), PACKAGE / "py.typed"]
     files = {f"koebe/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes() for path in sources}
     files |= {f"koebe/{path.name}": path.read_bytes() for path in OPTIONS.glob("*.json")}
     files |= {f"koebe/examples/{path.name}": path.read_bytes() for path in (ROOT / "blend_samples").glob("*.obj")}

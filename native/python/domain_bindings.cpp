@@ -11,6 +11,7 @@
 #include "report/schottky_json.h"
 #include "report/sphere_json.h"
 #include "report/tile_json.h"
+#include "splitting/coarse_surface.h"
 
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
@@ -46,6 +47,13 @@ void bind_domains(py::module_& m)
             return sew_islands(vertices, triangles, {uv, edges, polygon, even}, context);
         });
         return py::make_tuple(std::move(sewn.uv), array_of(sewn.island), sewn.joined, sewn.sewn);
+    });
+
+    m.def("coarse_surface", [](Positions vertices, Faces triangles, Index faces, const CancelToken& cancel) {
+        CoarseSurface coarse = without_gil(py::none(), cancel, [&](ExecutionContext& context) {
+            return coarse_surface(vertices, triangles, faces, {}, context);
+        });
+        return py::make_tuple(std::move(coarse.vertices), std::move(coarse.triangles), array_of(coarse.vertex));
     });
 
     bind_options<TileOptions>(m, "TileOptions");

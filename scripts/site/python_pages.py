@@ -26,6 +26,7 @@ PAGES = {
         "sphere_map": ["sphere_map", "SphereMap"],
         "schottky_map": ["schottky_map", "SchottkyMap"],
         "fit_circles": ["fit_circles", "FitResult"],
+        "cortex": ["cortex", "FlatCortex"],
     },
     "Many maps": {
         "Surface": ["Surface"],

@@ -38,6 +38,7 @@ def script(name):
 VERSIONS = {
     "CMakeLists.txt": re.search(r"regex = '''(.*)'''", (ROOT / "pyproject.toml").read_text(encoding="utf-8"))[1],
     "CITATION.cff": r"(?m)^version: (\S+)$",
+    "scripts/conda/recipe.yaml": r'(?m)^  version: "(\S+)"$',
     "CHANGELOG.md": r"(?m)^## (\S+), (?:not released yet|\d{4}-\d\d-\d\d)$",
 }
 
@@ -232,3 +233,30 @@ def test_a_binary_does_not_say_where_it_was_built():
     assert paths(b"\0build/sources/headers/usr/include/CGAL/a.h\0/usr/include/b.h\0") == []
     assert paths(b"\0/home/me/koebe/build/sources/a.c\0") == [
         "says /home/me/koebe/build/sources/a.c, a place on the machine that built it"]
+
+
+# conda-forge's names for what scripts/install.sh takes from Debian.
+CONDA = {
+    "libopenmesh-dev": "openmesh", "libeigen3-dev": "eigen", "libsuitesparse-dev": "libcholmod",
+    "libcgal-dev": "cgal-cpp", "liblemon-dev": "lemon", "libfast-float-dev": "fast_float", "libsvgpp-dev": "svgpp",
+    "libstb-dev": "stb", "libtinygltf-dev": "tinygltf", "nlohmann-json3-dev": "nlohmann_json",
+    "libcli11-dev": "cli11", "libuv1-dev": "libuv", "libsodium-dev": "libsodium",
+}  # fmt: skip
+ONLY_TESTS = {"libgtest-dev", "libbenchmark-dev"}
+
+
+def test_the_recipe_for_conda_has_what_the_package_needs():
+    recipe = (ROOT / "scripts" / "conda" / "recipe.yaml").read_text(encoding="utf-8")
+    host, run = (re.search(rf"(?m)^  {name}:\n((?:    - .*\n)+)", recipe)[1] for name in ("host", "run"))
+    build = re.search(r'\[build\]="(.*?)"', (SCRIPTS / "install.sh").read_text(encoding="utf-8"), re.DOTALL)[1]
+    debian = {word for word in build.split() if re.match(r"(lib|nlohmann)", word)} - ONLY_TESTS
+    assert debian == set(CONDA)
+    assert {line.split()[1] for line in host.splitlines()} >= set(CONDA.values())
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    pins = [*project["build-system"]["requires"], *project["project"]["dependencies"]]
+    pins.append("python" + project["project"]["requires-python"])
+    for pin in pins:
+        name, least = pin.split(">=")
+        assert f"- {name} >={least}\n" in host + run, pin
+    assert f"summary: {project['project']['description']}\n" in recipe
+    assert f"license: {project['project']['license']}\n" in recipe

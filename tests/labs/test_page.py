@@ -42,7 +42,8 @@ def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):
     assert np.array_equal(names["matrix"][0], names["depth"][0]) and found.margins[1] > 0.3
     assert (names["bars"] > 0).all() and names["both"].distance_errors[0, 1] > 0
     assert (tmp_path / "modules.csv").read_text().startswith("label,r_1,y_2,r_2,x_3,y_3,r_3\nneutral,0.")
-    assert names["cortex"].flipped == 0 and names["cortex"].angle_error_deg["mean"] < 6.5
+    assert names["cortex"].map.flipped == 0 and names["cortex"].map.angle_error_deg["mean"] < 9.5
+    assert (tmp_path / "flat_lh.gii").stat().st_size > 0
     assert np.array_equal(names["results"][1].uv, names["surprised"].uv)
 
 

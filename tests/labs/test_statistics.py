@@ -5,12 +5,14 @@ import numpy as np
 import pandas
 import pytest
 from scipy import stats
+from scipy.spatial.distance import squareform
 from skbio.stats.distance import DistanceMatrix, permanova, permdisp
 from statsmodels.formula.api import ols
 from statsmodels.stats.anova import anova_lm
 from statsmodels.stats.multitest import multipletests
+from statsmodels.stats.tests.test_anova import kidney_table
 
-# The example that scikit-bio's documentation prints: F is 4.4.
+# The example with ties of scikit-bio's tests.
 PRINTED = np.array([[0, 1, 1, 4], [1, 0, 3, 2], [1, 3, 0, 3], [4, 2, 3, 0]], float)
 RANDOM = np.random.default_rng(7)
 GROUPS = np.repeat(["a", "b", "c"], 10)
@@ -34,6 +36,22 @@ def test_dispersion_is_that_of_scikit_bio():
     assert found.degrees == (2, 27) and 0.0 < found.omega_squared < found.explained < 1.0
     even = koebe.dispersion_test(np.abs(AGE[:, None] - AGE), np.tile([0, 1], 15), permutations=199)
     assert even.p > 0.05
+
+
+def test_figures_are_those_that_others_print():
+    """To the digits: permdisp of scikit-bio's documentation, vegan's adonis and R's anova, whose figures the tests of
+    scikit-bio and statsmodels hold."""
+    upper = [0.5, 0.75, 1, 0.66, 0.33, 0.25, 0.33, 0.77, 0.61, 0.1, 0.44, 0.55, 0.75, 0.88, 0.77]
+    spread = koebe.dispersion_test(squareform(upper), np.repeat([1, 2], 3), permutations=9)
+    assert f"{spread.statistic:.5f}" == "1.03296"
+    for upper, printed in (([1, 1, 4, 3, 2, 3], "2.0"), ([1, 5, 4, 3, 2, 3], "4.4")):
+        assert f"{koebe.permutation_test(squareform(upper), [1, 1, 2, 2]).statistic:.1f}" == printed
+    days, duration, weight = (kidney_table[name].to_numpy() for name in ("Days", "Duration", "Weight"))
+    half, (one, two) = 3 - 2 * duration, (1.0 * (weight == k) - (weight == 3) for k in (1, 2))
+    squares = np.stack([half, half * one, half * two], axis=1)  # R's contr.sum, also for the interaction
+    found = koebe.point_test(np.log(days + 1.0)[:, None], weight, covariates=squares, permutations=99)
+    assert f"{found.statistic[0]:.5f}" == "15.80674"
+    assert f"{found.explained[0]:.5f}" == f"{16.97129 / (16.97129 + 28.9892):.5f}"
 
 
 def test_points_have_the_anova_of_statsmodels_and_its_corrections():

@@ -22,7 +22,11 @@ def taken(vertices: np.ndarray, triangles: np.ndarray, is_cut: bool, kept: dict[
     field: np.ndarray = koebe.transfer(one, one, one.log_scale)
     corners: list[np.ndarray] = [one.corner_uv, cut.corner_uv, koebe.sphere_map(vertices, triangles).corner_uv]
     rims: list[koebe.Loop] = [*one.loops, *koebe.ring_map(vertices, triangles).loops]
-    print(cut, either, places, field, corners, rims)
+    token = koebe.CancelToken()
+    stopped: bool = token.cancelled
+    again: koebe.PartsResult = koebe.load("face.npz", koebe.PartsResult)
+    brain: koebe.FlatCortex = koebe.cortex("sub-01", "lh", cancel=token)
+    print(cut, either, places, field, corners, rims, stopped, again, brain.places)
 
 
 def refused(vertices: np.ndarray, triangles: np.ndarray) -> None:
@@ -41,5 +45,8 @@ def refused(vertices: np.ndarray, triangles: np.ndarray) -> None:
     koebe.lift(vertices, triangles, perforated=True)  # type: ignore[call-arg]
     koebe.flatten(vertices, triangles, unit="cm")  # type: ignore[call-arg]
     koebe.Surface(vertices, triangles, metod="ck")  # type: ignore[call-arg]
+    koebe.CancelToken(3)  # type: ignore[call-arg]
+    print(koebe.CancelToken().canceled)  # type: ignore[attr-defined]
+    print(koebe.load("face.npz", koebe.PartsResult).price)  # type: ignore[attr-defined]
     koebe.boundary_loops(triangles, count=3)  # type: ignore[call-arg]
     koebe.family([], eror=True)  # type: ignore[call-overload]

@@ -57,7 +57,9 @@ def test_every_result_goes_to_another_process(kind):
 def test_every_result_with_save_is_loaded_again(kind, tmp_path):
     result = MADE[kind]()
     result.save(tmp_path / "result.npz")
-    again = koebe.load(tmp_path / "result.npz")
+    again = koebe.load(tmp_path / "result.npz", type(result))
+    with pytest.raises(koebe.InputError, match=f"has a {type(result).__name__}, not a Correspondence"):
+        koebe.load(tmp_path / "result.npz", koebe.Correspondence)
     assert type(again) is type(result) and again.to_dict() == result.to_dict() and repr(again) == repr(result)
     assert np.array_equal(again.corner_uv, result.corner_uv)
     assert again._repr_html_() == result._repr_html_()

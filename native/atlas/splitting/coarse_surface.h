@@ -1,6 +1,7 @@
 // A surface with fewer faces.
 #pragma once
 
+#include "core/api.h"
 #include "execution/execution.h"
 #include "part_maps/part_mesh.h"
 
@@ -25,8 +26,8 @@ struct CoarseSurface {
 /// together; empty: there is no mirror
 /// @param border (V) 1 on a part of the boundary that stays: its edges become one only along it, its ends stay, and no
 /// edge goes across from one of its vertices to another; empty: there is none
-CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
-                             const std::vector<Index>& image, ExecutionContext& context,
-                             const std::vector<char>& border = {});
+KOEBE_API CoarseSurface coarse_surface(const Vertices& vertices, const Triangles& triangles, Index faces,
+                                       const std::vector<Index>& image, ExecutionContext& context,
+                                       const std::vector<char>& border = {});
 
 }  // namespace koebe

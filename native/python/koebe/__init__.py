@@ -120,6 +120,7 @@ if hasattr(_koebe, "LiftOptions"):
 if hasattr(_koebe, "conformal_module"):
     from .labs.certified import CertifiedModuli, certified_moduli
     from .labs.corresponding import PointFamily
+    from .labs.cortex import FlatCortex, cortex
     from .labs.family import Family, family
     from .labs.fit import FitResult, fit_circles
     from .labs.noise import noise_error, vertex_noise
@@ -149,6 +150,7 @@ if hasattr(_koebe, "conformal_module"):
         "DomainAlignment",
         "Family",
         "FitResult",
+        "FlatCortex",
         "LoopMatch",
         "PermutationTest",
         "PlanarMap",
@@ -161,6 +163,7 @@ if hasattr(_koebe, "conformal_module"):
         "canonical_order",
         "certified_moduli",
         "conformal_module",
+        "cortex",
         "dispersion_test",
         "family",
         "fit_circles",

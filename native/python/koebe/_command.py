@@ -30,7 +30,11 @@ def path() -> Path:
 
 def main() -> int:
     """Entry point of `python -m koebe` and of the script `koebe`: the command with the same arguments. Files of
-    FreeSurfer, GIfTI and VTK are converted before and after it."""
+    FreeSurfer, GIfTI and VTK are converted before and after it. `cortex` runs here."""
+    if sys.argv[1:2] == ["cortex"]:
+        from .labs.cortex_command import run as run_cortex
+
+        return run_cortex(sys.argv[2:])
     try:
         command = str(path())
     except KoebeError as error:

@@ -4,7 +4,7 @@ import json
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -52,9 +52,18 @@ def run(command: str, words: Sequence[str]) -> int:
         names = ", ".join(one[1:].upper() for one in NATIVE)
         print(f"koebe: {words[0]} takes {names} files: convert the others before", file=sys.stderr)
         return WRONG_USAGE
-    try:
+
+    def work() -> int:
         with tempfile.TemporaryDirectory(prefix="koebe-") as folder:
             return _Conversion(command, folder, list(words)).run()
+
+    return ended(work)
+
+
+def ended(work: Callable[[], int]) -> int:
+    """The exit code of a command that runs here; errors are printed."""
+    try:
+        return work()
     except KeyboardInterrupt:
         return INTERRUPTED
     except Cancelled:

@@ -4,7 +4,7 @@ import json
 import os
 import zipfile
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, TypeVar, overload
 
 import numpy as np
 
@@ -15,12 +15,19 @@ from .maps.domain_map import DomainMap
 from .maps.result import MapReport, UniformizeResult
 from .maps.source import Source
 
+Result = TypeVar("Result")
 
-def load(path: str | os.PathLike[str]) -> Any:
+
+@overload
+def load(path: str | os.PathLike[str]) -> Any: ...
+@overload
+def load(path: str | os.PathLike[str], kind: type[Result]) -> Result: ...
+def load(path: str | os.PathLike[str], kind: type[Any] | None = None) -> Any:
     """Read a result written by `save`, as its class: UniformizeResult, CutResult, PartsResult, SphereMap,
     SphereCorrespondence, ...
 
-    Raises InputError for a file that is not a result, OSError for one that cannot be read.
+    kind   the class that it must have, so that type checkers know it; None: any
+    Raises InputError for a file that is not a result, or of another kind, OSError for one that cannot be read.
 
     >>> import koebe, os, tempfile
     >>> result = koebe.uniformize("blend_samples/face.obj")
@@ -29,6 +36,13 @@ def load(path: str | os.PathLike[str]) -> Any:
     >>> bool((koebe.load(path).uv == result.uv).all())
     True
     """
+    result = _loaded(path)
+    if kind is not None and not isinstance(result, kind):
+        raise InputError(f"{os.fspath(path)} has a {type(result).__name__}, not a {kind.__name__}")
+    return result
+
+
+def _loaded(path: str | os.PathLike[str]) -> Any:
     try:
         with np.load(path, allow_pickle=False) as file:
             if "kind" in file and str(file["kind"]) == "SphereCorrespondence":

@@ -30,16 +30,17 @@ from .meshes import LOG_SCALE, SPHERE, is_gifti, kind_of, read_mesh
 
 _SPHERE_RADIUS = 100.0  # millimetres, as FreeSurfer's spheres have it
 CUT_TEXT = "the map has cuts, so that a vertex has several places: write a .gii or a VTK file"
+FIELDS = (".shape.gii", ".func.gii")
 _SEVERAL_FILES = (".xdmf", ".xmf")
 
 
-def export(result: Any, path: str | os.PathLike[str]) -> None:
-    """Writes a result in the format that the file's name says."""
+def export(result: Any, path: str | os.PathLike[str], as_surface: bool = False) -> None:
+    """Writes a result in the format that the file's name says. as_surface: any GIfTI file has the map itself."""
     name = Path(path).name
     low = name.lower()
-    if low.endswith((".surf.gii", ".surf.gii.gz")):
+    if low.endswith((".surf.gii", ".surf.gii.gz")) or as_surface and low.endswith(GIFTI):
         content = saved_bytes(low, lambda place: package_of("nibabel").save(_gifti_surface(result, name), place))
-    elif low.endswith((".shape.gii", ".func.gii")):
+    elif low.endswith(FIELDS):
         content = saved_bytes(low, lambda place: package_of("nibabel").save(_gifti_fields(result, name), place))
     elif low.endswith(GIFTI):
         content = saved_bytes(low, lambda place: package_of("nibabel").save(_as(result, "gifti").to_mesh(), place))

@@ -26,7 +26,7 @@ PYVISTA = (".vtp",)
 GIFTI = (".gii", ".gii.gz")
 
 _TRIANGLES, _QUADS, _CURV = b"\xff\xff\xfe", b"\xff\xff\xfd", b"\xff\xff\xff"  # how FreeSurfer's files begin
-_PATCH = b"\xff\xff\xff\xff"
+PATCH = b"\xff\xff\xff\xff"
 _HEMISPHERE = {"l": "CortexLeft", "r": "CortexRight"}
 
 
@@ -134,7 +134,7 @@ def _by_meshio(path: str | os.PathLike[str], name: str) -> Any:
 def _freesurfer(path: str | os.PathLike[str]) -> Any:
     """FreeSurfer's surface as a GiftiImage, in FreeSurfer's coordinates."""
     head = head_of(path)
-    if head == _PATCH:
+    if head == PATCH:
         raise InputError(
             f"{os.fspath(path)} is a patch, which has no faces: give the surface that it was cut from, with "
             "mask=~koebe.read_region(patch, vertices)"
@@ -234,7 +234,7 @@ def read_patch(path: str | os.PathLike[str]) -> Patch:
     <koebe.Patch 2309 vertices, 243 at the border>
     """
     text = Path(path).read_bytes()
-    if text[:4] != _PATCH or len(text) < 8:
+    if text[:4] != PATCH or len(text) < 8:
         raise FileError(f"{os.fspath(path)} is no patch of FreeSurfer")
     count = int.from_bytes(text[4:8], "big", signed=True)
     if count < 0 or len(text) != 8 + count * _PATCH_ROW.itemsize:
@@ -254,4 +254,4 @@ def patch_bytes(vertices: np.ndarray, points: np.ndarray, border: np.ndarray) ->
     rows = np.zeros(len(vertices), _PATCH_ROW)
     rows["vertex"] = np.where(border, -1, 1) * (np.asarray(vertices, np.int64) + 1)
     rows["point"] = points
-    return _PATCH + len(rows).to_bytes(4, "big") + rows.tobytes()
+    return PATCH + len(rows).to_bytes(4, "big") + rows.tobytes()

@@ -173,7 +173,7 @@ def dispersion_test(distances: Any, groups: Any, *, permutations: int = 9999, se
     count = whole(permutations, "permutations", least=1)
     labels = [str(label) for label in np.unique(np.asarray(groups), return_inverse=True)[1]]
     said = skbio.permdisp(
-        skbio.DistanceMatrix(0.5 * (matrix + matrix.T)), labels, permutations=count,
+        skbio.DistanceMatrix(0.5 * (matrix + matrix.T)), labels, permutations=count, dimensions=len(matrix),
         seed=np.random.default_rng(whole(seed, "seed", least=0)),
     )  # fmt: skip
     statistic, (k, n) = float(said["test statistic"]), design.degrees

@@ -1,0 +1,13 @@
+"""The types of the native module that users see. All else is for this package alone."""
+
+from typing import Any
+
+__version__: str
+
+class CancelToken:
+    def __init__(self) -> None: ...
+    def cancel(self) -> None: ...
+    @property
+    def cancelled(self) -> bool: ...
+
+def __getattr__(name: str) -> Any: ...
