@@ -19,7 +19,7 @@ from .uv_islands import uv_cuts, vertex_uv
 
 MOST_STEPS = 60  # Newton steps until a warm map has settled. Ten are many
 LEAST_EVEN = 0.1  # E around pins if the angles are kept
-PATCH = 20_000  # faces round moved vertices that follow, if an island has more
+LARGE, PATCH = 20_000, 8_000  # faces: islands with more than so many follow with about so many round moved vertices
 ROUNDS = 6  # of adding faces until their rim does not meet itself
 
 
@@ -64,7 +64,7 @@ class LiveState:
         the same region as before, so the islands stay one to one. None if all faces must follow."""
         surface = self.surface
         seams_stay = np.array_equal(surface.seam, before.surface.seam)
-        if np.count_nonzero(faces) <= PATCH or not seams_stay or not np.array_equal(
+        if np.count_nonzero(faces) <= LARGE or not seams_stay or not np.array_equal(
             self.pins, before.pins, equal_nan=True
         ):
             return None

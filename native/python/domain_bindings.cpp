@@ -23,7 +23,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -73,7 +72,8 @@ void bind_domains(py::module_& m)
             [](CutSketch& sketch) {
                 const CutEdges edges = sketch.take();
                 py::array_t<Index> rows({edges.size(), std::size_t{2}});
-                std::ranges::copy(std::views::join(edges), rows.mutable_data());
+                Index* at = rows.mutable_data();
+                for (const auto& edge : edges) at = std::ranges::copy(edge, at).out;
                 return rows;
             },
             "(E, 2) int32: vertices of the edges that would be cut, as far as they are decided. The edges of the "

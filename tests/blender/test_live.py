@@ -130,7 +130,8 @@ def test_a_moved_vertex_is_followed_and_other_islands_stay(live):
 
 
 def test_of_a_large_island_what_is_near_a_moved_vertex_follows(addon, live, monkeypatch):
-    monkeypatch.setattr(addon("maps.live"), "PATCH", 30)  # of 72 faces an island
+    for name in ("LARGE", "PATCH"):
+        monkeypatch.setattr(addon("maps.live"), name, 30)  # of 72 faces an island
     settings = bpy.context.scene.koebe_uv
     settings.keep_angles, settings.even = False, 0.5
     obj = live_sheet(live)

@@ -1,9 +1,11 @@
 #include "parts/sketched_cuts.h"
 
+#include "core/connectivity.h"
 #include "parts/carried_net.h"
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace koebe {
 namespace {
