@@ -206,7 +206,7 @@ def test_buttons_and_the_guide_have_none_of_the_other_words(folder):
     sources = [path.read_text(encoding="utf-8") for path in Path(folder).rglob("*.py")]
     buttons = {text for source in sources for text in re.findall(r'\btext="([^"]+)"', source)}
     guide = (Path(__file__).resolve().parents[2] / "docs" / "guide.md").read_text(encoding="utf-8")
-    labels = {text for text in re.findall(r"\*+([^*\n]+)\*+", guide)}
+    labels = set(re.findall(r"\*+([^*\n]+)\*+", guide))
     assert len(buttons) > 30 and len(labels) > 50
     assert not (buttons | labels) & GONE and not any("Uniformize" in text for text in buttons | labels)
 
