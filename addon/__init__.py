@@ -59,6 +59,7 @@ def _parts() -> tuple[ModuleType, ...]:
     from .ui import (
         circle_overlay,
         circle_tool,
+        cut_sketch,
         distortion_legend,
         menus,
         outline_overlay,
@@ -75,8 +76,8 @@ def _parts() -> tuple[ModuleType, ...]:
         unwrap, uniformize, parts, domains, sequence, redo, checker, select_from_report, distortion, fill_holes,
         compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, sew, live, relax_brush, flat_copy,
         even_slider, render_layer, texel_density, arrange, bake_texture, lift, node_groups, hole_rings,
-        distortion_legend, progress_bar, outline_overlay, trim_overlay, circle_overlay, circle_tool, preset_menu,
-        panels, menus, preferences,
+        distortion_legend, cut_sketch, progress_bar, outline_overlay, trim_overlay, circle_overlay, circle_tool,
+        preset_menu, panels, menus, preferences,
     )  # fmt: skip
 
 

@@ -289,14 +289,14 @@ def stored_uv_type() -> str:
     return "FLOAT2" if hasattr(bpy.types.MeshUVLoopLayer, "uv") else "FLOAT_VECTOR"
 
 
-def flat_shader(name: str) -> Any:
-    """A built-in shader of the gpu module for points with two coordinates."""
+def flat_shader(name: str, coordinates: int = 2) -> Any:
+    """A built-in shader of the gpu module for points with so many coordinates."""
     import gpu
 
     try:
         return gpu.shader.from_builtin(name)
     except ValueError:  # up to 4.0 the names had the number of coordinates
-        return gpu.shader.from_builtin(f"2D_{name}")
+        return gpu.shader.from_builtin(f"{coordinates}D_{name}")
 
 
 def path_options() -> Any:

@@ -58,6 +58,11 @@ class LiveJob:
         pins = np.where(np.repeat(faces, surface.face_size)[:, None], state.pins, np.nan)
         has_pins = bool(np.isfinite(pins).any())
         self._task = Task(obj.name, surface, old_uv=before.uv, rest=state.uv, pins=pins if has_pins else None)
+        self._near: Task | None = None  # what follows of a large island
+        near = state.near(before, faces)
+        if near is not None:
+            surface = dataclasses.replace(surface, selected=near[0])
+            self._near = dataclasses.replace(self._task, surface=surface, pins=near[1])
         self.even = even if choice.keep_angles else choice.even
         self._cleared = before.surface.seam & ~state.surface.seam
         self._made: tuple[np.ndarray, np.ndarray] | None = None
@@ -66,29 +71,31 @@ class LiveJob:
         """Touches no Blender data. Raises TransferError, koebe.Cancelled."""
         if self.even is not None:
             with contextlib.suppress(MapError):  # pins that are in the way there may not be in another map's
-                for start in self._starts(progress):
-                    self._made = follow(self.koebe, self._task, start, self.even, self.cancel_token)
+                for task, start in self._starts(progress):
+                    self._made = follow(self.koebe, task, start, self.even, self.cancel_token)
                     if self._made is not None:
                         return
         one = self._anew(self._task, self._choice, progress)
         self._made, self.even = (one.corners, one.uv), one.result.even
 
-    def _starts(self, progress: Progress | None) -> Iterator[np.ndarray]:
-        """UVs (C, 2) that the islands may follow from: where they lie; if they have grown together, brought together,
-        or a conformal map."""
+    def _starts(self, progress: Progress | None) -> Iterator[tuple[Task, np.ndarray]]:
+        """What follows, and UVs (C, 2) that it may follow from: where the islands lie, at first near the change; if
+        they have grown together, brought together, or a conformal map."""
         assert self._task.old_uv is not None
         if not self._cleared.any():
-            yield self._task.old_uv
+            if self._near is not None:
+                yield self._near, self._task.old_uv
+            yield self._task, self._task.old_uv
             return
         start = joined(self._task.surface, self._cleared, self._task.old_uv)
         if start is not None:
-            yield start
+            yield self._task, start
         conformal = dataclasses.replace(self._choice, keep_angles=False, even=0.0)
         with contextlib.suppress(TransferError):
             one = self._anew(dataclasses.replace(self._task, pins=None, rest=None), conformal, progress)
             start = self._task.old_uv.copy()
             start[one.corners] = one.uv
-            yield start
+            yield self._task, start
 
     def _anew(self, task: Task, choice: Any, progress: Progress | None) -> PartsIsland:
         """A map of its own. Raises TransferError."""

@@ -182,6 +182,10 @@ class Job:
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""
         self.outcomes = map_surfaces(self.koebe, self.tasks, self.options, progress, self.cancel_token)
 
+    def sketched(self) -> np.ndarray:
+        """As of parts. Other maps have no cuts to show before they are done."""
+        return np.zeros((0, 2, 3), dtype=np.float32)
+
     def line(self, outcome: Outcome) -> str:
         """One line on a surface with at least one mapped island."""
         return outcome.line()

@@ -14,7 +14,7 @@ from ..blender.transaction import Transaction
 from ..maps.atlas import one_atlas
 from ..maps.beside import OVER
 from ..maps.options import PartsChoice
-from ..maps.outcomes import Progress, Task
+from ..maps.outcomes import Progress, Sketch, Task
 from ..maps.parts import PartsOutcome, cut_into_parts, move_parts
 from ..maps.surface import Surface
 from ..maps.uv_density import mean_density
@@ -27,6 +27,7 @@ class PartsJob(ChoiceJob):
     choice: PartsChoice
 
     def __init__(self, *given: Any, **named: Any) -> None:
+        self._places: list[np.ndarray] = []  # (V, 3) of each task's vertices in the world
         super().__init__(*given, **named)
         if self.choice.show and all(task.show is None for task in self.tasks):
             raise TransferError(f"Avoid is the vertex group {self.choice.show!r}, but no object has this group")
@@ -38,7 +39,10 @@ class PartsJob(ChoiceJob):
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
         show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None
         like = self._density_of_layer(obj, surface) if self.choice.texels == "layer" else None
-        return dataclasses.replace(super()._task(obj, surface), show=show, like=like, pins=self._pins(obj, surface))
+        self._places.append(surface.positions + np.array(obj.matrix_world.translation))
+        return dataclasses.replace(
+            super()._task(obj, surface), show=show, like=like, pins=self._pins(obj, surface), sketch=Sketch()
+        )
 
     def _check_pins(self, obj: MeshObject, surface: Surface) -> None:
         """Raise TransferError if pinned UVs would move. Otherwise parts join them."""
@@ -69,6 +73,15 @@ class PartsJob(ChoiceJob):
         if not density > 0.0:
             raise TransferError(f"{obj.name}: the UV layer {layer!r} has no area: choose another layer")
         return density
+
+    def sketched(self) -> np.ndarray:
+        """The ends (E, 2, 3) in the world of the cuts that are decided so far; none if nothing is new."""
+        places = np.concatenate(self._places)
+        begins = np.cumsum([0, *map(len, self._places)])  # one atlas draws all on the first sketch
+        cuts = [
+            begin + task.sketch.take() for begin, task in zip(begins, self.tasks, strict=False) if task.sketch
+        ]  # fmt: skip
+        return places[np.concatenate(cuts)].astype(np.float32)
 
     def compute(self, progress: Progress | None = None) -> None:
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""

@@ -196,7 +196,7 @@ def one_atlas(
         for k, outcome in left_out.items():
             if _is_mapped(outcome):  # but not beside the others
                 left_out[k] = PartsOutcome(tasks[k], [PartsIsland(error=TooSmallError())])
-        others = [task for k, task in enumerate(tasks) if k not in left_out]
+        others = [dataclasses.replace(task, sketch=None) for k, task in enumerate(tasks) if k not in left_out]
         each = iter(one_atlas(koebe, others, choice, progress, cancel))
         return [left_out[k] if k in left_out else next(each) for k in range(len(tasks))]
     begins = _begins([task.surface for task in tasks])

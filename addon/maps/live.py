@@ -13,12 +13,14 @@ from .islands import cut_into_islands
 from .outcomes import Task
 from .packing import fit_placement
 from .pins import has_pins, pin_island
-from .surface import Island, Surface
+from .surface import Island, Surface, next_corners
 from .triangles import signed_areas
 from .uv_islands import uv_cuts, vertex_uv
 
 MOST_STEPS = 60  # Newton steps until a warm map has settled. Ten are many
 LEAST_EVEN = 0.1  # E around pins if the angles are kept
+LARGE, PATCH = 20_000, 8_000  # faces: islands with more than so many follow with about so many round moved vertices
+ROUNDS = 6  # of adding faces until their rim does not meet itself
 
 
 @dataclasses.dataclass(frozen=True)
@@ -56,6 +58,44 @@ class LiveState:
         touched = np.zeros(len(surface.face_size), dtype=bool)
         touched[self.island_of_face[np.add.reduceat(changed, surface.face_start) > 0]] = True
         return np.asarray(touched[self.island_of_face])
+
+    def near(self, before: "LiveState", faces: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """Of large islands (P,) bool the faces (P,) bool near moved vertices, and pins (C, 2) on their rim: they fill
+        the same region as before, so the islands stay one to one. None if all faces must follow."""
+        surface = self.surface
+        seams_stay = np.array_equal(surface.seam, before.surface.seam)
+        if np.count_nonzero(faces) <= LARGE or not seams_stay or not np.array_equal(
+            self.pins, before.pins, equal_nan=True
+        ):
+            return None
+        # The faces nearest to the box of the moved vertices in the UVs.
+        moved = (surface.positions != before.surface.positions).any(axis=1)[surface.corner_vertex]
+        place = before.uv[moved]
+        outside = np.maximum(place.min(axis=0) - before.uv, before.uv - place.max(axis=0)).max(axis=1)
+        away = np.where(faces, np.maximum.reduceat(outside, surface.face_start), np.inf)
+        chosen = away < np.partition(away, PATCH)[PATCH]
+        if np.count_nonzero(away <= 0.0) > PATCH // 2 or not chosen.any():
+            return None
+        cuts = surface.seam | uv_cuts(surface, before.uv)
+        for _ in range(ROUNDS):
+            rim, pinched = self._rim(before.uv, chosen, cuts)
+            if not pinched.any():
+                return chosen, np.where(rim[:, None], before.uv, self.pins)
+            chosen |= faces & np.logical_or.reduceat(pinched[surface.corner_vertex], surface.face_start)
+        return None
+
+    def _rim(self, uv: np.ndarray, chosen: np.ndarray, cuts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The corners (C,) bool of chosen faces (P,) on their rim, and the vertices (V,) bool where it meets itself."""
+        surface = self.surface
+        mine, vertex = np.repeat(chosen, surface.face_size), surface.corner_vertex
+        edges = (np.bincount(surface.corner_edge[mine], minlength=len(cuts)) != 2) | cuts
+        sides = np.flatnonzero(mine & edges[surface.corner_edge])
+        ends = np.concatenate([sides, next_corners(surface)[sides]])
+        on_rim, meets = (np.zeros(len(surface.positions), dtype=bool) for _ in range(2))
+        on_rim[vertex[ends]] = True
+        places, times = np.unique(np.column_stack([vertex[ends], uv[ends]]), axis=0, return_counts=True)
+        meets[places[times > 2, 0].astype(np.int64)] = True
+        return mine & on_rim[vertex], meets
 
     @functools.cached_property
     def island_of_face(self) -> np.ndarray:
@@ -139,7 +179,10 @@ def _relaxed(
     koebe: ModuleType, piece: Island, places: np.ndarray, pins: np.ndarray | None, even: float, cancel: Any
 ) -> np.ndarray | None:
     """The places (n, 2) of a piece's vertices after it has settled; None if it does not."""
-    copies = np.column_stack([piece.source_vertex, places])
+    free = np.ones(len(places), dtype=bool)
+    if pins is not None:
+        free[piece.corner_vertex[np.isfinite(pins[piece.corners]).all(axis=1)]] = False
+    copies = np.column_stack([piece.source_vertex, places])[free]
     if len(np.unique(copies, axis=0)) < len(copies):
         return None  # a new cut whose sides lie on each other: they would be in each other's way
     dial = koebe.EvenDial(piece.vertices, piece.triangles, uv=places, round=False)

@@ -3,6 +3,7 @@
 
 import dataclasses
 from collections.abc import Callable
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,26 @@ def share_of(progress: Progress | None, done: int, size: int, total: int) -> Pro
     return lambda fraction, stage: progress((done + fraction * size) / max(total, 1), stage)
 
 
+class Sketch:
+    """Where a surface will be cut, as far as it is decided, while another thread computes."""
+
+    def __init__(self) -> None:
+        self._drawn: tuple[Any, np.ndarray] | None = None
+
+    def begin(self, koebe: ModuleType, source_vertex: np.ndarray) -> Any:
+        """A native sketch for a computation. @param source_vertex the surface's vertex for each of its vertices"""
+        native = koebe.CutSketch()
+        self._drawn = native, source_vertex
+        return native
+
+    def take(self) -> np.ndarray:
+        """The cuts, as pairs (E, 2) of vertices of the surface; none if nothing is new."""
+        if self._drawn is None:
+            return np.zeros((0, 2), dtype=np.int32)
+        native, source_vertex = self._drawn
+        return np.asarray(source_vertex[native.take()])
+
+
 @dataclasses.dataclass(frozen=True)
 class Task:
     """A surface to map.
@@ -35,7 +56,7 @@ class Task:
     placement "keep"; `mirrored`: its object's scale is negative.
     `importance` (V,) in [0, 1] weighs the sizes of faces. `show` (V,) in [0, 1]: cuts of parts keep away from 1.
     `rest` (C, 2) are the UVs of the layer if faces that are not selected stay there. `pins` (C, 2) are the pinned UVs,
-    NaN at other corners; None without pins.
+    NaN at other corners; None without pins. `sketch` is drawn on by maps into parts.
     `like` is the density that parts get: sides of the UV square per unit of length. `picked` (V,)
     bool are vertices that choose the rims of rings.
     """
@@ -53,6 +74,7 @@ class Task:
     picked: np.ndarray | None = None
     rest: np.ndarray | None = None
     pins: np.ndarray | None = None
+    sketch: Sketch | None = None
 
 
 @dataclasses.dataclass

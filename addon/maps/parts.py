@@ -259,10 +259,11 @@ def _map(
     on_slit = np.flatnonzero(slits[surface.corner_edge] & np.repeat(surface.selected, surface.face_size))
     ends = np.stack([on_slit, next_corners(surface)[on_slit]], axis=1)
     one.numbers = Numbers(surface.triangle_face[chosen], source)
+    sketch = None if task.sketch is None else task.sketch.begin(koebe, source)
     result = koebe.parts(
         positions, vertex_of_corner[corners], polygon=one.numbers.triangle_face,
         slits=vertex_of_corner[ends], **_weights(task, one.numbers.source_vertex),
-        progress=progress, cancel=cancel, **arguments,
+        sketch=sketch, progress=progress, cancel=cancel, **arguments,
     )  # fmt: skip
     if result.lost_area > arguments["most_lost"]:
         one.result = result

@@ -192,7 +192,7 @@ class ModalRun(OperatorBase):
             share, done = self._read or 0.0, f"{100 * (self._read or 0.0):.0f} % read"
         else:
             stage = STAGES.get(self._worker.stage, self._worker.stage)
-            share, done = self._worker.fraction, f"{100 * self._worker.fraction:.0f} % done, {stage}"
+            share, done = self._worker.fraction, f"{100 * self._worker.fraction:.0f} % done{', ' * bool(stage)}{stage}"
         text = f"Koebe UV: {done}      Esc: Cancel"
         now = time.monotonic()
         if self._show_next is None:

@@ -6,6 +6,7 @@ import time
 from typing import Any, ClassVar
 
 import bpy
+import numpy as np
 
 from ..blender import edit_mode
 from ..blender.targets import target_objects
@@ -132,11 +133,13 @@ class MapOperator(ModalRun):
 
     options_shown  the names of the properties in the redo panel
     redo_waits     a run from the redo panel goes on without a frozen window, if it is not done at once
+    sketch         the job that runs, and the ends (E, 2, 3) in the world of the cuts that it has decided so far
     """
 
     bl_options = {"REGISTER", "UNDO"}
     options_shown: tuple[str, ...]
     redo_waits: ClassVar[bool] = True
+    sketch: ClassVar[tuple[Job, np.ndarray] | None] = None
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -176,6 +179,18 @@ class MapOperator(ModalRun):
             edit_mode.undo_all(context)
         redraw(context)
         return run
+
+    def _show_progress(self, context: bpy.types.Context) -> None:
+        super()._show_progress(context)
+        cuts = self._running.sketched()
+        if len(cuts):
+            MapOperator.sketch = self._running, cuts
+            redraw(context, ("VIEW_3D",))
+
+    def _stop_polling(self, context: bpy.types.Context) -> None:
+        if MapOperator.sketch is not None and MapOperator.sketch[0] is self._running:
+            MapOperator.sketch = None
+        super()._stop_polling(context)
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> Job:
         raise NotImplementedError

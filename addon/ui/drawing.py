@@ -17,9 +17,10 @@ Color = tuple[float, float, float, float]
 _handles: dict[tuple[str, str], object] = {}
 
 
-def add(space: str, name: str, draw: Callable[[], None]) -> None:
-    """Call `draw` whenever an editor's main region has been drawn."""
-    _handles[space, name] = SPACES[space].draw_handler_add(draw, (), "WINDOW", "POST_PIXEL")
+def add(space: str, name: str, draw: Callable[[], None], when: str = "POST_PIXEL") -> None:
+    """Call `draw` whenever an editor's main region has been drawn. @param when "POST_VIEW": coordinates are the world's
+    """
+    _handles[space, name] = SPACES[space].draw_handler_add(draw, (), "WINDOW", when)
 
 
 def remove(space: str, name: str) -> None:
@@ -39,14 +40,15 @@ def lines(strips: list[np.ndarray], color: Color, width: float) -> None:
 
 
 def segments(points: np.ndarray, pairs: np.ndarray | None, color: Color, width: float) -> None:
-    """Draw lines between pairs (k, 2) of points (n, 2) in 32 bits; without pairs between the first two, the next two…
+    """Draw lines between pairs (k, 2) of points (n, 2) in 32 bits, or (n, 3) in the world; without pairs between the
+    first two, the next two…
     """
     import gpu
     from gpu_extras.batch import batch_for_shader
 
     from ..blender import compat
 
-    shader = compat.flat_shader("UNIFORM_COLOR")
+    shader = compat.flat_shader("UNIFORM_COLOR", points.shape[1])
     shader.bind()
     shader.uniform_float("color", color)
     gpu.state.blend_set("ALPHA")

@@ -19,7 +19,10 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -27,12 +30,59 @@
 namespace py = pybind11;
 
 namespace koebe::python {
+namespace {
+
+/// The last sketch of a computation. Written and read on any thread.
+class CutSketch : NotCopied {
+public:
+    void draw(CutEdges edges)
+    {
+        const std::scoped_lock lock(mutex_);
+        edges_ = std::move(edges);
+    }
+    CutEdges take()
+    {
+        const std::scoped_lock lock(mutex_);
+        return std::exchange(edges_, {});
+    }
+
+private:
+    std::mutex mutex_;
+    CutEdges edges_;
+};
+
+}  // namespace
+
 void bind_domains(py::module_& m)
 {
     bind_result<PartsResult>(m, "PartsResult").def_property_readonly("part", [](const PartsResult& r) {
         return array_of(r.part);
     });
-    bind_options<PartsOptions>(m, "PartsOptions");
+    py::class_<CutSketch, std::shared_ptr<CutSketch>>(m, "CutSketch",
+                                                      R"(Where `parts` would cut, while it computes.
+
+>>> import koebe
+>>> sketch = koebe.CutSketch()
+>>> result = koebe.parts("docs/link.obj", sketch=sketch)  # another thread may ask meanwhile
+>>> print(sketch.take().shape[1], len(sketch.take()))
+2 0
+)")
+        .def(py::init<>())
+        .def(
+            "take",
+            [](CutSketch& sketch) {
+                const CutEdges edges = sketch.take();
+                py::array_t<Index> rows({edges.size(), std::size_t{2}});
+                Index* at = rows.mutable_data();
+                for (const auto& edge : edges) at = std::ranges::copy(edge, at).out;
+                return rows;
+            },
+            "(E, 2) int32: vertices of the edges that would be cut, as far as they are decided. The edges of the "
+            "result may be others. Empty if nothing is new since the last call.");
+    bind_options<PartsOptions>(m, "PartsOptions")
+        .def("draw_on", [](PartsOptions& options, const std::shared_ptr<CutSketch>& sketch) {
+            options.sketch = [sketch](CutEdges edges) { sketch->draw(std::move(edges)); };
+        });
     bind_map<PartsOptions, PartsResult>(m, "parts", parts_of);
 
     bind_result<PackedLayer>(m, "PackedLayer").def_property_readonly("island", [](const PackedLayer& r) {

@@ -34,6 +34,7 @@ PAGES = {
         "batch": ["batch"],
         "load": ["load"],
         "CancelToken": ["CancelToken"],
+        "CutSketch": ["CutSketch"],
         "example": ["example"],
         "read_field": ["read_field", "write_field", "VertexField", "read_region", "read_patch", "Patch"],
     },
@@ -73,7 +74,7 @@ ENTRIES = [
     _result.AngleError, _result.Beltrami, _result.LogAreaRatio, _result.AreaDistortion, _result.Step,
     _result.MeanOverLoops, _result.MeanRoundness, _result.Seconds, _fit.Distortion, _fit.Fit,
 ]  # fmt: skip
-CALLED = {"Surface", "EvenDial", "CancelToken"}  # classes that a program makes itself
+CALLED = {"Surface", "EvenDial", "CancelToken", "CutSketch"}  # classes that a program makes itself
 PUBLIC = set(koebe.__all__)
 
 

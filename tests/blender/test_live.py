@@ -129,6 +129,29 @@ def test_a_moved_vertex_is_followed_and_other_islands_stay(live):
     assert np.abs(after[:72] - before[:72]).max() > 1e-3
 
 
+def test_of_a_large_island_what_is_near_a_moved_vertex_follows(addon, live, monkeypatch):
+    for name in ("LARGE", "PATCH"):
+        monkeypatch.setattr(addon("maps.live"), name, 30)  # of 72 faces an island
+    settings = bpy.context.scene.koebe_uv
+    settings.keep_angles, settings.even = False, 0.5
+    obj = live_sheet(live)
+    random, near = np.random.default_rng(8), 0
+    for _ in range(12):
+        before = uv_of(obj)
+        mesh = bmesh.from_edit_mesh(obj.data)
+        mesh.verts.ensure_lookup_table()
+        mesh.verts[random.integers(len(mesh.verts))].co.z += random.normal() * 0.3
+        bmesh.update_edit_mesh(obj.data)
+        follow(live)
+        after = uv_of(obj)
+        changed = (after != before).any(axis=(1, 2))
+        assert live.live.message == "" and changed.any()
+        near += changed.sum() < 60
+        x, y = np.moveaxis(after, -1, 0)
+        assert ((x[:, 2] - x[:, 0]) * (y[:, 3] - y[:, 1]) > (x[:, 3] - x[:, 1]) * (y[:, 2] - y[:, 0])).all()
+    assert near > 8
+
+
 def warm_and_cold(addon, live, monkeypatch, change):
     """The UVs of the edited sheet after a change, as Live has them from where they were, and mapped anew."""
     found = []

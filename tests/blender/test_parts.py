@@ -1,5 +1,7 @@
 """Unwrap to Parts: any surface, cut in the UVs alone."""
 
+import dataclasses
+
 import bpy
 import fingerprint
 import numpy as np
@@ -293,3 +295,24 @@ def test_a_group_to_show_that_nobody_has_is_refused():
     with pytest.raises(RuntimeError, match="Avoid is the vertex group 'Nothing', but no object has this group"):
         unwrap(show="Nothing")
     assert scenes.mesh_state(obj.data) == state
+
+
+@pytest.mark.alike
+@pytest.mark.parametrize("atlas", [False, True])
+def test_cuts_are_sketched_where_the_objects_stand(atlas, addon):
+    first, second = MODELS["sphere"](), MODELS["torus"]()
+    first.location, second.location = (3.0, 0.0, 1.0), (-2.0, 5.0, 0.0)
+    bpy.context.view_layer.update()
+    options, choice = (getattr(addon("maps.options"), name)() for name in ("Options", "PartsChoice"))
+    choice = dataclasses.replace(choice, atlas=atlas)
+    job = addon("jobs.parts_job").PartsJob([first, second], options, choice)
+    assert len(job.sketched()) == 0, "nothing is decided yet"
+    job.compute()
+    found = {frozenset(map(tuple, ends)) for ends in job.sketched().round(3).tolist()}
+    assert len(job.sketched()) == 0, "nothing is new"
+    for obj in (first, second):
+        places = [tuple((obj.matrix_world @ v.co)[:]) for v in obj.data.vertices]
+        edges = {frozenset(tuple(np.float32(places[v]).round(3).tolist()) for v in e.vertices) for e in obj.data.edges}
+        assert len(found & edges) > 5
+        found -= edges
+    assert not found, "all lie on edges"

@@ -202,6 +202,15 @@ def test_labels_are_words_that_an_artist_knows():
     assert not any("Uniformize" in label for label in labels)
 
 
+def test_buttons_and_the_guide_have_none_of_the_other_words(folder):
+    sources = [path.read_text(encoding="utf-8") for path in Path(folder).rglob("*.py")]
+    buttons = {text for source in sources for text in re.findall(r'\btext="([^"]+)"', source)}
+    guide = (Path(__file__).resolve().parents[2] / "docs" / "guide.md").read_text(encoding="utf-8")
+    labels = set(re.findall(r"\*+([^*\n]+)\*+", guide))
+    assert len(buttons) > 30 and len(labels) > 50
+    assert not (buttons | labels) & GONE and not any("Uniformize" in text for text in buttons | labels)
+
+
 def test_everything_an_artist_meets_has_a_tooltip_that_teaches():
     types = [bpy.ops.uv.koebe_unwrap.get_rna_type(), bpy.ops.uv.koebe_uniformize.get_rna_type(),
              bpy.ops.uv.koebe_checker.get_rna_type(), bpy.ops.uv.koebe_select_loop.get_rna_type(),

@@ -39,7 +39,7 @@ def test_islands_are_aligned_and_sorted_and_undone(window):
     window.open_part("arrange", "IMAGE_EDITOR")
     window.scroll_down("IMAGE_EDITOR")
     before = window.run(BOXES)
-    x, y = window.find_button("IMAGE_EDITOR", "mode='RIGHT'", 0.275)
+    x, y = window.find_button("IMAGE_EDITOR", "mode='RIGHT'", 66)
     window.click(x, y)
     after = window.run(BOXES)
     assert len({round(box[2], 4) for box in after}) == 1 and len({round(box[2], 4) for box in before}) == 6
@@ -58,7 +58,7 @@ def test_islands_are_aligned_and_sorted_and_undone(window):
 
 def test_a_grid_of_trims_takes_islands_by_the_mouse(window):
     before = window.run(BOXES)
-    press(window, "action='GRID'", 0.79)
+    press(window, "action='GRID'", -48)
     assert [name for name, _ in window.ask(ROWS)] == ["A1", "A2", "A3", "A4"]
     window.scroll_down("IMAGE_EDITOR")
     window.picture("92_beside_the_trims")

@@ -2,7 +2,7 @@
 
 import time
 
-from window import DONE, only, xdotool
+from window import DONE, LAYERS, only, xdotool
 
 MODEL = only("primitive_monkey_add()",
              'obj.modifiers.new("Smooth", "SUBSURF").levels = 3',
@@ -17,6 +17,8 @@ if "Koebe" in mesh.uv_layers:
 """
 OPTION = "bpy.context.window_manager.operators[-1].properties"
 BAR = "next(m.ModalRun.bar for n, m in __import__('sys').modules.items() if n.endswith('operators.modal_run'))"
+SKETCH = """next(len(m.MapOperator.sketch[1]) if m.MapOperator.sketch else 0
+    for n, m in __import__('sys').modules.items() if n.endswith('operators.run_operator'))"""
 ROW = {"keep_angles": (170, 88)}  # pixels from the pointer to rows of the panel that F9 opens
 
 
@@ -72,6 +74,27 @@ def test_the_window_lives_while_the_redo_panel_computes(window):
     assert window.run(HASH) == "", "two are before it"
     window.key("ctrl+shift+z", "ctrl+shift+z")
     assert window.run(HASH) == second
+
+
+def test_cuts_are_sketched_long_before_the_map_is_there(window):
+    window.prepare(MODEL)
+    window.choose(shape="PARTS")
+    at = window.find_button("VIEW_3D", "koebe_unwrap")
+    for last in (False, True):
+        window.move(*at)
+        pressed = time.monotonic()
+        xdotool("click", "1")
+        window.wait(SKETCH, 60.0)
+        sketched = time.monotonic() - pressed
+        assert window.ask(BAR) is not None and window.ask(LAYERS) == 0, "nothing is written yet"
+        window.picture(f"103_sketch_{last}")
+        if not last:
+            xdotool("key", "Escape")
+        window.wait(f"{BAR} is None", 240.0)
+        print(f"sketch after {sketched:.2f} s, all after {time.monotonic() - pressed:.2f} s")
+        window.settle()
+        assert window.ask(SKETCH) == 0 and window.ask(LAYERS) == last
+    window.choose(shape="AUTO")
 
 
 def test_a_second_change_takes_the_place_of_the_first(window):

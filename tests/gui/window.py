@@ -255,9 +255,12 @@ class Window:
         self.settle()
 
     def find_button(self, area, text, fraction=0.5, step=14):
-        """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it)."""
+        """Where in the sidebar of an area a button is whose Python command has this text (Ctrl C copies it).
+
+        fraction  of the sidebar's width, from the left; or pixels from the left, or negative ones from the right
+        """
         x, top, width, height = self.region(area, "UI")
-        x += int(width * fraction)
+        x += int(fraction * width if abs(fraction) < 1 else fraction % width)
         for y in 2 * [*range(top + step, top + height, step)]:  # twice, if a busy machine is late with an answer
             self.run("bpy.context.window_manager.clipboard = ''")
             self.move(x, y)

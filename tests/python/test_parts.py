@@ -206,6 +206,36 @@ def read_obj(path):
     return np.array(vertices), np.array(places), faces
 
 
+@pytest.mark.parametrize("model", ["large", "small", "hard"])
+def test_cuts_are_sketched_on_edges_before_they_are_made(model):
+    if model == "hard":
+        corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+        quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+        vertices, triangles = corners, triangulated(quads)
+    else:
+        vertices, faces = finger(72, 120) if model == "large" else (VERTICES, FACES)
+        triangles = triangulated(faces)
+    order = np.random.default_rng(5).permutation(len(vertices))  # numbers are the input's
+    vertices, triangles = vertices[order], np.argsort(order)[triangles]
+    sketch, seen = koebe.CutSketch(), []
+    result = koebe.parts(
+        vertices, triangles, sketch=sketch,
+        progress=lambda fraction, stage: seen.append(sketch.take()) if stage in ("even", "pack") else None,
+    )  # fmt: skip
+    early = seen[0]
+    assert early.dtype == np.int32 and early.shape[1:] == (2,) and len(early) > 5
+    edges = {(min(a, b), max(a, b)) for f in triangles for a, b in zip(f, np.roll(f, 1))}
+    cuts = {(min(a, b), max(a, b)) for a, b in early.tolist()}
+    assert cuts <= edges
+    faces, corners = uv_measures.edge_pairs(triangles)
+    ends = result.uv[faces[:, :, None], corners]
+    apart = (ends[:, 0] != ends[:, 1]).any(axis=(1, 2))
+    made = set(map(tuple, np.sort(triangles[faces[:, :1], corners[:, 0]][apart], axis=1).tolist()))
+    assert len(cuts & made) > 0.3 * len(cuts), "many of them stay"
+    assert len(sketch.take()) == 0, "nothing is new"
+    assert (result.uv == koebe.parts(vertices, triangles).uv).all(), "a sketch changes nothing"
+
+
 @pytest.mark.parametrize("surface", [(VERTICES, FACES), perforated()])
 def test_the_command_keeps_vertices_and_polygons(tmp_path, surface):
     vertices, faces = surface

@@ -11,6 +11,7 @@
 #include "parts/divided_faces.h"
 #include "parts/hard_surface.h"
 #include "parts/mesh_parts.h"
+#include "parts/sketched_cuts.h"
 
 #include <algorithm>
 #include <array>
@@ -130,9 +131,8 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
 
 /// The divided edges of faces whose pieces are neither in one hard part nor in none, and edges that are bent in the
 /// plane.
-std::vector<std::array<Index, 2>> torn_edges(const DividedFaces& faces, Eigen::Index undivided,
-                                             const std::vector<FlatPart>& parts,
-                                             const std::vector<LeftOutFace>& left_out)
+CutEdges torn_edges(const DividedFaces& faces, Eigen::Index undivided, const std::vector<FlatPart>& parts,
+                    const std::vector<LeftOutFace>& left_out)
 {
     // The part of each piece, and the places of the vertices of divided faces.
     std::vector<Index> part(faces.face.size(), -1);
@@ -191,6 +191,13 @@ std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& 
         hard = std::move(found.parts);
         opened = std::move(found.rest);
         layout.noise = found.noise;
+    }
+    if (options.sketch) {
+        options.sketch = [around = boundaries_of(hard), &given](CutEdges edges) {
+            edges.insert(edges.end(), around.begin(), around.end());
+            given.sketch(repeated(std::move(edges)));
+        };
+        if (!hard.empty()) options.sketch({});
     }
     if (!faces.face.empty()) {
         const auto torn = torn_edges(faces, undivided.rows(), hard, opened.left_out);

@@ -7,6 +7,7 @@
 #include "parts/fine_parts.h"
 #include "parts/hard_surface.h"
 #include "parts/mesh_piece.h"
+#include "parts/sketched_cuts.h"
 #include "surface/importance.h"
 
 #include <algorithm>
@@ -78,6 +79,7 @@ public:
         for (const std::size_t i : big) {
             stage(static_cast<double>(pieces_[i].input.piece.triangles.rows()));
             decide_parts(pieces_[i], total_, options_, options_.threads, context_, efforts[i]);
+            if (i != big.back()) sketch();
         }
         stage(static_cast<double>(total_));
         side_by_side(small.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
@@ -86,6 +88,7 @@ public:
         for (std::size_t i = 0; i < pieces_.size(); ++i)
             result_.maps += efforts[i].maps * static_cast<double>(pieces_[i].input.piece.triangles.rows()) /
                             static_cast<double>(total_);
+        sketch();
     }
 
     /// Makes the parts even. Parts that were decided on proxies are then made of the fine surface, and relaxed.
@@ -102,6 +105,11 @@ public:
     }
 
 private:
+    void sketch() const
+    {
+        if (options_.sketch) options_.sketch(sketched_boundaries(pieces_, context_));
+    }
+
     /// @param stitch whether parts may be joined again @return E
     double make_all_even(bool stitch)
     {
@@ -121,6 +129,7 @@ private:
         on_proxy.dearer = tuning::proxy_factor;
         on_proxy.rounds = rounds_on_proxy;
         double even = make_together_even(on_proxy);
+        sketch();
 
         // Make the same parts of the fine surface. Where angles are worse than at 0, go back.
         if (even > 0.0) {

@@ -329,6 +329,11 @@ PartsResult parts_of(const Vertices& vertices, const Triangles& triangles, const
         here.importance = mesh.of_vertices(here.importance);
         for (auto* const edges : {&here.slits, &here.cuts})
             for (auto& edge : *edges) edge = {mesh.vertex(edge[0]), mesh.vertex(edge[1])};
+        if (here.sketch)
+            here.sketch = [&mesh, given = std::move(here.sketch)](CutEdges edges) {
+                for (auto& edge : edges) std::ranges::for_each(edge, [&](Index& v) { mesh.name_vertex(v); });
+                given(std::move(edges));
+            };
         return compute(mesh.vertices, mesh.triangles, here, length_of_unit, mesh.turn.row(2), own);
     };
     return corner_map<PartsResult>(vertices, triangles, options, context, compute_here, name_parts);

@@ -9,10 +9,13 @@
 #include "pipeline/result.h"
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
 namespace koebe {
+
+using CutEdges = std::vector<std::array<Index, 2>>;  ///< edges, as pairs of vertices
 
 struct PartsOptions : MapOptions {
     /// Cost of one more part, in overflow (evenness.h) of a surface of area 1. A cut as long as the root of the area
@@ -22,11 +25,11 @@ struct PartsOptions : MapOptions {
     /// takes are refused.
     bool cut = true;
     std::vector<Index> polygon = {};  ///< (F) faces with the same number are not cut apart; empty: all may be
-    /// Edges, as pairs of vertices. A tube is opened along them if they lead from one of its loops to the other.
-    std::vector<std::array<Index, 2>> slits = {};
-    /// Edges, as pairs of vertices: no part goes over one. An edge inside a polygon, or one that separates nothing, as
+    /// A tube is opened along these edges if they lead from one of its loops to the other.
+    CutEdges slits = {};
+    /// No part goes over one of these edges. An edge inside a polygon, or one that separates nothing, as
     /// it neither leads to a border nor goes on along another cut, does nothing. Needs `cut`.
-    std::vector<std::array<Index, 2>> cuts = {};
+    CutEdges cuts = {};
     /// (V) from 0 to 1: cuts and darts keep away from vertices of weight 1, where they count as 8 times as long.
     /// Borders (hidden_cuts.h), slits and darts obey. Cuts through handles do not obey. Empty: 0 at all vertices.
     std::vector<double> show = {};
@@ -60,6 +63,9 @@ struct PartsOptions : MapOptions {
     bool stack = false;     ///< parts that are copies of another part lie on it (twins.h)
     bool stack_mirrored = false;  ///< parts that are mirror images of another part lie on it
     int threads = 0;              ///< most threads; 0: one for each core. The result is the same for any number
+    /// Called with the cuts that are decided so far, on any thread and some times: long before the result, which may
+    /// have others. Empty: nobody waits for them
+    std::function<void(CutEdges)> sketch = {};
 };
 
 struct PartReport {

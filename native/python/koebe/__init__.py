@@ -7,7 +7,7 @@ Domains". Arrays in, UVs and a report out; nothing here knows Blender.
 from ._batch import batch
 from ._example import example
 from ._fields import disk_to_uv, uv_to_disk
-from ._koebe import CancelToken, __version__
+from ._koebe import CancelToken, CutSketch, __version__
 from ._load import load
 from ._native import _koebe
 from ._plot import plot
@@ -45,6 +45,7 @@ __all__ = [
     "Cancelled",
     "ConformalDomain",
     "CutResult",
+    "CutSketch",
     "EvenDial",
     "FileError",
     "InputError",

@@ -80,7 +80,7 @@ class PartsResult(DomainMap):
         )
 
 
-@takes("parts", polygon=None, slits=None, cuts=None, progress=None, cancel=None)
+@takes("parts", polygon=None, slits=None, cuts=None, sketch=None, progress=None, cancel=None)
 def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]") -> PartsResult:
     """Cut a surface in its UVs only into disks and tubes of even texel density, packed into a square or onto tiles.
 
@@ -91,6 +91,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     slits        (E, 2) vertices of edges along which a tube is opened if they lead from one of its loops to the other.
                  None: along a short, straight path
     cuts         (E, 2) vertices of edges that no part goes over, beside all other cuts: borders of materials
+    sketch       a CutSketch that gets the cuts as soon as they are decided
     mask, progress, cancel    as for `uniformize`
     Raises InputError (OptionError for an option), TopologyError with cut=False, SolverError, Cancelled, or MemoryError.
 
@@ -111,6 +112,8 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
         if given[name] is not None:
             edges = _edges(name, given[name], len(source.vertices))
             setattr(options, name, (edges if source.first is None else source.first[edges]).tolist())
+    if given["sketch"] is not None:
+        options.draw_on(given["sketch"])
     native = source.call(_koebe.parts, options, *run)
     return PartsResult({**native.report(), "options": said}, native, source)
 
