@@ -1,12 +1,14 @@
 #include "parts/regions.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cost/tolerances.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -41,7 +43,10 @@ constexpr int absorbing_rounds = 8;
 class RegionGrowth {
 public:
     RegionGrowth(const CutSurface& surface, double tolerance, bool noisy)
-        : surface_(surface), vector_area_(surface.areas.size(), 3), least_cosine_(surface.areas.size())
+        : surface_(surface),
+          next_piece_(numbers_below(surface.areas.size())),
+          vector_area_(surface.areas.size(), 3),
+          least_cosine_(surface.areas.size())
     {
         regions_.tolerance = tolerance;
         if (noisy) regions_.noise = tolerance;
@@ -49,6 +54,8 @@ public:
             vector_area_.row(f) = 0.5 * (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0));
             least_cosine_[f] = least_cosine(f, tolerance);
         }
+        if (noisy) keep_together(surface.polygon);
+        keep_together(surface.face);
     }
 
     PlanarRegions run()
@@ -66,6 +73,19 @@ public:
 private:
     Index faces() const { return static_cast<Index>(surface_.areas.size()); }
     Eigen::RowVector3d corner(Index f, int k) const { return surface_.vertices.row(surface_.surface.triangles(f, k)); }
+
+    /// Faces of one number are pieces of one face, if they lie in one plane.
+    void keep_together(const std::vector<Index>& number)
+    {
+        std::map<Index, std::vector<Index>> pieces;
+        for (std::size_t f = 0; f < number.size(); ++f)
+            if (next_piece_[f] == static_cast<Index>(f)) pieces[number[f]].push_back(static_cast<Index>(f));
+        for (const auto& [own, faces] : pieces) {
+            const RegionPlane plane = plane_of(faces);
+            if (!std::ranges::all_of(faces, [&](Index f) { return lies_in(plane, f); })) continue;
+            for (std::size_t i = 0; i < faces.size(); ++i) next_piece_[faces[i]] = faces[(i + 1) % faces.size()];
+        }
+    }
 
     /// A vertex off by the tolerance turns a face's normal by the tolerance over the height.
     double least_cosine(Index f, double tolerance) const
@@ -95,9 +115,19 @@ private:
         return plane;
     }
 
+    /// A face with the other pieces of the face that was divided.
+    template <class Visit>
+    void each_piece(Index f, const Visit& visit) const
+    {
+        visit(f);
+        for (Index g = next_piece_[f]; g != f; g = next_piece_[g]) visit(g);
+    }
+
     bool lies_in(const RegionPlane& plane, Index f) const
     {
-        return lies_near(plane, f, least_cosine_[f], regions_.tolerance);
+        bool all = true;
+        each_piece(f, [&](Index g) { all = all && lies_near(plane, g, least_cosine_[g], regions_.tolerance); });
+        return all;
     }
 
     bool lies_near(const RegionPlane& plane, Index f, double cosine, double tolerance) const
@@ -118,8 +148,11 @@ private:
             if (t == no_twin || regions_.of[f] == regions_.of[face_of(t)]) continue;
             const RegionPlane &own = regions_.planes[regions_.of[f]], &other = regions_.planes[regions_.of[face_of(t)]];
             const double most = noise_reach * regions_.noise;
-            if (!(other.area > much_larger * own.area) || !lies_near(other, f, least_cosine(f, most), most)) continue;
-            regions_.of[f] = regions_.of[face_of(t)];
+            if (!(other.area > much_larger * own.area)) continue;
+            bool all = true;
+            each_piece(f, [&](Index g) { all = all && lies_near(other, g, least_cosine(g, most), most); });
+            if (!all) continue;
+            each_piece(f, [&](Index g) { regions_.of[g] = regions_.of[face_of(t)]; });
             any = true;
         }
         return any;
@@ -129,22 +162,27 @@ private:
     std::vector<Index> grown(Index seed, const RegionPlane& plane)
     {
         const Index number = static_cast<Index>(regions_.planes.size());
-        std::vector<Index> own{seed};
-        regions_.of[seed] = number;
+        std::vector<Index> own;
+        const auto add = [&](Index f) {
+            regions_.of[f] = number;
+            own.push_back(f);
+        };
+        each_piece(seed, add);
         for (std::size_t head = 0; head < own.size(); ++head)
             for (Index h = 3 * own[head]; h < 3 * own[head] + 3; ++h) {
                 const Index t = surface_.surface.twin[h];
                 if (t == no_twin || regions_.of[face_of(t)] >= 0 || !lies_in(plane, face_of(t))) continue;
-                regions_.of[face_of(t)] = number;
-                own.push_back(face_of(t));
+                each_piece(face_of(t), add);
             }
         return own;
     }
 
     void add_region(Index seed)
     {
-        RegionPlane plane = plane_of({seed});
-        std::vector<Index> own = grown(seed, plane);
+        std::vector<Index> own;
+        each_piece(seed, [&](Index f) { own.push_back(f); });
+        const RegionPlane plane = plane_of(own);
+        own = grown(seed, plane);
         for (int fit = 0; fit < most_fits && own.size() > 1; ++fit) {
             const RegionPlane fitted = plane_of(own);
             if (!lies_in(fitted, seed)) break;
@@ -158,8 +196,9 @@ private:
     }
 
     const CutSurface& surface_;
-    Vertices vector_area_;   // (F, 3)
-    VectorXd least_cosine_;  // (F) between a face's normal and the normal of its plane
+    std::vector<Index> next_piece_;  // (F) of the same divided face, in a cycle; of another face itself
+    Vertices vector_area_;           // (F, 3)
+    VectorXd least_cosine_;          // (F) between a face's normal and the normal of its plane
     PlanarRegions regions_;
 };
 
