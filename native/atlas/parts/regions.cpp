@@ -24,12 +24,13 @@ struct NoiseLevel {
     double tolerance, share, large;
     bool waves = false;
 };
-constexpr NoiseLevel noise_levels[] = {{3e-5, 0.25, 0.01}, {1e-4, 0.25, 0.01}, {3e-4, 0.25, 0.01},
+constexpr NoiseLevel noise_levels[] = {{3e-5, 0.08, 0.01}, {1e-4, 0.08, 0.01}, {3e-4, 0.25, 0.01},
                                        {1e-3, 0.25, 0.01}, {2e-3, 0.4, 0.02},  {4e-3, 0.6, 0.03}};
 constexpr NoiseLevel slight_noise[] = {{1e-4, 0.15, 0.01}};  // tried first: most surfaces have none
-constexpr NoiseLevel any_noise[] = {{3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
+constexpr NoiseLevel any_noise[] = {{1e-4, 0.05, 0.01}, {3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
 constexpr NoiseLevel sheet_waves{4e-3, 0.6, 0.03, true};  // tried last: a sheet with low waves is flat
-constexpr double worth_noise = 0.1;        // of the area: large regions hold so much more with noise than without
+constexpr double most_worth_noise = 0.1;   // of the area: large regions hold so much more with noise, or half as
+                                           // much as at least
 constexpr std::size_t fewest_planes = 12;  // of surfaces on which noise is looked for: a box of triangles
 constexpr double sharp_edge = 0.94;        // cosine of 20 degrees between the planes on both sides of a crease
 constexpr double still_grows = 0.03;       // of the area: a level that holds so much more is better
@@ -289,10 +290,11 @@ PlanarRegions planar_regions(const CutSurface& surface)
         const double share = large_share(surface, regions, level);
         return std::pair(std::move(regions), share);
     };
-    const double least = large_share(surface, exact, noise_levels[0]) + worth_noise;
-    const auto is_noisy = [&](const NoiseLevel& level) {
-        return at_level(level).second >= std::max(least, level.share);
+    const double exact_share = large_share(surface, exact, noise_levels[0]);
+    const auto least_at = [&](const NoiseLevel& level) {
+        return std::max(exact_share + std::min(most_worth_noise, 0.5 * level.share), level.share);
     };
+    const auto is_noisy = [&](const NoiseLevel& level) { return at_level(level).second >= least_at(level); };
     const bool is_flat = flat_share(surface, exact) >= most_area;
     if (is_flat ? std::ranges::any_of(slight_noise, is_noisy) : std::ranges::any_of(any_noise, is_noisy)) {
         // The first level at which large regions hold nearly as much as at the next level.
@@ -301,7 +303,7 @@ PlanarRegions planar_regions(const CutSurface& surface)
         for (const NoiseLevel& level : noise_levels) {
             auto [regions, share] = at_level(level);
             if (found && share < most + still_grows) break;
-            if (share < std::max(least, level.share)) continue;
+            if (share < least_at(level)) continue;
             found = std::move(regions);
             most = share;
         }
