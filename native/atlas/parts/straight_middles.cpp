@@ -21,7 +21,7 @@ struct PlacedEdge {
 };
 
 /// Moves the middles of a part's divided edges. @return the edges that cannot be straight
-std::vector<const DividedEdge*> straightened(const std::vector<PlacedEdge>& edges, FlatPart& part)
+std::vector<const DividedEdge*> edges_not_straight(const std::vector<PlacedEdge>& edges, FlatPart& part)
 {
     PlanarPoints& points = part.points;
     const PlanarPoints before = points;
@@ -88,7 +88,7 @@ lay_middles_straight(const DividedFaces& faces, const std::vector<LeftOutFace>& 
             edges[part[edge.face]].push_back({&edge, at(edge.from), at(edge.to), at(edge.middle)});
     }
     for (const auto& [k, own] : edges)
-        for (const DividedEdge* const edge : straightened(own, parts[k])) kept.push_back({edge->from, edge->to});
+        for (const DividedEdge* const edge : edges_not_straight(own, parts[k])) kept.push_back({edge->from, edge->to});
     return kept;
 }
 
