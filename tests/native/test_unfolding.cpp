@@ -3,6 +3,7 @@
 
 #include "core/connectivity.h"
 #include "mesh/topology.h"
+#include "parts/regions.h"
 
 #include <gtest/gtest.h>
 
@@ -227,6 +228,46 @@ TEST(Unfolding, NoiseDoesNotHideTheSidesOfABox)
     for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
     const double noise = 2e-3 * surface.vertices.col(2).maxCoeff() / 2.0;
     EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), 0.0, 1.5 * noise), 8.0 * noise);
+}
+
+TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
+{
+    // A ball cut by a plane: the plate is a fifth of the area.
+    constexpr int n = 40;
+    Solid ball;
+    std::vector<std::vector<Index>> rings;
+    const auto add_ring = [&](double radius, double height) {
+        rings.emplace_back();
+        for (int k = 0; k < n; ++k) {
+            const double turn = 2.0 * std::numbers::pi * k / n;
+            rings.back().push_back(static_cast<Index>(ball.points.size()));
+            ball.points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), height);
+        }
+    };
+    const double plate = std::sqrt(0.75);
+    for (int i = 1; i <= 6; ++i) add_ring(plate * i / 6.0, -0.5);
+    for (int i = 1; i < 18; ++i) {
+        const double down = 2.0 * std::numbers::pi / 3.0 * (1.0 - i / 18.0);
+        add_ring(std::sin(down), std::cos(down));
+    }
+    for (const double height : {-0.5, 1.0}) ball.points.emplace_back(0.0, 0.0, height);
+    const Index top = static_cast<Index>(ball.points.size()) - 1;
+    for (int k = 0; k < n; ++k) {
+        const int next = (k + 1) % n;
+        ball.polygons.push_back({top - 1, rings[0][next], rings[0][k]});
+        for (std::size_t i = 0; i + 1 < rings.size(); ++i)
+            ball.polygons.push_back({rings[i][k], rings[i][next], rings[i + 1][next], rings[i + 1][k]});
+        ball.polygons.push_back({rings.back()[k], rings.back()[next], top});
+    }
+    for (std::size_t v = 0; v < ball.points.size(); ++v)
+        for (int axis = 0; axis < 3; ++axis)
+            ball.points[v][axis] += 1e-4 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
+    const CutSurface surface = surface_of(ball);
+    const PlanarRegions regions = planar_regions(surface);
+    EXPECT_GT(regions.noise, 0.0);
+    double largest = 0.0;
+    for (const RegionPlane& plane : regions.planes) largest = std::max(largest, plane.area);
+    EXPECT_NEAR(largest, 0.2, 0.01);
 }
 
 TEST(Unfolding, SliversThatNoiseTurnsOverStayInTheirPlanes)

@@ -99,6 +99,22 @@ def test_a_waved_grid_is_a_rectangle_with_straight_rows():
         assert (off_axes(outline(triangles, result.uv)) < 1e-9) == rectify and result.flipped == 0
 
 
+def test_a_frustum_with_noise_keeps_its_lengths():
+    """Its side is a grid of quadrilaterals, and rows of one width would stretch it."""
+    n, noise = 12, np.random.default_rng(1)
+    turn = np.arange(n) * 2.0 * np.pi / n
+    rings = [np.stack([r * np.cos(turn), r * np.sin(turn), 0.0 * turn + z], axis=-1) for r, z in ((1, 0), (0.65, 9.2))]
+    vertices = np.concatenate([*rings, [[0, 0, 0], [0, 0, 9.2]]])
+    vertices += 3.2e-3 * noise.normal(size=vertices.shape)
+    here, after = np.arange(n), np.roll(np.arange(n), -1)
+    side = triangles_of(np.stack([here, after, after + n, here + n], axis=-1))
+    ends = [[[2 * n, b, a], [2 * n + 1, a + n, b + n]] for a, b in zip(here, after, strict=True)]
+    triangles = np.concatenate([side, np.reshape(ends, (-1, 3))])
+    polygon = np.concatenate([np.repeat(here, 2), n + np.arange(2 * n)])
+    result = koebe.parts(vertices, triangles, polygon=polygon)
+    assert result.whole > 0.99 and result.density_ratio_5_95 < 1.01
+
+
 @pytest.mark.parametrize(("margin", "pixels"), [(8, 2048), (0, 512), (4, 128), (40.5, 1024)])
 def test_islands_keep_the_margin_in_pixels(margin, pixels):
     pieces = [plus(2), plus(1), *([turned(p, k) * (0.5 + 0.2 * k), t] for k, (p, t) in enumerate([plus(1)] * 3))]

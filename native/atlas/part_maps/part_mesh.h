@@ -17,12 +17,13 @@ enum class MapPurpose { judging, result };
 struct CutSurface {
     Vertices vertices;
     Surface surface;
-    VectorXd areas;                           ///< (F)
-    VectorXd lengths;                         ///< (3F) lengths of half-edges
-    std::vector<Index> polygon;               ///< (F) faces with the same number are not cut apart; empty: all may be
-    std::vector<char> slit;                   ///< (3F) 1 where tubes should be opened; empty: no wish
-    std::vector<char> seam;                   ///< (3F) 1 on a boundary that is a cut; empty: no boundary is
-    std::vector<double> shown;                ///< (V) factor on the length of cuts, as they are seen there; empty: 1
+    VectorXd areas;              ///< (F)
+    VectorXd lengths;            ///< (3F) lengths of half-edges
+    std::vector<Index> polygon;  ///< (F) faces with the same number are not cut apart; empty: all may be
+    std::vector<Index> face;     ///< (F) pieces of a divided face have one number; empty: no face is divided
+    std::vector<char> slit;      ///< (3F) 1 where tubes should be opened; empty: no wish
+    std::vector<char> seam;      ///< (3F) 1 on a boundary that is a cut; empty: no boundary is
+    std::vector<double> shown;   ///< (V) factor on the length of cuts, as they are seen there; empty: 1
     MapPurpose purpose = MapPurpose::result;  ///< of maps of its parts
 };
 

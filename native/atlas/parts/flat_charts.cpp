@@ -11,6 +11,7 @@
 #include "parts/regions.h"
 #include "parts/tension.h"
 #include "planar/boundary_crossings.h"
+#include "planar/rigid_fit.h"
 #include "surface/loop_edges.h"
 
 #include <Eigen/Geometry>
@@ -160,7 +161,20 @@ private:
             const Complex from = in_plane(in_net(chart, next_halfedge(t))), to = in_plane(in_net(chart, t));
             Complex turned = (b - a) / (to - from);
             turned = std::isfinite(std::abs(turned)) && std::abs(turned) > 0.0 ? turned / std::abs(turned) : 1.0;
-            put(piece[face_of(t)], {turned, 0.5 * (a + b) - turned * 0.5 * (from + to)});
+            PlaneMotion motion{turned, 0.5 * (a + b) - turned * 0.5 * (from + to)};
+            if (regions_.noise > 0.0) {  // then one edge says little: all edges between the two count
+                RigidFit fit;
+                for (const Index f : faces[piece[face_of(t)]])
+                    for (Index own = 3 * f; own < 3 * f + 3; ++own) {
+                        const Index other = chart.twin[own];
+                        if (other == no_twin || piece[face_of(other)] != piece[face_of(h)]) continue;
+                        const double length = surface_.lengths[in_net(chart, own)];
+                        fit.add(charts_.at[in_net(chart, next_halfedge(other))], in_plane(in_net(chart, own)), length);
+                        fit.add(charts_.at[in_net(chart, other)], in_plane(in_net(chart, next_halfedge(own))), length);
+                    }
+                motion = {fit.turn(), fit.moved(0.0)};
+            }
+            put(piece[face_of(t)], motion);
         }
     }
 

@@ -12,12 +12,12 @@
 #include "parts/hard_surface.h"
 #include "parts/mesh_parts.h"
 #include "parts/sketched_cuts.h"
+#include "parts/straight_middles.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <iterator>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -28,8 +28,7 @@
 namespace koebe {
 namespace {
 
-constexpr double still_straight = 1e-6;  // in roots of the surface's area
-constexpr int most_divisions = 4;        // of faces, each without the edges that the ones before have torn
+constexpr int most_divisions = 4;  // of faces, each without the edges that the ones before have torn
 
 /// First into the unit cube, as areas of huge or tiny meshes are beyond the range of a double.
 struct Sized {
@@ -113,7 +112,8 @@ private:
     std::unordered_set<std::uint64_t> border_;
 };
 
-std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertices, const PartsOptions& options)
+std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertices, const std::vector<Index>& face,
+                                   const PartsOptions& options)
 {
     const SeamPlaces seams(opened, vertices);
     std::vector<FlatPiece> pieces;
@@ -123,49 +123,15 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
         input.seam = seams.of(input.piece);
         input.piece.vertices = vertices(input.piece.source_vertex, Eigen::all);
         input.polygon = values_at(options.polygon, input.piece.source_face);
+        input.face = values_at(face, input.piece.source_face);
         input.shown = cut_prices(options.show, input.piece.source_vertex);
         pieces.push_back({std::move(input)});
     }
     return pieces;
 }
 
-/// The divided edges of faces whose pieces are neither in one hard part nor in none, and edges that are bent in the
-/// plane.
-CutEdges torn_edges(const DividedFaces& faces, Eigen::Index undivided, const std::vector<FlatPart>& parts,
-                    const std::vector<LeftOutFace>& left_out)
-{
-    // The part of each piece, and the places of the vertices of divided faces.
-    std::vector<Index> part(faces.face.size(), -1);
-    std::map<std::pair<Index, Index>, Eigen::RowVector2d> places;
-    std::set<Index> divided, torn;
-    for (const DividedEdge& edge : faces.edges) divided.insert(edge.face);
-    for (std::size_t k = 0; k < parts.size(); ++k)
-        for (std::size_t i = 0; i < parts[k].faces.size(); ++i) {
-            const Index f = parts[k].faces[i];
-            part[f] = static_cast<Index>(k);
-            if (divided.contains(faces.face[f]))
-                for (const Index v : parts[k].surface.triangles.row(static_cast<Eigen::Index>(i)))
-                    places[{faces.face[f], parts[k].original[v]}] = parts[k].points.row(v);
-        }
-    for (std::size_t i = 0; i < part.size(); ++i)
-        if (part[i] != part[faces.face[i]]) torn.insert(faces.face[i]);
-    for (const LeftOutFace& own : left_out)
-        for (const Index f : {own.face, own.like})
-            if (f >= undivided) torn.insert(faces.face[f]);
-    const auto is_bent = [&](const DividedEdge& edge) {
-        const auto at = [&](Index v) { return places.at({edge.face, v}); };
-        return !(((1.0 - edge.share) * at(edge.from) + edge.share * at(edge.to) - at(edge.middle)).norm() <
-                 still_straight);
-    };
-    std::vector<std::array<Index, 2>> edges;
-    for (const DividedEdge& edge : faces.edges)
-        if (torn.contains(edge.face) || (part[edge.face] >= 0 && is_bent(edge))) edges.push_back({edge.from, edge.to});
-    return edges;
-}
-
-/// @param faces the surface. Outside hard parts its divided faces are whole
 /// @param kept gets the edges that must not be divided @return no value if there are any
-std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& vertices, const Triangles& undivided,
+std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertices, const Triangles& undivided,
                                      const PartsOptions& given, std::vector<std::array<Index, 2>>& kept,
                                      ExecutionContext& context)
 {
@@ -187,7 +153,7 @@ std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& 
     std::vector<FlatPart> hard;
     if (hard_first) {
         HardSurfaces found =
-            opened_without_hard_parts(vertices, undivided, layout.vertices, std::move(opened), options, context);
+            opened_without_hard_parts(vertices, faces, layout.vertices, std::move(opened), options, context);
         hard = std::move(found.parts);
         opened = std::move(found.rest);
         layout.noise = found.noise;
@@ -199,22 +165,18 @@ std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& 
         };
         if (!hard.empty()) options.sketch({});
     }
-    if (!faces.face.empty()) {
-        const auto torn = torn_edges(faces, undivided.rows(), hard, opened.left_out);
-        kept.insert(kept.end(), torn.begin(), torn.end());
-        if (!torn.empty()) return {};
-        std::vector<char> is_hard(faces.face.size(), 0);
-        for (const FlatPart& part : hard)
-            for (const Index f : part.faces) is_hard[f] = 1;
-        for (Index f = 0; f < static_cast<Index>(undivided.rows()); ++f)
-            if (!is_hard[f]) layout.triangles.row(f) = undivided.row(f);
-        mesh.undivided = undivided;
-        mesh.face = faces.face;
-    }
+    // Pieces of divided faces must be able to become whole again.
+    const std::size_t given_edges = kept.size();
+    const auto keep_bent = [&](std::vector<FlatPart>& parts) {
+        if (faces.face.empty()) return false;
+        for (const auto& edge : lay_middles_straight(faces, opened.left_out, parts)) kept.push_back(edge);
+        return kept.size() > given_edges;
+    };
+    if (keep_bent(hard)) return {};
     mesh.polygon = options.polygon;
     layout.handles_cut = opened.handles;
     // Then the parts of the other pieces. With importance hard parts are stretched, too.
-    std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, options);
+    std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, faces.face, options);
     if (!hard.empty() && !options.importance.empty())
         pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
     mesh.seconds.topology = stage.lap();
@@ -224,9 +186,12 @@ std::optional<FlatMesh> flat_mesh_of(const DividedFaces& faces, const Vertices& 
     layout.not_even = std::move(parts.not_even);
     layout.maps = parts.maps;
     mesh.parts = std::move(parts.parts);
+    if (keep_bent(mesh.parts)) return {};
     std::ranges::move(hard, std::back_inserter(mesh.parts));  // they are exact: nothing relaxes or cuts them
     sum_cuts(mesh);
     mesh.left_out = std::move(opened.left_out);
+    if (!faces.face.empty()) mesh.undivided = undivided;
+    mesh.divided = std::move(faces);
     return mesh;
 }
 
@@ -255,10 +220,11 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     std::vector<std::array<Index, 2>> kept = options.cuts;
     const bool may_divide = options.cut && may_unfold(options) && options.importance.empty();
     for (int attempt = 0; may_divide && attempt < most_divisions; ++attempt) {
-        const DividedFaces divided = divided_faces(vertices, triangles, options.polygon, kept);
+        DividedFaces divided = divided_faces(vertices, triangles, options.polygon, kept);
         if (divided.face.empty()) break;
         if (attempt == 0) of_area_one(vertices, triangles);  // an error names faces of the input
-        if (std::optional<FlatMesh> mesh = flat_mesh_of(divided, vertices, triangles, options, kept, context))
+        if (std::optional<FlatMesh> mesh =
+                flat_mesh_of(std::move(divided), vertices, triangles, options, kept, context))
             return std::move(*mesh);
     }
     return *flat_mesh_of({triangles, options.polygon, {}, {}}, vertices, triangles, options, kept, context);

@@ -47,6 +47,7 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
 CutSurface opened(const PieceInput& input)
 {
     CutSurface whole = cut_surface(input.piece.vertices, input.piece.triangles, input.polygon);
+    whole.face = input.face;
     whole.slit = input.slit;
     whole.seam = input.seam;
     whole.shown = input.shown;
@@ -71,6 +72,7 @@ PieceSurface surface_of(const PieceInput& input)
         surface.first = halves(*closed);
         if (!surface.first.empty()) {
             surface.whole = std::move(*closed);
+            surface.whole.face = input.face;
             surface.whole.slit = input.slit;
             surface.whole.seam = input.seam;
             return surface;

@@ -15,8 +15,8 @@ namespace koebe {
 
 /// A piece and what is known of its elements. Vertices of one source lie in one place: a slit parts them.
 struct PieceInput {
-    SurfacePiece piece;               ///< in the unit in which the mesh has area 1
-    std::vector<Index> polygon = {};  ///< as in CutSurface, and so are
+    SurfacePiece piece;                          ///< in the unit in which the mesh has area 1
+    std::vector<Index> polygon = {}, face = {};  ///< as in CutSurface, and so are
     std::vector<char> slit = {}, seam = {};
     std::vector<double> shown = {};
 };

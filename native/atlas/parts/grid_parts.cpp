@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "part_maps/part_mesh.h"
+#include "parts/regions.h"
 #include "parts/tension.h"
 #include "quality/distortion.h"
 
@@ -127,9 +128,20 @@ double scaled_to_size(const FlatPart& part, PlanarPoints& points)
     return std::exp(density.u.maxCoeff() - density.u.minCoeff());
 }
 
+bool keeps_lengths(const FlatPart& part, double noise)
+{
+    if (is_true_to_size(part)) return true;
+    const auto length = [&](const auto& places, Index h) {
+        return (places.row(origin(part.surface.triangles, h)) - places.row(target(part.surface.triangles, h))).norm();
+    };
+    for (Index h = 0; h < static_cast<Index>(part.surface.twin.size()); ++h)
+        if (!(std::abs(length(part.points, h) - length(part.vertices, h)) < noise_reach * noise)) return false;
+    return true;
+}
+
 }  // namespace
 
-void rectify_grids(std::vector<FlatPart>& parts, bool any)
+void rectify_grids(std::vector<FlatPart>& parts, bool any, double noise)
 {
     for (FlatPart& part : parts) {
         if (part.polygon.empty()) continue;
@@ -144,7 +156,7 @@ void rectify_grids(std::vector<FlatPart>& parts, bool any)
         const double ratio = scaled_to_size(part, points);
         if (!lies_one_to_one(part, points)) continue;
         const double bent = error(points), before = error(part.points);
-        const bool is_near = !is_true_to_size(part) && bent <= most_bending && ratio <= most_ratio;
+        const bool is_near = !keeps_lengths(part, noise) && bent <= most_bending && ratio <= most_ratio;
         if (!any && bent > before && !is_near) continue;
         part.points = std::move(points);
         part.one_to_one = true;

@@ -11,7 +11,7 @@ namespace koebe {
 /// high, as their edges are long in the mean. The rectangle lies along the axes.
 /// @param any true: whatever the stretch. false: only if the surface is nearly developable, so that angles bend little
 /// and texels stay even. A part that keeps all lengths, such as a plate or a cone, keeps its shape, unless the
-/// rectangle keeps angles as well
-void rectify_grids(std::vector<FlatPart>& parts, bool any);
+/// rectangle keeps angles as well @param noise up to which a part keeps its lengths (PlanarRegions)
+void rectify_grids(std::vector<FlatPart>& parts, bool any, double noise = 0.0);
 
 }  // namespace koebe

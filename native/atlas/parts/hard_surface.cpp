@@ -25,7 +25,7 @@ UnfoldOptions unfolding_of(const PartsOptions& options)
     return {options.hard_angle, options.cut_hard, options.roomy};
 }
 
-HardSurfaces opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
+HardSurfaces opened_without_hard_parts(const Vertices& vertices, const DividedFaces& faces, const Vertices& scaled,
                                        OpenedSurface connected, const PartsOptions& options, ExecutionContext& context)
 {
     const ProfiledStage profiled("flat regions");
@@ -39,6 +39,7 @@ HardSurfaces opened_without_hard_parts(const Vertices& vertices, const Triangles
         handles += surface.genus;
         CutSurface whole = cut_surface(scaled(piece.source_vertex, Eigen::all), std::move(surface),
                                        values_at(options.polygon, piece.source_face));
+        whole.face = values_at(faces.face, piece.source_face);
         whole.shown = cut_prices(options.show, piece.source_vertex);
         // Its flat and rolled regions are parts, with cuts for room and without; the rest is opened below.
         if (std::optional<UnfoldedParts> hard = hard_parts(whole, context, unfolding_of(options))) {
@@ -56,11 +57,10 @@ HardSurfaces opened_without_hard_parts(const Vertices& vertices, const Triangles
     }
     if (are_worth_their_number(roomier, parts)) parts = std::move(roomier);
     // All other faces, opened as if they were the input.
-    std::erase_if(rest, [&](Index f) { return f >= static_cast<Index>(triangles.rows()); });
     if (!rest.empty()) {
         std::ranges::sort(rest);
         opened = open_surface(
-            vertices, triangles(rest, Eigen::all),
+            vertices, faces.triangles(rest, Eigen::all),
             {.polygon = values_at(options.polygon, rest), .seams = options.cuts, .slit_beside_handles = false},
             context);
         for (SurfacePiece& piece : opened.pieces) piece.source_face = values_at(rest, piece.source_face);

@@ -3,6 +3,7 @@
 
 #include "cut/open_surface.h"
 #include "execution/execution.h"
+#include "parts/divided_faces.h"
 #include "parts/flat_part.h"
 #include "parts/parts.h"
 #include "parts/unfolding.h"
@@ -23,10 +24,9 @@ struct HardSurfaces {
     double noise = 0.0;           ///< the largest of the surfaces (UnfoldedParts)
 };
 
-/// @param vertices, triangles of the input @param scaled the vertices, so that all areas sum to 1
-/// @param connected the input's surfaces, not opened (OpenOptions::open). Hard surfaces lose their parts (unfolding.h).
-/// Faces may be divided (divided_faces.h), and are whole in the rest
-HardSurfaces opened_without_hard_parts(const Vertices& vertices, const Triangles& triangles, const Vertices& scaled,
+/// @param vertices of the input @param scaled the vertices, so that all areas sum to 1
+/// @param connected the input's surfaces, not opened (OpenOptions::open). Hard surfaces lose their parts (unfolding.h)
+HardSurfaces opened_without_hard_parts(const Vertices& vertices, const DividedFaces& faces, const Vertices& scaled,
                                        OpenedSurface connected, const PartsOptions& options, ExecutionContext& context);
 
 /// Names elements by those from which the piece's came. @param parts by numbers of the piece

@@ -44,7 +44,7 @@ void join_pieces(const std::vector<Index>& face, const Triangles& undivided, Par
     for (const Index f : layout.turned)
         if (f < count && layout.triangles.row(f) == undivided.row(f))
             std::swap(layout.triangles(f, 1), layout.triangles(f, 2));
-    // Each corner is where a piece has it. Outside hard parts no piece has a part.
+    // Each corner is where a piece has it.
     for (std::size_t i = 0; i < face.size(); ++i)
         for (int k = 0; k < 3 && part[i] >= 0; ++k)
             for (int c = 0; c < 3; ++c)
@@ -102,7 +102,7 @@ PartsLayout layout_at(FlatMesh mesh, const std::vector<PlanarPoints>& places, co
     std::ranges::sort(layout.turned);
     std::ranges::sort(layout.crossing);
     place_left_out(mesh.left_out, layout);
-    if (!mesh.face.empty()) join_pieces(mesh.face, mesh.undivided, layout);
+    if (!mesh.divided.face.empty()) join_pieces(mesh.divided.face, mesh.undivided, layout);
     return layout;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cut/open_surface.h"
+#include "parts/divided_faces.h"
 #include "parts/flat_part.h"
 #include "parts/parts.h"
 #include "quality/report.h"
@@ -37,8 +38,7 @@ struct FlatMesh {
     std::vector<FlatPart> parts;
     std::vector<LeftOutFace> left_out;
     std::vector<Index> polygon;  ///< (F') of the faces in the parts
-    /// The faces in the parts are pieces of the input's (divided_faces.h); empty: they are the input's.
-    std::vector<Index> face;
+    DividedFaces divided;  ///< the faces in the parts; nothing is divided: they are the input's, and this is empty
     Triangles undivided;   ///< (F, 3) the input's faces; empty as well
     StageSeconds seconds;  ///< topology and iterate
 };

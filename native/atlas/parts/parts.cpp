@@ -151,19 +151,22 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
     return warnings;
 }
 
-/// Makes polygons convex with free rims, as long as the part stays one to one. Packing keeps the parts apart
-/// afterwards.
-void mend_rims(const std::vector<Index>& polygon, std::vector<FlatPart>& parts, int threads, ExecutionContext& context)
+/// Makes polygons convex with free rims, as long as the part stays one to one. Divided edges stay straight. Packing
+/// keeps the parts apart afterwards.
+void mend_rims(FlatMesh& mesh, int threads, ExecutionContext& context)
 {
-    if (polygon.empty()) return;
-    side_by_side(parts.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
-        FlatPart& part = parts[k];
+    if (mesh.polygon.empty()) return;
+    std::vector<char> straight(static_cast<std::size_t>(mesh.layout.vertices.rows()), 0);
+    for (const DividedEdge& edge : mesh.divided.edges)
+        straight[edge.from] = straight[edge.to] = straight[edge.middle] = 1;
+    side_by_side(mesh.parts.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
+        FlatPart& part = mesh.parts[k];
         if (!part.one_to_one) return;
-        const std::vector<Index> polygons = values_at(polygon, part.faces), turned;
+        const std::vector<Index> polygons = values_at(mesh.polygon, part.faces), turned;
         SurfacePolygons surface{part.vertices, part.surface.triangles, polygons, turned};
         surface.free_rims = true;
         for (std::size_t v = 0; v < part.held.size(); ++v)
-            if (part.held[v] != 0) surface.held.push_back(static_cast<Index>(v));
+            if (part.held[v] != 0 || straight[part.original[v]] != 0) surface.held.push_back(static_cast<Index>(v));
         PlanarPoints moved = part.points;
         if (mend_disk_polygons(surface, moved, own) && lies_one_to_one(part, moved)) part.points = std::move(moved);
     });
@@ -191,7 +194,8 @@ PackedParts packed_parts(FlatMesh& mesh, const PartsOptions& options, double uni
 {
     context.begin_stage("pack", 0.9, 1.0);
     const bool is_free = !options.even && options.loops != LoopForm::round && !options.round_cuts;
-    if ((is_free && options.importance.empty()) || options.rectify) rectify_grids(mesh.parts, options.rectify);
+    if ((is_free && options.importance.empty()) || options.rectify)
+        rectify_grids(mesh.parts, options.rectify, mesh.layout.noise);
     stand_upright(mesh.parts, up);
     PackOptions packing{
         .tiles = options.tiles, .margin = margin_in_square(options.margin, options.pixels), .threads = options.threads};
@@ -208,7 +212,7 @@ std::vector<Index> faces_anew(const FlatMesh& mesh, const PackedParts& packed)
     std::vector<Index> anew;
     for (std::size_t k = 0; k < mesh.parts.size(); ++k)
         if (packed.anew[k]) anew.insert(anew.end(), mesh.parts[k].faces.begin(), mesh.parts[k].faces.end());
-    if (!mesh.face.empty()) std::erase_if(anew, [&](Index f) { return f >= mesh.undivided.rows(); });
+    if (!mesh.divided.face.empty()) std::erase_if(anew, [&](Index f) { return f >= mesh.undivided.rows(); });
     std::ranges::sort(anew);
     return anew;
 }
@@ -271,7 +275,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     // Cut the mesh into flat parts, alike where pieces are alike.
     FlatMesh mesh = flat_mesh(vertices, triangles, options, context);
     if (options.show.empty() && options.importance.empty() && options.slits.empty()) cut_alike(mesh);
-    mend_rims(mesh.polygon, mesh.parts, options.threads, context);
+    mend_rims(mesh, options.threads, context);
     clock.take(mesh.seconds);
 
     // Pack them.

@@ -65,6 +65,7 @@ std::optional<PieceInput> without_pinholes(const PieceInput& input, const Surfac
     const std::vector<Index> ranks = pinholes(input, surface);
     if (ranks.empty()) return {};
     PieceInput filled = input;
+    filled.face.clear();
     SurfacePiece& piece = filled.piece;
     FilledSurface fans = fill_holes(piece.vertices, piece.triangles, ranks);
     const auto added = static_cast<std::size_t>(fans.triangles.rows() - piece.triangles.rows());

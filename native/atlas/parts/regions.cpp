@@ -1,12 +1,14 @@
 #include "parts/regions.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cost/tolerances.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -22,12 +24,13 @@ struct NoiseLevel {
     double tolerance, share, large;
     bool waves = false;
 };
-constexpr NoiseLevel noise_levels[] = {{3e-5, 0.25, 0.01}, {1e-4, 0.25, 0.01}, {3e-4, 0.25, 0.01},
+constexpr NoiseLevel noise_levels[] = {{3e-5, 0.08, 0.01}, {1e-4, 0.08, 0.01}, {3e-4, 0.25, 0.01},
                                        {1e-3, 0.25, 0.01}, {2e-3, 0.4, 0.02},  {4e-3, 0.6, 0.03}};
 constexpr NoiseLevel slight_noise[] = {{1e-4, 0.15, 0.01}};  // tried first: most surfaces have none
-constexpr NoiseLevel any_noise[] = {{3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
+constexpr NoiseLevel any_noise[] = {{1e-4, 0.05, 0.01}, {3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
 constexpr NoiseLevel sheet_waves{4e-3, 0.6, 0.03, true};  // tried last: a sheet with low waves is flat
-constexpr double worth_noise = 0.1;        // of the area: large regions hold so much more with noise than without
+constexpr double most_worth_noise = 0.1;   // of the area: large regions hold so much more with noise, or half as
+                                           // much as at least
 constexpr std::size_t fewest_planes = 12;  // of surfaces on which noise is looked for: a box of triangles
 constexpr double sharp_edge = 0.94;        // cosine of 20 degrees between the planes on both sides of a crease
 constexpr double still_grows = 0.03;       // of the area: a level that holds so much more is better
@@ -41,7 +44,10 @@ constexpr int absorbing_rounds = 8;
 class RegionGrowth {
 public:
     RegionGrowth(const CutSurface& surface, double tolerance, bool noisy)
-        : surface_(surface), vector_area_(surface.areas.size(), 3), least_cosine_(surface.areas.size())
+        : surface_(surface),
+          next_piece_(numbers_below(surface.areas.size())),
+          vector_area_(surface.areas.size(), 3),
+          least_cosine_(surface.areas.size())
     {
         regions_.tolerance = tolerance;
         if (noisy) regions_.noise = tolerance;
@@ -49,6 +55,8 @@ public:
             vector_area_.row(f) = 0.5 * (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0));
             least_cosine_[f] = least_cosine(f, tolerance);
         }
+        if (noisy) keep_together(surface.polygon);
+        keep_together(surface.face);
     }
 
     PlanarRegions run()
@@ -66,6 +74,19 @@ public:
 private:
     Index faces() const { return static_cast<Index>(surface_.areas.size()); }
     Eigen::RowVector3d corner(Index f, int k) const { return surface_.vertices.row(surface_.surface.triangles(f, k)); }
+
+    /// Faces of one number are pieces of one face, if they lie in one plane.
+    void keep_together(const std::vector<Index>& number)
+    {
+        std::map<Index, std::vector<Index>> pieces;
+        for (std::size_t f = 0; f < number.size(); ++f)
+            if (next_piece_[f] == static_cast<Index>(f)) pieces[number[f]].push_back(static_cast<Index>(f));
+        for (const auto& [own, faces] : pieces) {
+            const RegionPlane plane = plane_of(faces);
+            if (!std::ranges::all_of(faces, [&](Index f) { return lies_in(plane, f); })) continue;
+            for (std::size_t i = 0; i < faces.size(); ++i) next_piece_[faces[i]] = faces[(i + 1) % faces.size()];
+        }
+    }
 
     /// A vertex off by the tolerance turns a face's normal by the tolerance over the height.
     double least_cosine(Index f, double tolerance) const
@@ -95,9 +116,19 @@ private:
         return plane;
     }
 
+    /// A face with the other pieces of the face that was divided.
+    template <class Visit>
+    void each_piece(Index f, const Visit& visit) const
+    {
+        visit(f);
+        for (Index g = next_piece_[f]; g != f; g = next_piece_[g]) visit(g);
+    }
+
     bool lies_in(const RegionPlane& plane, Index f) const
     {
-        return lies_near(plane, f, least_cosine_[f], regions_.tolerance);
+        bool all = true;
+        each_piece(f, [&](Index g) { all = all && lies_near(plane, g, least_cosine_[g], regions_.tolerance); });
+        return all;
     }
 
     bool lies_near(const RegionPlane& plane, Index f, double cosine, double tolerance) const
@@ -118,8 +149,11 @@ private:
             if (t == no_twin || regions_.of[f] == regions_.of[face_of(t)]) continue;
             const RegionPlane &own = regions_.planes[regions_.of[f]], &other = regions_.planes[regions_.of[face_of(t)]];
             const double most = noise_reach * regions_.noise;
-            if (!(other.area > much_larger * own.area) || !lies_near(other, f, least_cosine(f, most), most)) continue;
-            regions_.of[f] = regions_.of[face_of(t)];
+            if (!(other.area > much_larger * own.area)) continue;
+            bool all = true;
+            each_piece(f, [&](Index g) { all = all && lies_near(other, g, least_cosine(g, most), most); });
+            if (!all) continue;
+            each_piece(f, [&](Index g) { regions_.of[g] = regions_.of[face_of(t)]; });
             any = true;
         }
         return any;
@@ -129,22 +163,27 @@ private:
     std::vector<Index> grown(Index seed, const RegionPlane& plane)
     {
         const Index number = static_cast<Index>(regions_.planes.size());
-        std::vector<Index> own{seed};
-        regions_.of[seed] = number;
+        std::vector<Index> own;
+        const auto add = [&](Index f) {
+            regions_.of[f] = number;
+            own.push_back(f);
+        };
+        each_piece(seed, add);
         for (std::size_t head = 0; head < own.size(); ++head)
             for (Index h = 3 * own[head]; h < 3 * own[head] + 3; ++h) {
                 const Index t = surface_.surface.twin[h];
                 if (t == no_twin || regions_.of[face_of(t)] >= 0 || !lies_in(plane, face_of(t))) continue;
-                regions_.of[face_of(t)] = number;
-                own.push_back(face_of(t));
+                each_piece(face_of(t), add);
             }
         return own;
     }
 
     void add_region(Index seed)
     {
-        RegionPlane plane = plane_of({seed});
-        std::vector<Index> own = grown(seed, plane);
+        std::vector<Index> own;
+        each_piece(seed, [&](Index f) { own.push_back(f); });
+        const RegionPlane plane = plane_of(own);
+        own = grown(seed, plane);
         for (int fit = 0; fit < most_fits && own.size() > 1; ++fit) {
             const RegionPlane fitted = plane_of(own);
             if (!lies_in(fitted, seed)) break;
@@ -158,8 +197,9 @@ private:
     }
 
     const CutSurface& surface_;
-    Vertices vector_area_;   // (F, 3)
-    VectorXd least_cosine_;  // (F) between a face's normal and the normal of its plane
+    std::vector<Index> next_piece_;  // (F) of the same divided face, in a cycle; of another face itself
+    Vertices vector_area_;           // (F, 3)
+    VectorXd least_cosine_;          // (F) between a face's normal and the normal of its plane
     PlanarRegions regions_;
 };
 
@@ -250,10 +290,11 @@ PlanarRegions planar_regions(const CutSurface& surface)
         const double share = large_share(surface, regions, level);
         return std::pair(std::move(regions), share);
     };
-    const double least = large_share(surface, exact, noise_levels[0]) + worth_noise;
-    const auto is_noisy = [&](const NoiseLevel& level) {
-        return at_level(level).second >= std::max(least, level.share);
+    const double exact_share = large_share(surface, exact, noise_levels[0]);
+    const auto least_at = [&](const NoiseLevel& level) {
+        return std::max(exact_share + std::min(most_worth_noise, 0.5 * level.share), level.share);
     };
+    const auto is_noisy = [&](const NoiseLevel& level) { return at_level(level).second >= least_at(level); };
     const bool is_flat = flat_share(surface, exact) >= most_area;
     if (is_flat ? std::ranges::any_of(slight_noise, is_noisy) : std::ranges::any_of(any_noise, is_noisy)) {
         // The first level at which large regions hold nearly as much as at the next level.
@@ -262,7 +303,7 @@ PlanarRegions planar_regions(const CutSurface& surface)
         for (const NoiseLevel& level : noise_levels) {
             auto [regions, share] = at_level(level);
             if (found && share < most + still_grows) break;
-            if (share < std::max(least, level.share)) continue;
+            if (share < least_at(level)) continue;
             found = std::move(regions);
             most = share;
         }

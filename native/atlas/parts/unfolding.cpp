@@ -8,6 +8,7 @@
 #include "parts/hard_room.h"
 #include "parts/regions.h"
 #include "planar/planar_predicates.h"
+#include "planar/rigid_fit.h"
 #include "surface/free_flattening.h"
 
 #include <algorithm>
@@ -32,6 +33,8 @@ constexpr double least_hard = 0.25;       // of the area: hold so much of a hard
 constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut;
 constexpr double thin = 0.2;          // charts whose area over the square of the length is less are cut across;
 constexpr double middle = 1e-6;       // of a piece: a region so near to its end belongs to the next piece
+
+constexpr int most_border_fits = 4;  // of a border under noise
 
 constexpr double whole_mesh = 0.999;  // of the area of all surfaces: this one is alone
 constexpr double most_scaled = 4.0;   // factor by which the area of a face beside an island may change
@@ -269,6 +272,23 @@ private:
         return {turn, charts_.at[next_halfedge(h)] - turn * charts_.at[t]};
     }
 
+    /// The motion that brings the chart across a border to its place at one of its edges. Under noise to the place
+    /// nearest to all edges that then meet.
+    PlaneMotion motion_over(const std::vector<Index>& border, Index crease) const
+    {
+        PlaneMotion motion = motion_to(crease);
+        for (int round = 0; charts_.noise > 0.0 && round < most_border_fits; ++round) {
+            RigidFit fit;
+            for (const Index h : border) {
+                if (!meets(h, motion)) continue;
+                fit.add(charts_.at[next_halfedge(h)], charts_.at[twin(h)], surface_.lengths[h]);
+                fit.add(charts_.at[h], charts_.at[next_halfedge(twin(h))], surface_.lengths[h]);
+            }
+            if (fit.weight > 0.0) motion = {fit.turn(), fit.moved(0.0)};
+        }
+        return motion;
+    }
+
     bool meets(Index h, const PlaneMotion& motion) const
     {
         const Index t = twin(h);
@@ -296,7 +316,7 @@ private:
         for (const auto& [charts, halfedges] : common) {
             const Index longest =
                 *std::ranges::max_element(halfedges, {}, [&](Index h) { return surface_.lengths[h]; });
-            const PlaneMotion motion = motion_to(longest);
+            const PlaneMotion motion = motion_over(halfedges, longest);
             double length = 0.0, price = 0.0;
             for (const Index h : halfedges)
                 if (meets(h, motion)) {
@@ -316,7 +336,6 @@ private:
     void join(Index crease)
     {
         const Index a = island_of(crease), b = island_of(twin(crease));
-        const PlaneMotion motion = motion_to(crease);
         Complex unused;
         const double longest = std::max({longest_, extent(islands_[a], unused), extent(islands_[b], unused)});
         // The second island moves to the first one. Edges that then lie in one place are joined.
@@ -326,11 +345,11 @@ private:
             for (Index t = 3 * f; t < 3 * f + 3; ++t) {
                 before.push_back(charts_.at[t]);
                 const Index h = twin(t);
-                if (h == no_twin || charts_.net.twin[h] != no_twin || chart_[face_of(h)] < 0 || island_of(h) != a ||
-                    !meets(h, motion))
-                    continue;
-                joined.push_back(h);
+                if (h != no_twin && charts_.net.twin[h] == no_twin && chart_[face_of(h)] >= 0 && island_of(h) == a)
+                    joined.push_back(h);
             }
+        const PlaneMotion motion = motion_over(joined, crease);
+        std::erase_if(joined, [&](Index h) { return !meets(h, motion); });
         for (const Index h : joined) {
             charts_.net.twin[h] = twin(h);
             charts_.net.twin[twin(h)] = h;
