@@ -26,7 +26,7 @@ def remembered_maps(koebe):
 
     def remembering(name):
         def compute(*arrays, **options):
-            asked = {key: value for key, value in options.items() if key not in ("progress", "cancel")}
+            asked = {key: value for key, value in options.items() if key not in ("progress", "cancel", "sketch")}
             key = pickle.dumps((name, arrays, asked))
             if key not in known:
                 known[key] = own[name](*arrays, **options)
