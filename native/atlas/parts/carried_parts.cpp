@@ -96,12 +96,6 @@ bool take_places_in(const std::vector<FlatPart>& uncut, FlatPart& piece)
     return true;
 }
 
-/// Whether two pieces have the same faces, joined in the same way.
-bool are_same(const FlatPart& a, const FlatPart& b)
-{
-    return a.faces == b.faces && a.original == b.original && a.surface.triangles == b.surface.triangles;
-}
-
 /// A piece of the fine surface for each part.
 class Carrying {
 public:
@@ -111,8 +105,8 @@ public:
     {
     }
 
-    /// @param before the pieces along other paths, or empty: where one is the same, so is its place
-    std::vector<FlatPart> pieces(const std::vector<FlatPart>& before, int threads, ExecutionContext& context)
+    /// Empty if there is not one for each part.
+    std::vector<FlatPart> pieces(int threads, ExecutionContext& context)
     {
         // Cut the fine surface along the paths.
         const FlatPart whole = whole_part(proxy_.fine.whole);
@@ -133,12 +127,7 @@ public:
         // Lay each piece where its part lies.
         side_by_side(pieces.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
             const int part = part_of_[k];
-            if (!before.empty() && are_same(pieces[k], before[part])) {
-                pieces[k].points = before[part].points;
-                pieces[k].is_near = before[part].is_near;
-            } else {
-                pieces[k].is_near = take_places(proxy_, net_, near_, parts_[part], part, pieces[k], own);
-            }
+            pieces[k].is_near = take_places(proxy_, net_, near_, parts_[part], part, pieces[k], own);
         });
         std::vector<FlatPart> sorted(pieces.size());
         for (std::size_t k = 0; k < pieces.size(); ++k) sorted[part_of_[k]] = std::move(pieces[k]);
@@ -214,15 +203,11 @@ std::vector<FlatPart> carried_parts(const Proxy& proxy, const std::vector<FlatPa
     const auto net = coarse_net(proxy, parts);
     if (!net) return {};
     const std::vector<CarriedPath> paths = carried_paths(proxy, *net, context);
-    std::vector<FlatPart> straight =
-        Carrying(proxy, parts, *net, straightened(proxy, paths, context)).pieces({}, threads, context);
-    const auto placed = [](const std::vector<FlatPart>& pieces) {
-        return std::ranges::count_if(pieces, &FlatPart::is_near);
-    };
-    if (!straight.empty() && placed(straight) == std::ssize(straight)) return straight;
-    // Where a piece finds no place with straight cuts, they stay as they were.
-    std::vector<FlatPart> bent = Carrying(proxy, parts, *net, paths).pieces(straight, threads, context);
-    return placed(bent) > placed(straight) ? bent : straight;
+    std::vector<FlatPart> pieces =
+        Carrying(proxy, parts, *net, straightened(proxy, paths, context)).pieces(threads, context);
+    // Where straight cuts do not make a piece of each part, they stay as they were.
+    if (pieces.empty()) pieces = Carrying(proxy, parts, *net, paths).pieces(threads, context);
+    return pieces;
 }
 
 void start_by_itself(const std::vector<FlatPart>& uncut, FlatPart& piece, ExecutionContext& context)

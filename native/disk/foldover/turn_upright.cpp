@@ -50,7 +50,7 @@ public:
     std::optional<VoidMesh> around() const
     {
         try {
-            return void_mesh(loops_, points_);
+            return void_mesh(loops_, points_, false);
         } catch (const InputError&) {
             return {};
         }

@@ -36,16 +36,20 @@ VectorXcd frame_of(const PlanarPoints& points)
 
 }  // namespace
 
-VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points)
+VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points, bool bare)
 {
     const VectorXcd frame = frame_of(points);
     const Index first_corner = static_cast<Index>(points.rows());
+    std::vector<Complex> added(frame.begin(), frame.end());
     std::vector<Index> corners;
-    /// @param names of the polygons' vertices
+    /// @param names of the polygons' vertices; all others are new
     const auto add = [&](const std::vector<VectorXcd>& polygons, const std::vector<Index>& names) {
-        const Triangles triangles = planar_mesh(polygons, {.bare = true}).triangles;
-        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-            for (const Index v : triangles.row(f)) corners.push_back(names[v]);
+        const PlanarMesh mesh = planar_mesh(polygons, {.gradation = 1.0, .smoothing = 0, .bare = bare});
+        const Index known = static_cast<Index>(names.size());
+        const Index first = first_corner + static_cast<Index>(added.size()) - known;
+        for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
+            for (const Index v : mesh.triangles.row(f)) corners.push_back(v < known ? names[v] : first + v);
+        added.insert(added.end(), mesh.points.begin() + known, mesh.points.end());
     };
     const auto size = [&](const VertexLoop& loop) { return std::abs(enclosed_area(loop, points)); };
     const auto outer = std::ranges::max_element(loops, {}, size);
@@ -57,15 +61,17 @@ VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& poi
         if (loop != outer) add({polygon_of(*loop, points)}, *loop);
 
     VoidMesh mesh;
-    mesh.points.resize(points.rows() + frame.size(), 2);
-    mesh.points << points, frame.real(), frame.imag();
+    mesh.points.resize(points.rows() + static_cast<Eigen::Index>(added.size()), 2);
+    mesh.points.topRows(points.rows()) = points;
+    for (std::size_t i = 0; i < added.size(); ++i)
+        mesh.points.row(points.rows() + static_cast<Eigen::Index>(i)) << added[i].real(), added[i].imag();
     mesh.triangles = Eigen::Map<const Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
     return mesh;
 }
 
 void add_void(const VoidMesh& around, double weight, double gap, FoldoverProblem& problem)
 {
-    const Eigen::Index own = problem.triangles.rows();
+    const Eigen::Index own = problem.triangles.rows(), vertices = problem.points.rows();
     std::vector<Index> kept;
     std::vector<Eigen::Matrix2d> shapes;
     for (Eigen::Index f = 0; f < around.triangles.rows(); ++f) {
@@ -99,7 +105,9 @@ void add_void(const VoidMesh& around, double weight, double gap, FoldoverProblem
         problem.floor[f] = std::min(gap / width, 0.5) / wider;
     }
     problem.points = around.points;
-    problem.mobility.resize(static_cast<std::size_t>(around.points.rows()), FoldoverProblem::Mobility::held);
+    problem.mobility.resize(static_cast<std::size_t>(around.points.rows()), FoldoverProblem::Mobility::free);
+    for (int corner = 0; corner < 4; ++corner)
+        problem.mobility[static_cast<std::size_t>(vertices) + corner] = FoldoverProblem::Mobility::held;
     problem.track_of.resize(problem.mobility.size(), -1);
 }
 
