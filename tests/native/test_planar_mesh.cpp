@@ -185,3 +185,18 @@ TEST(PlanarMesh, takes_polygons_of_any_size)
         EXPECT_EQ(scaled.points, scale * mesh.points) << exponent;
     }
 }
+
+TEST(PlanarMesh, bare_it_has_the_polygons_points_only)
+{
+    const std::vector<VectorXcd> polygons = {spiked_star(9), regular_polygon({0.0, 0.0}, 0.1, 12)};
+    const PlanarMesh mesh = planar_mesh(polygons, {.bare = true});
+    EXPECT_EQ(mesh.points.size(), 18 + 12);
+    ASSERT_EQ(mesh.triangles.rows(), 18 + 12);  // Euler: points + 2 (holes - 1)
+    double area = 0.0;
+    for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+        EXPECT_GT(triangle_area_of(mesh, f), 0.0);
+        area += triangle_area_of(mesh, f);
+    }
+    EXPECT_NEAR(area, std::abs(signed_area(polygons[0])) - std::abs(signed_area(polygons[1])), 1e-12);
+    EXPECT_GT(planar_mesh(polygons).points.size(), mesh.points.size());
+}
