@@ -39,10 +39,11 @@ class PartsJob(ChoiceJob):
     def _task(self, obj: MeshObject, surface: Surface) -> Task:
         show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None
         like = self._density_of_layer(obj, surface) if self.choice.texels == "layer" else None
-        self._places.append(surface.positions + np.array(obj.matrix_world.translation))
-        return dataclasses.replace(
+        task = dataclasses.replace(
             super()._task(obj, surface), show=show, like=like, pins=self._pins(obj, surface), sketch=Sketch()
         )
+        self._places.append(surface.positions + np.array(obj.matrix_world.translation))
+        return task
 
     def _check_pins(self, obj: MeshObject, surface: Surface) -> None:
         """Raise TransferError if pinned UVs would move. Otherwise parts join them."""
@@ -76,12 +77,12 @@ class PartsJob(ChoiceJob):
 
     def sketched(self) -> np.ndarray:
         """The ends (E, 2, 3) in the world of the cuts that are decided so far; none if nothing is new."""
-        places = np.concatenate(self._places)
-        begins = np.cumsum([0, *map(len, self._places)])  # one atlas draws all on the first sketch
-        cuts = [
-            begin + task.sketch.take() for begin, task in zip(begins, self.tasks, strict=False) if task.sketch
-        ]  # fmt: skip
-        return places[np.concatenate(cuts)].astype(np.float32)
+        cuts = [task.sketch.take() if task.sketch else np.zeros((0, 2), np.int32) for task in self.tasks]
+        if not any(map(len, cuts)):  # nearly always
+            return super().sketched()
+        begins = np.cumsum([0, *map(len, self._places[:-1])])  # one atlas draws all on the first sketch
+        ends = np.concatenate([begin + own for begin, own in zip(begins, cuts, strict=True)])
+        return np.concatenate(self._places)[ends].astype(np.float32)
 
     def compute(self, progress: Progress | None = None) -> None:
         """Fill `outcomes`, one per object. Raises `koebe.Cancelled` once the token was raised."""

@@ -1,5 +1,6 @@
 """koebe.cortex: fsaverage5, which nilearn brings, as FreeSurfer's and fMRIPrep's folders have it."""
 
+import inspect
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ import koebe
 import nibabel
 import numpy as np
 import pytest
+from koebe.labs import cortex_command
 from nibabel import freesurfer
 from nilearn.datasets import fetch_surf_fsaverage
 
@@ -149,7 +151,21 @@ def test_the_command(subject, tmp_path):
     assert run(subject, "lh", tmp_path / "x.gii", "--even", "2").returncode == 2
     missing = run(tmp_path, "lh", tmp_path / "x.gii")
     assert missing.returncode == 3 and missing.stderr.startswith("FileError") and "sought" in missing.stderr
+    no_folder = run(subject, "lh", tmp_path / "no" / "x.gii", "--json", tmp_path / "x.json", "--darts", "0")
+    assert no_folder.returncode == 3
     assert sorted(tmp_path.iterdir()) == before
+
+
+def test_the_command_says_that_a_map_is_not_done(subject, tmp_path, monkeypatch, capsys):
+    def unfinished(*given, **named):
+        flat = koebe.cortex(*given, **named)
+        object.__setattr__(flat.map, "converged", False)
+        return flat
+
+    unfinished.__signature__ = inspect.signature(koebe.cortex)
+    monkeypatch.setattr(cortex_command, "cortex", unfinished)
+    assert cortex_command.run([str(subject), "lh", str(tmp_path / "lh.flat.patch.3d"), "--darts", "0"]) == 4
+    assert capsys.readouterr().out.endswith("not converged\n")
 
 
 def wrong(subject, folder):

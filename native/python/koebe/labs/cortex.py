@@ -59,9 +59,14 @@ class FlatCortex(Comparable):
     left_out: float
 
     def __repr__(self) -> str:
+        return f"<koebe.FlatCortex {self.figures}>"
+
+    @property
+    def figures(self) -> str:
+        """In one line: faces, the share that is left out at cuts, the mean angle error, flipped faces."""
         return (
-            f"<koebe.FlatCortex {self.map.face_count} faces, {self.left_out:.1%} left out "
-            f"at cuts, angle error {self.map.angle_error_deg['mean']:.3g} deg, {self.map.flipped} flipped>"
+            f"{self.map.face_count} faces, {self.left_out:.1%} left out at cuts, "
+            f"angle error {self.map.angle_error_deg['mean']:.3g} deg, {self.map.flipped} flipped"
         )
 
     def write(self, path: PathLike) -> None:
