@@ -73,6 +73,14 @@ inline constexpr double avoided_factor = 8.0;
 inline constexpr double least_seen = 0.05;
 /// factor | on a cut where the mesh is finest, as in a face | cuts of a face from the eyes to the mouth: gone
 inline constexpr double most_detailed = 3.0;
+/// of the directions | what is seen of a pocket, in its depth half, up to its rim twice as much | face of the body whole
+inline constexpr double pocket_seen = 0.2;
+/// area over squared rim | the shallowest pocket: a hemisphere has 0.16 | as pocket_seen
+inline constexpr double pocket_depth = 0.3;
+/// of the mesh's area | the smallest pocket that becomes an island | the sockets of the body's eyes have twice as much
+inline constexpr double least_pocket = 0.001;
+/// area over squared rim | above it a surface between cuts is halved first, as closed ones are | as pocket_seen
+inline constexpr double nearly_closed = 5.0;
 /// length | within which the fineness of the mesh is averaged | as most_detailed
 inline constexpr double detail_scale = 0.06;
 /// factor of visibility | below it the energy of a face counts less | 14 models: cuts 4.15 -> 3.84

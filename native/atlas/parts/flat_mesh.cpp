@@ -13,6 +13,8 @@
 #include "parts/mesh_parts.h"
 #include "parts/sketched_cuts.h"
 #include "parts/straight_middles.h"
+#include "splitting/closed_surface.h"
+#include "splitting/pockets.h"
 
 #include <algorithm>
 #include <array>
@@ -130,10 +132,25 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
     return pieces;
 }
 
-/// @param kept gets the edges that must not be divided @return no value if there are any
+/// The rims of the pockets of all pieces, by vertices of the input.
+CutEdges rims_of_pockets(const std::vector<FlatPiece>& pieces)
+{
+    CutEdges rims;
+    for (const FlatPiece& own : pieces) {
+        const SurfacePiece& piece = own.input.piece;
+        std::optional<CutSurface> whole = closed_surface(piece, piece.vertices, own.input.polygon);
+        if (!whole) whole = cut_surface(piece.vertices, piece.triangles, own.input.polygon);
+        whole->shown = own.input.shown;
+        for (const auto& [a, b] : pocket_rims(*whole)) rims.push_back({piece.source_vertex[a], piece.source_vertex[b]});
+    }
+    return rims;
+}
+
+/// @param kept gets the edges that must not be divided @param pockets gets the rims of pockets; null: nobody asks for
+/// them @return no value if there are any of these edges
 std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertices, const Triangles& undivided,
                                      const PartsOptions& given, std::vector<std::array<Index, 2>>& kept,
-                                     ExecutionContext& context)
+                                     CutEdges* pockets, ExecutionContext& context)
 {
     Stopwatch stage;
     context.begin_stage("topology", 0.0, 0.05);
@@ -177,6 +194,8 @@ std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertice
     layout.handles_cut = opened.handles;
     // Then the parts of the other pieces. With importance hard parts are stretched, too.
     std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, faces.face, options);
+    if (pockets) *pockets = rims_of_pockets(pieces);
+    if (pockets && !pockets->empty()) return {};
     if (!hard.empty() && !options.importance.empty())
         pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
     mesh.seconds.topology = stage.lap();
@@ -224,10 +243,20 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
         if (divided.face.empty()) break;
         if (attempt == 0) of_area_one(vertices, triangles);  // an error names faces of the input
         if (std::optional<FlatMesh> mesh =
-                flat_mesh_of(std::move(divided), vertices, triangles, options, kept, context))
+                flat_mesh_of(std::move(divided), vertices, triangles, options, kept, nullptr, context))
             return std::move(*mesh);
     }
-    return *flat_mesh_of({triangles, options.polygon, {}, {}}, vertices, triangles, options, kept, context);
+
+    // Pockets become pieces of their own.
+    const DividedFaces undivided{triangles, options.polygon, {}, {}};
+    CutEdges pockets;
+    const bool may_have_pockets = options.cut && rims_are_free(options);
+    if (auto mesh =
+            flat_mesh_of(undivided, vertices, triangles, options, kept, may_have_pockets ? &pockets : nullptr, context))
+        return std::move(*mesh);
+    PartsOptions cut = options;
+    cut.cuts.insert(cut.cuts.end(), pockets.begin(), pockets.end());
+    return *flat_mesh_of(undivided, vertices, triangles, cut, kept, nullptr, context);
 }
 
 }  // namespace koebe

@@ -79,6 +79,7 @@ PieceSurface surface_of(const PieceInput& input)
         }
     }
     surface.whole = opened(input);
+    if (is_nearly_closed(surface.whole)) surface.first = halves(surface.whole);
     return surface;
 }
 
@@ -87,6 +88,12 @@ EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads)
     const bool round = options.loops == LoopForm::round || (options.loops == LoopForm::automatic && options.round_cuts);
     return {options.even, round ? LoopForm::round : LoopForm::free, options.darts, part_as_length(options.price), roomy,
             threads};
+}
+
+bool rims_are_free(const PartsOptions& options)
+{
+    return options.slits.empty() && !options.round_cuts && options.even != 0.0 &&
+           evening_of(options, false, 1).loops == LoopForm::free;
 }
 
 FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsOptions& options, int threads,

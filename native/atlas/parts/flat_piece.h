@@ -21,12 +21,16 @@ struct PieceInput {
     std::vector<double> shown = {};
 };
 
-/// The piece as a surface to cut: closed if only a slit opened it, and if a curve cuts it in two.
+/// The piece as a surface to cut: closed if only a slit opened it, and if a curve cuts it in two. It is cut in two
+/// first, too, if it is nearly closed.
 struct PieceSurface {
     CutSurface whole;
     std::vector<std::vector<Index>> first = {};  ///< faces of the first parts; empty: one part with all faces
 };
 PieceSurface surface_of(const PieceInput& input);
+
+/// Whether rims of parts may have any form: E is not 0, and none of round loops, round cuts, slits is asked for.
+bool rims_are_free(const PartsOptions& options);
 
 EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads);
 

@@ -67,13 +67,6 @@ bool is_only_nearly_mirror(const PieceInput& input)
     return find_mirror(vertices, triangles, input.polygon).vertex.empty() && nearly_mirror(vertices, triangles);
 }
 
-/// Whether parts that were decided on a proxy may keep their darts, and no form was chosen for loops or cuts.
-bool may_carry(const PartsOptions& options)
-{
-    return options.slits.empty() && !options.round_cuts && options.even != 0.0 &&
-           evening_of(options, false, 1).loops == LoopForm::free;
-}
-
 /// Makes a proxy of a large piece, or of one that is its own mirror image but for its triangulation.
 /// @param coarse faces of a large piece's proxy; 0: the piece is not large @param surface of the input; the proxy
 /// takes it
@@ -82,10 +75,10 @@ void make_proxy(MeshPiece& own, Index coarse, PieceSurface& surface, const Parts
 {
     const auto faces = static_cast<Index>(own.input.piece.triangles.rows());
     if (coarse > 0) {
-        own.filled = may_carry(options) ? without_pinholes(own.input, surface.whole.surface) : std::nullopt;
+        own.filled = rims_are_free(options) ? without_pinholes(own.input, surface.whole.surface) : std::nullopt;
         if (own.filled) own.open = std::exchange(surface, surface_of(*own.filled));
         own.proxy = proxy_of(own.filled ? *own.filled : own.input, std::exchange(surface, {}), coarse, context);
-    } else if (faces >= least_mirrored && may_carry(options) && is_only_nearly_mirror(own.input)) {
+    } else if (faces >= least_mirrored && rims_are_free(options) && is_only_nearly_mirror(own.input)) {
         own.proxy =
             proxy_of(own.input, std::exchange(surface, {}), static_cast<Index>(mirrored_share * faces), context);
         if (own.proxy->is_mirrored) return;

@@ -2,6 +2,8 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
+#include "cost/tuning.h"
 #include "splitting/halving.h"
 
 #include <algorithm>
@@ -44,9 +46,20 @@ std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertic
     }
 }
 
-std::vector<std::vector<Index>> halves(const CutSurface& closed)
+bool is_nearly_closed(const CutSurface& whole)
 {
-    const PartMesh all = some_or_all(closed, std::vector<Index>(static_cast<std::size_t>(closed.areas.size())));
+    double rim = 0.0;
+    for (Index h = 0; h < static_cast<Index>(whole.surface.twin.size()); ++h) {
+        if (whole.surface.twin[h] != no_twin) continue;
+        if (whole.seam.empty() || !whole.seam[h]) return false;
+        rim += whole.lengths[h];
+    }
+    return rim > 0.0 && whole.areas.sum() > tuning::nearly_closed * rim * rim;
+}
+
+std::vector<std::vector<Index>> halves(const CutSurface& whole)
+{
+    const PartMesh all = some_or_all(whole, numbers_below(whole.areas.size()));
     return pieces_of(all, halving(all));
 }
 

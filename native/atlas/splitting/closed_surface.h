@@ -15,8 +15,11 @@ namespace koebe {
 std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertices& vertices,
                                          const std::vector<Index>& polygon);
 
-/// The two pieces of a closed surface (halving.h). @return the faces of each piece, ascending; empty if no curve was
-/// found
-std::vector<std::vector<Index>> halves(const CutSurface& closed);
+/// Whether the only boundary of a surface is cuts, and so short that a map from it says as little as one from a slit.
+bool is_nearly_closed(const CutSurface& whole);
+
+/// The two pieces of a surface that is closed, or nearly (halving.h). @return the faces of each piece, ascending; empty
+/// if no curve was found
+std::vector<std::vector<Index>> halves(const CutSurface& whole);
 
 }  // namespace koebe

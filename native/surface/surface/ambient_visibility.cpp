@@ -69,7 +69,7 @@ std::vector<Index> first_neighbours(const Vertices& vertices, const Triangles& t
 
 }  // namespace
 
-VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles)
+VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& at)
 {
     const SilentCgal silent;
     std::vector<Index> faces = numbers_below(triangles.rows());
@@ -77,17 +77,18 @@ VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles
     const Vertices normals = outward_normals(vertices, triangles);
     const std::vector<Index> neighbour = first_neighbours(vertices, triangles);
     const double extent = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
-    const int directions = static_cast<int>(
-        std::clamp(most_rays / static_cast<double>(vertices.rows()), fewest_directions, most_directions));
-    VectorXd seen = VectorXd::Ones(vertices.rows());
-    for (Index v = 0; v < static_cast<Index>(vertices.rows()); ++v) {
+    const int directions =
+        static_cast<int>(std::clamp(most_rays / static_cast<double>(at.size()), fewest_directions, most_directions));
+    VectorXd seen = VectorXd::Ones(static_cast<Eigen::Index>(at.size()));
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        const Index v = at[i];
         if (!(normals.row(v).norm() > 0.0)) continue;
         const Eigen::RowVector3d up = normals.row(v).normalized();
         const Eigen::RowVector3d across = up.cross(vertices.row(neighbour[v]) - vertices.row(v)).normalized();
         const Eigen::RowVector3d along = across.cross(up), start = vertices.row(v) + off_surface * extent * up;
         int free = 0;
-        for (int i = 0; i < directions; ++i) {
-            const double share = (i + 0.5) / directions, angle = golden_angle * i;
+        for (int k = 0; k < directions; ++k) {
+            const double share = (k + 0.5) / directions, angle = golden_angle * k;
             const Eigen::RowVector3d to =
                 std::sqrt(share) * (std::cos(angle) * along + std::sin(angle) * across) + std::sqrt(1.0 - share) * up;
             const TreeKernel::Ray_3 ray({start[0], start[1], start[2]}, TreeKernel::Vector_3(to[0], to[1], to[2]));
@@ -95,9 +96,14 @@ VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles
             tree.traversal(ray, way);
             free += !way.is_blocked();
         }
-        seen[v] = static_cast<double>(free) / directions;
+        seen[static_cast<Eigen::Index>(i)] = static_cast<double>(free) / directions;
     }
     return seen;
+}
+
+VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles)
+{
+    return ambient_visibility(vertices, triangles, numbers_below(vertices.rows()));
 }
 
 }  // namespace koebe

@@ -3,6 +3,8 @@
 
 #include "core/types.h"
 
+#include <vector>
+
 namespace koebe {
 
 /// The share of the directions on the outer side of each vertex, weighted by their cosine with the normal, in which
@@ -10,5 +12,8 @@ namespace koebe {
 /// side on which most of the area faces away from the middle.
 /// @param vertices (V, 3) @param triangles (F, 3) @return (V) from 0 to 1; 1 for vertices without area
 VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles);
+
+/// The same of some vertices. @return (as many as `at`)
+VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& at);
 
 }  // namespace koebe
