@@ -270,10 +270,7 @@ lint-native: $(VENV)/.done $(DONE)/install-lint
 # ---------------------------------------------------------------- demo, bench, samples
 
 demo: build $(DONE)/install-blender ## uniformize and render the samples: out/
-	@mkdir -p out
-	for name in lift lift_sphere lift_rows; do $(BLENDER) --background --factory-startup --python-exit-code 1 \
-	    --python scripts/lift_picture.py -- out/$$name.jpg 8 >out/$$name.log || { cat out/$$name.log; exit 1; }; done
-	$(PYTHON) scripts/demo.py
+	@$(PYTHON) scripts/demo.py
 
 bench: build $(DONE)/install-blender $(DONE)/install-bench ## time and accuracy: out/bench/
 	$(configure)

@@ -83,6 +83,7 @@ def test_u_menu_in_edit_mode_and_the_uv_editor(window, open_sample):
     window.key("Home")
     window.picture("10_uv_editor")
     assert window.ask("bpy.context.view_layer.objects.active.mode") == "EDIT"
+    window.key("n", "Home")  # the panel would lie over the disk
     window.press("uv.koebe_select_loop", loop=1)
     window.picture("11_loop_selected")
     data = "bpy.context.view_layer.objects.active.data"
