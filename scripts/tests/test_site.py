@@ -101,10 +101,16 @@ def test_the_maps_of_the_library_have_examples():
 
 def test_operators_without_a_description_are_seen():
     said = {"name": "even", "does": "", "hidden": False}
-    found = [{"name": "uv.a", "does": "Map", "properties": [said]}, {"name": "uv.b", "does": "", "properties": []}]
+    found = [{"name": "uv.koebe_even", "does": "Map", "properties": [said]},
+             {"name": "uv.koebe_b", "does": "", "properties": []}]  # fmt: skip
     assert blender_pages.faults(found) == [
-        "bpy.ops.uv.b has no description", "bpy.ops.uv.a: even has no description",
+        "bpy.ops.uv.koebe_b has no description", "bpy.ops.uv.koebe_even: even has no description",
+        "bpy.ops.uv.koebe_b has no picture",
     ]  # fmt: skip
+
+
+def test_the_pictures_of_the_operators_are_there():
+    assert [name for name in blender_pages.PICTURES if not (ROOT / "docs" / "images" / name).exists()] == []
 
 
 def test_a_link_that_is_named_by_its_file_gets_the_title_of_the_contents():

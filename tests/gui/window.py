@@ -237,7 +237,8 @@ class Window:
         self.wait(f"bpy.context.window_manager.windows[0].workspace.name == {name!r}")
         self.run("for area in bpy.context.window_manager.windows[0].screen.areas:\n"
                  "    if area.type == 'VIEW_3D':  # no wires of lamps and cameras over the model\n"
-                 "        area.spaces.active.overlay.show_extras = area.spaces.active.overlay.show_cursor = False")  # fmt: skip
+                 "        overlay = area.spaces.active.overlay\n"
+                 "        overlay.show_extras = overlay.show_cursor = False")  # fmt: skip
         self.settle()
 
     def show_textures(self):

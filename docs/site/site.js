@@ -18,3 +18,8 @@ document.addEventListener("DOMContentLoaded", () => {
     });
   }
 });
+// What the theme leaves out for keyboards and readers of screens: boxes that scroll take the focus, captions have a level.
+document.addEventListener("DOMContentLoaded", () => {
+  for (const box of document.querySelectorAll("pre, .table-wrapper, div.math")) box.tabIndex = 0;
+  for (const caption of document.querySelectorAll("p.caption[role=heading]")) caption.setAttribute("aria-level", "2");
+});
