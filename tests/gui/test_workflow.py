@@ -59,6 +59,7 @@ def test_checker_and_distortion(window, open_sample):
     window.click(angle, y)
     window.picture("07_angle")
     window.click(area, y)
+    window.move(*window.middle("VIEW_3D"))  # away from the button, whose tooltip would cover the report
     window.picture("08_area")
     assert window.ask("bpy.context.active_object.data['koebe_distortion']['kind']") == "area"
     assert window.ask("[a.name for a in bpy.context.active_object.data.color_attributes]") == ["Koebe Distortion"]
