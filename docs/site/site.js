@@ -23,3 +23,19 @@ document.addEventListener("DOMContentLoaded", () => {
   for (const box of document.querySelectorAll("pre, .table-wrapper, div.math")) box.tabIndex = 0;
   for (const caption of document.querySelectorAll("p.caption[role=heading]")) caption.setAttribute("aria-level", "2");
 });
+// A list of the versions that stand beside this site (versions.txt, a line each), under the name in the sidebar.
+document.addEventListener("DOMContentLoaded", async () => {
+  const root = new URL(document.documentElement.dataset.content_root, location.href);
+  for (const home of [root, new URL("../", root)]) {  // this is the newest site, or one of the folders
+    const answer = await fetch(new URL("versions.txt", home)).catch(() => null);
+    if (!answer?.ok) continue;
+    const list = document.createElement("select");
+    list.ariaLabel = "Version";
+    list.append(new Option("newest", home.href));
+    for (const name of (await answer.text()).split("\n").filter(Boolean)) list.append(new Option(name, new URL(`${name}/`, home).href));
+    list.value = root.href;
+    list.addEventListener("change", () => location.assign(list.value + "index.html"));
+    document.querySelector(".sidebar-brand").after(list);
+    return;
+  }
+});

@@ -1,35 +1,32 @@
 // The site of `make docs` in Chromium: node --test tests/web/site.test.mjs. Pictures go to out/site/.
 import assert from "node:assert/strict";
-import { mkdirSync, readdirSync } from "node:fs";
-import { createRequire } from "node:module";
+import { mkdirSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { pathToFileURL } from "node:url";
+import { launch, packages, served } from "./browser.mjs";
 import { root } from "./meshes.mjs";
 
-const packages = createRequire(join(root, "build/web/page/package.json"));
 const { source: axe } = packages("axe-core");
 const site = join(root, "build/docs/html"), pictures = join(root, "out/site");
-const pages = readdirSync(site, { recursive: true }).filter((name) => name.endsWith(".html")).sort();
-let browser, page;
+const pages = readdirSync(site, { recursive: true }).filter((name) => name.endsWith(".html") && !name.startsWith("try")).sort();
+let server, browser, page;
 
 before(async () => {
   mkdirSync(pictures, { recursive: true });
-  browser = await packages("puppeteer-core").launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", protocolTimeout: 900000,
-    args: ["--no-sandbox", "--allow-file-access-from-files"],
-  });
+  server = await served(site);
+  browser = await launch();
   page = await browser.newPage();
-  await page.setRequestInterception(true);
-  page.on("request", (request) => (request.url().startsWith("http") ? request.abort() : request.continue()));
   page.setDefaultNavigationTimeout(300000);
 });
-after(() => browser?.close());
+after(async () => {
+  await browser?.close();
+  server?.close();
+});
 
 async function open(name, scheme, width) {
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
   await page.setViewport({ width, height: 844 });
-  await page.goto(pathToFileURL(join(site, name)).href);
+  await page.goto(server.address + name);
 }
 /** What axe-core finds, by the rules of WCAG 2 at level AA: a rule, an element and what is wrong with it. */
 async function faults() {
@@ -37,6 +34,21 @@ async function faults() {
   const { violations } = await page.evaluate(() => window.axe.run({ runOnly: ["wcag2a", "wcag2aa", "wcag21aa"] }));
   return violations.flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html.slice(0, 160)}`));
 }
+
+test("versions that stand beside the site are offered", async () => {
+  const old = join(site, "versions.txt");
+  writeFileSync(old, "1.0.0\n0.9.0\n");
+  try {
+    await open("reference/blender/index.html", "light", 1280);
+    const list = await page.waitForSelector("select[aria-label=Version]");
+    assert.deepEqual(await list.$$eval("option", (all) => all.map((one) => one.textContent)), ["newest", "1.0.0", "0.9.0"]);
+    const [newest, first] = await list.$$eval("option", (all) => all.map((one) => one.value));
+    assert.ok(newest === server.address && first === `${newest}1.0.0/`);
+    assert.deepEqual(await faults(), []);
+  } finally {
+    rmSync(old);
+  }
+});
 
 for (const name of pages)
   for (const scheme of ["light", "dark"])
