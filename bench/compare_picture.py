@@ -18,7 +18,8 @@ def draw(surface, files, path):
     """A picture of the maps of one surface (vertices, triangles) in {title: .npz}."""
     points = surface[0][surface[1]]
     rows = -(-len(files) // COLUMNS)
-    figure, axes = pyplot.subplots(rows, COLUMNS, figsize=(2.4 * COLUMNS, 2.6 * rows), dpi=100, squeeze=False)
+    size = (2.4 * COLUMNS, 2.6 * rows)
+    figure, axes = pyplot.subplots(rows, COLUMNS, figsize=size, dpi=100, squeeze=False, layout="constrained")
     for axis in axes.ravel():
         axis.set_axis_off()
         axis.set_aspect("equal")
@@ -26,7 +27,6 @@ def draw(surface, files, path):
         axis.set_title(title.removeprefix("Unwrap, "), fontsize=11)
         uv = np.load(file)["uv"].astype(float)
         draw_one(axis, points, upright(points, uv) if title.startswith(IN_ONE_PIECE) else uv)
-    figure.tight_layout(pad=0.3)
     figure.savefig(path, pil_kwargs={"quality": 85})
     pyplot.close(figure)
 

@@ -31,7 +31,7 @@ def flat(text):
     titles = dict(contents())
     text = DATA.sub(table_of_file, ELSEWHERE.sub(r"\1", text))
     text = SOME_ROWS.sub(with_all_rows, text)
-    text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]) + link[3], text)
+    text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]).replace("README.md", "index.md") + link[3], text)
     return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
 
 

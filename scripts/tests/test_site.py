@@ -126,6 +126,10 @@ def test_a_list_of_data_becomes_tables_to_sort():
     assert all((ROOT / "docs" / name).exists() for name in pages.linked_files(ROOT / "docs" / "comparison.md"))
 
 
+def test_the_front_page_is_the_index_of_the_site():
+    assert pages.flat("[zip](../README.md#get-it)") == "[zip](index.md#get-it)"
+
+
 def test_the_releases_of_the_repository_are_no_page_of_the_site():
     assert pages.flat("the [releases](../../releases)") == "the releases"
 
