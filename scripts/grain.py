@@ -11,7 +11,7 @@ import numpy as np
 LIGHT = ("DiffDir", "DiffInd", "GlossDir", "GlossInd")
 PASSES = ("Image", *LIGHT, "DiffCol", "GlossCol", "Normal", "Depth")
 STEPS = (1, 2, 4, 8, 16)  # pixels between the taps of the filter, one pass each
-CONTRAST = 0.4  # difference of log light that still counts as grain
+CONTRAST = 0.2  # difference of log light, in the mean of 9 pixels, that still counts as grain
 TURN = 0.25  # distance of two normals that are alike
 GAP = 0.02  # depth beside the tangent plane, in units of the scene
 
@@ -56,12 +56,14 @@ def smooth(light, normal, depth):
     slopes = np.gradient(depth)
     for step in STEPS:
         total, weights = np.zeros_like(light), np.zeros_like(depth)
-        tone = np.log(light.mean(axis=2) + 1e-3)
+        (high, wide), near = depth.shape, np.pad(light.mean(axis=2), 1, mode="edge")
+        near = sum(near[i : i + high, j : j + wide] for i, j in itertools.product(range(3), repeat=2))
+        tone = np.log(near / 9 + 1e-3)
         rim = [(step, step)] * 2
-        wide = [np.pad(a, rim + [(0, 0)] * (a.ndim - 2), mode="edge") for a in (light, tone, normal, depth)]
+        framed = [np.pad(a, rim + [(0, 0)] * (a.ndim - 2), mode="edge") for a in (light, tone, normal, depth)]
         for down, right in itertools.product((-1, 0, 1), repeat=2):
             here = np.s_[step * (1 + down) :, step * (1 + right) :]
-            there = [a[here][: depth.shape[0], : depth.shape[1]] for a in wide]
+            there = [a[here][:high, :wide] for a in framed]
             off = np.abs(there[3] - depth - step * (down * slopes[0] + right * slopes[1])) / (GAP * step)
             off += np.abs(there[1] - tone) / CONTRAST + ((there[2] - normal) ** 2).sum(axis=2) / TURN**2
             weight = np.exp(-off) / 2 ** (abs(down) + abs(right))
