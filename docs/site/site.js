@@ -21,6 +21,7 @@ document.addEventListener("DOMContentLoaded", () => {
 // What the theme leaves out for keyboards and readers of screens: boxes that scroll take the focus, captions have a level.
 document.addEventListener("DOMContentLoaded", () => {
   for (const box of document.querySelectorAll("pre, .table-wrapper, div.math")) box.tabIndex = 0;
+  for (const part of document.querySelectorAll(".sig dl, .sig dd")) part.role = "presentation";  // lines of a signature
   for (const caption of document.querySelectorAll("p.caption[role=heading]")) caption.setAttribute("aria-level", "2");
 });
 // A list of the versions that stand beside this site (versions.txt, a line each), under the name in the sidebar.

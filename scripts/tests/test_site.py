@@ -126,6 +126,15 @@ def test_a_list_of_data_becomes_tables_to_sort():
     assert all((ROOT / "docs" / name).exists() for name in pages.linked_files(ROOT / "docs" / "comparison.md"))
 
 
+def test_the_page_for_browsers_is_one_click_from_the_first_screen(monkeypatch, tmp_path):
+    link = 'href="try/index.html?sample"'
+    monkeypatch.setattr(pages, "WEB", tmp_path)
+    assert link not in pages.texts()["index.md"]
+    (tmp_path / "index.html").touch()
+    front = pages.texts()["index.md"]
+    assert front.index(link) < front.index("![")
+
+
 def test_the_front_page_is_the_index_of_the_site():
     assert pages.flat("[zip](../README.md#get-it)") == "[zip](index.md#get-it)"
 
