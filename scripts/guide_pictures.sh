@@ -39,8 +39,8 @@ drawn)
     draw vase guide_picture.py "$images/guide_vase.jpg"
     draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
     draw character parts_picture.py --output "$images/parts_character.jpg" --size 1000x500
-    draw closed_head parts_picture.py --output "$images/importance_before.jpg" --size 1000x500 --samples 8
-    draw closed_head parts_picture.py --output "$images/importance_after.jpg" --size 1000x500 --samples 8 \
+    draw closed_head parts_picture.py --output "$images/importance_before.jpg" --size 1000x500
+    draw closed_head parts_picture.py --output "$images/importance_after.jpg" --size 1000x500 \
         --important 0.5,0.0,0.45,0.35
     draw mug tile_picture.py "$images/guide_tile.jpg"  # which takes nothing of the file
     draw closed_head sphere_picture.py "$images/guide_sphere.jpg"

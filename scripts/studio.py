@@ -194,7 +194,7 @@ def render(scene, path):
 
 def render_finely(scene, size, path):
     """Render the scene in the studio, all its rings equally thin."""
-    add_studio(scene, size, 32)
+    add_studio(scene, size, 16)
     for curve in bpy.data.curves:
         curve.bevel_depth = 0.006
     render(scene, path)
