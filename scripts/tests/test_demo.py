@@ -39,6 +39,19 @@ def test_a_line_is_printed_as_each_sample_ends(monkeypatch, capsys, tmp_path, fl
     assert second.startswith("bowl") and second.rstrip().endswith(verdict)
 
 
+def test_patterns_come_last_and_a_fault_is_told(monkeypatch, capsys, tmp_path):
+    def run(_, script, words, blend=None):
+        if words[0].stem == "lift_rows":
+            raise demo.DemoError("no room")
+
+    monkeypatch.setattr(demo, "run_script", run)
+    monkeypatch.setattr(demo, "show_samples", lambda *_: [])
+    monkeypatch.setattr(sys, "argv", ["demo.py", "--blender", "true", "--output", str(tmp_path)])
+    assert demo.main() == 1
+    told = capsys.readouterr()
+    assert told.out.count("lift") == 4 and told.err == "lift_rows: no room\n"
+
+
 def test_the_filter_of_grain_keeps_the_edges_of_a_surface(monkeypatch):
     monkeypatch.setitem(sys.modules, "bpy", types.ModuleType("bpy"))
     grain = importlib.import_module("grain")
