@@ -43,7 +43,7 @@ endif
 SIDE_BY_SIDE = $(MAKE) --no-print-directory --keep-going --jobs=3 --output-sync=target AT_ONCE=yes
 .SECONDARY:
 .PHONY: help build native programs benchmarks core wheel package dist matrix docs paper listing web lint lint-python lint-native lint-workflows check check-native check-form \
-        test test-tools test-all test-native test-python test-long test-bench test-labs test-blender test-gui test-web test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon bench-many figures guide-pictures reliability samples clean distclean
+        test test-tools test-all test-native test-python test-long test-bench test-labs test-blender test-gui test-web test-site test-farms test-asan test-tsan test-fuzz fuzz build-fuzz demo bench compare reproduce bench-addon bench-many figures guide-pictures reliability samples clean distclean
 
 # Two hashes: in the list; one: its name below the list.
 help:
@@ -132,8 +132,15 @@ paper: $(DONE)/install-paper # the paper on the project: build/paper/paper.pdf
 	    --variable geometry:margin=25mm --output ../build/paper/paper.pdf
 
 # Ten minutes of two cores the first time.
-web: $(DONE)/install-web $(DONE)/npm ## the page for browsers: dist/web/
+web: $(DONE)/install-web build/web/page/installed ## the page for browsers: dist/web/
 	$(ccache) CMAKE_C_COMPILER_LAUNCHER=$$(command -v ccache) scripts/web.sh dist/web
+
+# Packages of the page, and the tools that test it and the site.
+build/web/page/installed: native/apps/web/page/package-lock.json | $(DONE)/npm
+	@mkdir -p $(@D)
+	cp native/apps/web/page/package.json $< $(@D)
+	npm ci --prefix $(@D) --ignore-scripts --no-audit --no-fund --loglevel=error
+	@touch $@
 
 $(DONE)/npm $(DONE)/go: $(DONE)/%:
 	command -v $* >/dev/null || scripts/install.sh $*
@@ -151,7 +158,7 @@ test: build test-tools ## what a user could hit, in Debian's Blender and in bpy 
 
 test-tools: programs $(DONE)/install-blender build/venv-labs/.done $(BPY:%=build/venv-bpy-%/.done)
 
-test-all: lint test test-long test-bench test-fuzz docs test-web $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, the site
+test-all: lint test test-long test-bench test-fuzz test-web test-site $(ALL_BPY:%=test-bpy-%) ## before a release: lint, test, long searches, fuzzing, the site
 
 # Slow native tests have names that begin with slow_, slow Python tests have the mark slow.
 check: programs build/venv-lint/.done $(DONE)/install-lint ## the fast tests and the form of what changed: two minutes
@@ -212,6 +219,10 @@ test-gui: package $(DONE)/install-blender $(DONE)/install-gui # clicks and keys 
 test-web: native web $(DONE)/install-browser # the page in Chromium, and its command without a browser: out/web/
 	node --test tests/web/*.test.mjs
 
+# The contrast of letters, names for readers of screens, and the width of a phone: axe-core in Chromium.
+test-site: docs build/web/page/installed $(DONE)/install-browser # the site: accessible, and as wide as a phone
+	node --test tests/web/site.test.mjs
+
 # A Slurm of two nodes on this machine: it wants root, and minutes.
 test-farms: native $(DONE)/install-farms # koebe batch as a Slurm job array and as a Flamenco job, a node lost half way
 	$(PYTHON) -m pytest -p no:cacheprovider -rA tests/farms
@@ -270,10 +281,7 @@ lint-native: $(VENV)/.done $(DONE)/install-lint
 # ---------------------------------------------------------------- demo, bench, samples
 
 demo: build $(DONE)/install-blender ## uniformize and render the samples: out/
-	@mkdir -p out
-	for name in lift lift_sphere lift_rows; do $(BLENDER) --background --factory-startup --python-exit-code 1 \
-	    --python scripts/lift_picture.py -- out/$$name.jpg 8 >out/$$name.log || { cat out/$$name.log; exit 1; }; done
-	$(PYTHON) scripts/demo.py
+	@$(PYTHON) scripts/demo.py
 
 bench: build $(DONE)/install-blender $(DONE)/install-bench ## time and accuracy: out/bench/
 	$(configure)

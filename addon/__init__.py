@@ -5,7 +5,7 @@ from types import ModuleType
 
 bl_info = {
     "name": "Koebe UV",
-    "description": "Unwraps any model, and every hole becomes a circle",
+    "description": "Unwraps any model, in parts or to a disk with round holes",
     "author": "The Koebe UV developers",
     "version": (0, 0, 0),  # filled when the package is built
     "blender": (3, 4, 0),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""UV layouts side by side, coloured by texel density: grey the median, blue up to 3 times as dense, red a third."""
+"""UV layouts in rows of three, so that a phone shows them, coloured by texel density: grey the median, blue up to 3
+times as dense, red a third. A map in one piece stands as the model does."""
 
 import matplotlib
 import numpy as np
@@ -9,19 +10,36 @@ matplotlib.use("agg")
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.collections import PolyCollection  # noqa: E402
 
+COLUMNS = 3
+IN_ONE_PIECE = ("Unwrap", "ours, one map")  # how their titles begin
+
 
 def draw(surface, files, path):
     """A picture of the maps of one surface (vertices, triangles) in {title: .npz}."""
-    vertices, triangles = surface
-    figure, axes = pyplot.subplots(1, len(files), figsize=(2.2 * len(files), 2.5), dpi=100, squeeze=False)
-    for axis, (title, file) in zip(axes[0], files.items()):
-        axis.set_title(title, fontsize=7)
+    points = surface[0][surface[1]]
+    rows = -(-len(files) // COLUMNS)
+    size = (2.4 * COLUMNS, 2.6 * rows)
+    figure, axes = pyplot.subplots(rows, COLUMNS, figsize=size, dpi=100, squeeze=False, layout="constrained")
+    for axis in axes.ravel():
         axis.set_axis_off()
         axis.set_aspect("equal")
-        draw_one(axis, vertices[triangles], np.load(file)["uv"].astype(float))
-    figure.tight_layout(pad=0.3)
-    figure.savefig(path)
+    for axis, (title, file) in zip(axes.ravel(), files.items()):
+        axis.set_title(title.removeprefix("Unwrap, "), fontsize=11)
+        uv = np.load(file)["uv"].astype(float)
+        draw_one(axis, points, upright(points, uv) if title.startswith(IN_ONE_PIECE) else uv)
+    figure.savefig(path, pil_kwargs={"quality": 85})
     pyplot.close(figure)
+
+
+def upright(points, uv):
+    """The UVs turned, so that z grows upwards in the mean over the surface."""
+    sides, rise = uv[:, 1:] - uv[:, :1], points[:, 1:, 2] - points[:, :1, 2]
+    whole = np.abs(np.linalg.det(sides)) > 1e-14
+    slope = np.linalg.solve(sides[whole], rise[whole][..., None])[..., 0]
+    length = np.linalg.norm(slope, axis=1)
+    weight = uv_measures.triangle_areas(points)[whole] / np.maximum(length, 1e-300)
+    x, y = (slope * weight[:, None]).sum(axis=0)
+    return uv @ (np.array([[y, x], [-x, y]]) / max(np.hypot(x, y), 1e-300))
 
 
 def draw_one(axis, points, uv):

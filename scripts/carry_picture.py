@@ -112,8 +112,7 @@ def main():
             middle = np.append(render_uv.CELL * center, 0.01) + (PLACES[0], 0.0, 0.0)
             studio.add_ring(scene, middle + render_uv.CELL * radius * ring, RING)
     studio.add_studio(scene, options.size, options.samples)
-    scene.render.filepath = str(options.output.absolute())
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    studio.render(scene, options.output)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Map every sample in Blender, draw it, and compare with blend_samples/expected.json. Standard library only.
+"""Map every sample in Blender, draw it, and compare with blend_samples/expected.json; then lift patterns. Standard
+library only.
 
     scripts/demo.py [--dense] [--only NAME ...] [--blender PROGRAM] [--output DIR]
 
-Leaves DIR/NAME.blend, NAME.json and NAME.png, and prints one table. --blender takes Blender or a Python with the
-bpy module. Exit code: 0 all as expected, 1 something is not.
+Leaves DIR/NAME.blend, NAME.json and NAME.png, and prints a line as each picture is done. --blender takes Blender or a
+Python with the bpy module. Exit code: 0 all as expected, 1 something is not.
 """
 
 import argparse
@@ -14,13 +15,27 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 SAMPLES = ROOT / "blend_samples"
 LOOK = ("--checker-size", "48")
-PART_COLUMNS = ("in parts", "parts", "faces", "cuts", "density", "angle error", "flips", "lost", "seconds", "")
-COLUMNS = ("sample", "loops", "faces", "sweeps", "roundness", "angle error", "flips", "seconds", "")
+LIFTS = ("lift", "lift_sphere", "lift_rows")
+LEGEND = """\
+roundness    largest distance of a rim's vertex from its circle, over the radius
+angle error  mean change of the angles of the faces
+cuts         length of the cuts, over the root of the surface's area
+density      texels a length at 95 % of the area over those at 5 %: 1 is even
+lost         faces too small for 32-bit UVs
+map, all     seconds of the map alone; with Blender's start and the picture
+"""
+# Heading, and how a figure of the reports is written.
+TIMES = {"map, s": ("seconds", ".2f"), "all, s": ("all", ".0f")}
+FACES = {"faces": ("faces", ",d"), "angle error, °": ("angle_error", ".3f"), "flips": ("flipped", "d")}
+DISKS = {"loops": ("loops", "d"), "sweeps": ("sweeps", "d"), "roundness": ("roundness", ".1e"), **FACES, **TIMES}
+PARTS = {"parts": ("parts", "d"), "cuts": ("cut_length", ".1f"), "density": ("density", ".1f"), **FACES,
+         "lost": ("below_resolution", "d"), **TIMES}  # fmt: skip
 
 
 class DemoError(Exception):
@@ -54,7 +69,7 @@ def run_script(program, script, arguments, blend=None):
 
 
 def map_sample(name, options):
-    """Map and draw one sample; return the solver's result as a dict."""
+    """Map and draw one sample; return the figures as a dict."""
     source = SAMPLES / f"{name}.blend"
     if not source.exists():
         source = options.output / "samples" / f"{name}.blend"
@@ -66,7 +81,7 @@ def map_sample(name, options):
     islands = json.loads(report.read_text(encoding="utf-8"))["objects"]
     if len(islands) != 1:
         raise DemoError(f"{len(islands)} islands instead of one")
-    return islands[0]
+    return summary(islands[0])
 
 
 def unwrap_sample(name, options):
@@ -87,18 +102,10 @@ def part_complaints(found, expected):
     return lines
 
 
-def part_row(name, faces, found, verdict):
-    """One line of the table of parts as strings."""
-    return (
-        name, str(found["parts"]), f"{faces:,}", f"{found['cut_length']:.1f}", f"{found['density']:.1f}",
-        f"{found['angle_error']:.3f}°", str(found["flipped"]), str(found["below_resolution"]),
-        f"{found['seconds']:.2f}", verdict,
-    )  # fmt: skip
-
-
 def summary(result):
-    """The numbers of the table."""
+    """The numbers of the table, and whether the map is done."""
     return {
+        "converged": result["converged"],
         "loops": len(result["loops"]),
         "triangles": result["faces"],
         "sweeps": result["sweeps"],
@@ -109,9 +116,9 @@ def summary(result):
     }
 
 
-def complaints(found, result, expected):
+def complaints(found, expected):
     """What is not as expected.json wants it, one line each."""
-    lines = [] if result["converged"] else ["not converged"]
+    lines = [] if found["converged"] else ["not converged"]
     for key in ("loops", "triangles", "flipped"):
         if found[key] != expected[key]:
             lines.append(f"{key}: {found[key]}, not {expected[key]}")
@@ -121,28 +128,51 @@ def complaints(found, result, expected):
     return lines
 
 
-def row(name, faces, found, verdict):
-    """One line of the table as strings."""
-    return (
-        name,
-        str(found["loops"]),
-        f"{faces:,}",
-        str(found["sweeps"]),
-        f"{found['roundness']:.1e}",
-        f"{found['angle_error']:.3f}°",
-        str(found["flipped"]),
-        f"{found['seconds']:.2f}",
-        verdict,
-    )
+def print_row(name, cells, columns, end):
+    """A line of a table: the name, a cell for each heading, and what stands behind them."""
+    width = max(map(len, LIFTS + tuple(path.stem for path in SAMPLES.glob("*.blend"))))
+    line = "  ".join([name.ljust(width), *(cell.rjust(max(7, len(head))) for cell, head in zip(cells, columns))])
+    print(f"{line}  {end}".rstrip(), flush=True)
 
 
-def print_table(columns, rows):
-    """Aligned columns, the first and the last to the left."""
-    widths = [max(len(line[i]) for line in [columns, *rows]) for i in range(len(columns))]
-    last = len(columns) - 1
-    for line in [columns, tuple("-" * width for width in widths), *rows]:
-        cells = (cell.ljust(w) if i in (0, last) else cell.rjust(w) for i, (cell, w) in enumerate(zip(line, widths)))
-        print("  ".join(cells).rstrip())
+def shown(path):
+    """The path as one would type it here."""
+    return os.path.relpath(path) if path.is_relative_to(Path.cwd()) else str(path)
+
+
+def show_samples(names, samples, options):
+    """Map samples of one kind, and print a line as each is done. Returns what is wrong, one line each."""
+    in_parts = "max_parts" in samples[names[0]]
+    columns, problems = (PARTS if in_parts else DISKS), []
+    print_row("in parts" if in_parts else "in a disk", columns, columns, "picture")
+    for name in names:
+        begin = time.monotonic()
+        try:
+            found = unwrap_sample(name, options) if in_parts else map_sample(name, options)
+            wrong = (part_complaints if in_parts else complaints)(found, samples[name])
+        except DemoError as error:
+            problems.append(f"{name}: {error}")
+            continue
+        problems += [f"{name}: {line}" for line in wrong]
+        found |= {"faces": samples[name]["faces"], "all": time.monotonic() - begin}
+        cells = [format(found[key], form) for key, form in columns.values()]
+        verdict = "  NOT AS EXPECTED" if wrong else ""
+        print_row(name, cells, columns, shown(options.output / f"{name}.png") + verdict)
+    print()
+    return problems
+
+
+def show_lifts(options):
+    """Draw patterns on surfaces. Returns what is wrong, one line each."""
+    print_row("patterns", ["all, s"], ["all, s"], "picture")
+    for name in LIFTS:
+        begin, picture = time.monotonic(), options.output / f"{name}.jpg"
+        try:
+            run_script(options.blender, ROOT / "scripts" / "lift_picture.py", [picture, 8])
+        except DemoError as error:
+            return [f"{name}: {error}"]
+        print_row(name, [f"{time.monotonic() - begin:.0f}"], ["all, s"], shown(picture))
+    return []
 
 
 def main():
@@ -152,27 +182,12 @@ def main():
     names = options.only or [name for name, one in samples.items() if options.dense or not one["dense"]]
     options.output = options.output.absolute()
     options.output.mkdir(parents=True, exist_ok=True)
-    rows, part_rows, problems = [], [], []
-    for name in names:
-        print(f"{name} ...", file=sys.stderr, flush=True)
-        in_parts = "max_parts" in samples[name]
-        try:
-            result = unwrap_sample(name, options) if in_parts else map_sample(name, options)
-        except DemoError as error:
-            problems.append(f"{name}: {error}")
-            continue
-        if in_parts:
-            wrong = part_complaints(result, samples[name])
-            problems += [f"{name}: {line}" for line in wrong]
-            part_rows.append(part_row(name, samples[name]["faces"], result, "FAILED" if wrong else "ok"))
-            continue
-        found = summary(result)
-        wrong = complaints(found, result, samples[name])
-        problems += [f"{name}: {line}" for line in wrong]
-        rows.append(row(name, samples[name]["faces"], found, "FAILED" if wrong else "ok"))
-    for columns, lines in ((COLUMNS, rows), (PART_COLUMNS, part_rows)):
-        if lines:
-            print_table(columns, lines)
+    print(LEGEND)
+    problems = []
+    for in_parts in (False, True):
+        mine = [name for name in names if ("max_parts" in samples[name]) == in_parts]
+        problems += show_samples(mine, samples, options) if mine else []
+    problems += [] if options.only else show_lifts(options)
     for line in problems:
         print(line, file=sys.stderr)
     return 1 if problems else 0

@@ -22,14 +22,30 @@ scripts/fetch_sources.sh "${fetched[@]}"
 packages=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 export ZIG_GLOBAL_CACHE_DIR="${ZIG_GLOBAL_CACHE_DIR:-$PWD/build/zig-cache}"
 
+# The first link for a target compiles the compiler's own C and C++ libraries, for ten minutes and without a word.
+tell_of_libraries() {
+    local before now
+    before=$(find "$ZIG_GLOBAL_CACHE_DIR/o" -name '*.o' 2>/dev/null | wc -l)
+    while sleep "${TELL_SECONDS:-15}"; do
+        now=$(find "$ZIG_GLOBAL_CACHE_DIR/o" -name '*.o' 2>/dev/null | wc -l)
+        [ "$now" -eq "$before" ] ||
+            echo "make dist: $platform: the compiler's own libraries, once for all builds: $now files after $SECONDS s"
+        before=$now
+    done
+}
+
 for platform in "$@"; do
     read -r target tag <<<"${targets[$platform]?no such platform}"
     folder=build/dist-$platform
+    tell_of_libraries &
+    teller=$!
+    trap 'kill "$teller" 2>/dev/null' EXIT
     cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DKOEBE_BUNDLE=ON -DKOEBE_TARGET="$target" \
         -DCMAKE_TOOLCHAIN_FILE="$PWD/native/bundle/zig.cmake" -DKOEBE_ZIG="$packages/ziglang/zig" \
         -Dpybind11_include="$packages/pybind11/include" \
         -DKOEBE_PYTHONS="${PYTHONS// /;}" -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
     rm -f "$folder"/koebe/_koebe.* # of Pythons that are not wanted now
     cmake --build "$folder"
+    kill "$teller"
     "$venv/bin/python" scripts/pack_wheel.py bundle "$folder" "py3-none-$tag" dist
 done

@@ -90,10 +90,10 @@ def main():
     studio.surround(scene, (0.75, 0.76, 0.78, 1.0), 0.7)
     render = scene.render
     render.engine = "CYCLES"
-    scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", 64, False
+    scene.cycles.device, scene.cycles.samples = "CPU", 16
     scene.view_settings.view_transform = "Standard"
     render.resolution_x, render.resolution_y, render.resolution_percentage = 560, 560, 100
-    studio.render_jpeg(scene, output)
+    studio.render(scene, output)
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ window)
     cut flat 51_flat_copy 588x420+225+178 560
     cut lift 70_lift 1057x692+0+28 800
     cut scatter 71_scatter 466x520+362+126 480
-    cut trims 93_in_the_trims 512x548+0+230 420
+    cut trims 93_in_the_trims 330x330+105+265 420
     cut loops 72_loops 460x330+300+290 460
     # without the row that names the folder of the tests
     convert out/gui/15_preferences.png -crop 884x340+170+61 +repage -gravity North -chop 0x23+0+126 +repage \
@@ -39,8 +39,8 @@ drawn)
     draw vase guide_picture.py "$images/guide_vase.jpg"
     draw hand parts_picture.py --output "$images/guide_parts_hand.jpg" --size 1000x500
     draw character parts_picture.py --output "$images/parts_character.jpg" --size 1000x500
-    draw closed_head parts_picture.py --output "$images/importance_before.jpg" --size 1000x500 --samples 8
-    draw closed_head parts_picture.py --output "$images/importance_after.jpg" --size 1000x500 --samples 8 \
+    draw closed_head parts_picture.py --output "$images/importance_before.jpg" --size 1000x500
+    draw closed_head parts_picture.py --output "$images/importance_after.jpg" --size 1000x500 \
         --important 0.5,0.0,0.45,0.35
     draw mug tile_picture.py "$images/guide_tile.jpg"  # which takes nothing of the file
     draw closed_head sphere_picture.py "$images/guide_sphere.jpg"

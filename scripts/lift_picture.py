@@ -315,8 +315,7 @@ def main():
     scene.view_settings.view_transform = "Standard"
     scene.cycles.device, scene.cycles.samples, scene.cycles.adaptive_threshold = "CPU", int(*samples or [72]), 0.03
     scene.cycles.max_bounces = 3
-    scene.cycles.use_denoising = studio._can_denoise()
-    studio.render_jpeg(scene, out)
+    studio.render(scene, out)
 
 
 main()

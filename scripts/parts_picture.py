@@ -10,8 +10,8 @@
     --important X,Y,Z,R    weight 1 at this place, shares of the model's box, and less up to R of its longest side away
     --density D        texel density in pixels per unit on a texture of 2,048 pixels
     --stack            parts that are copies or mirror images lie on each other
-    --size 1600x800    width and height in pixels; OUT may be a .jpg
-    --samples N        Cycles samples per pixel (32)
+    --size 1200x600    width and height in pixels; OUT may be a .jpg
+    --samples N        Cycles samples per pixel (12)
 
 The guide's pictures are those of hand and mug at 1000x500. The file has one mesh, which is mapped as the operator Koebe
 Unwrap to Parts maps it. IN is not changed.
@@ -48,8 +48,8 @@ def parse():
     parser.add_argument("--important", type=lambda text: tuple(map(float, text.split(","))))
     parser.add_argument("--density", type=float)
     parser.add_argument("--stack", action="store_true")
-    parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(1600, 800))
-    parser.add_argument("--samples", type=int, default=32)
+    parser.add_argument("--size", type=lambda text: tuple(map(int, text.split("x"))), default=(1200, 600))
+    parser.add_argument("--samples", type=int, default=12)
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
 
 
@@ -117,10 +117,7 @@ def draw(obj, part, options):
             mesh.materials.append(ink)
         mesh.polygons.foreach_set("material_index", part % len(INKS))
     studio.add_studio(scene, options.size, options.samples)
-    scene.render.image_settings.file_format = "JPEG" if options.output.suffix == ".jpg" else "PNG"
-    scene.render.image_settings.quality = 85
-    scene.render.filepath = str(options.output.absolute())
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    studio.render(scene, options.output)
 
 
 def main():

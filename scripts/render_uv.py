@@ -6,8 +6,8 @@
 
     --object NAME      default: the first mesh that has the layer
     --layer NAME       the UV layer (Koebe)
-    --size 1600x800    width and height in pixels
-    --samples N        Cycles samples per pixel (32)
+    --size 1200x600    width and height in pixels
+    --samples N        Cycles samples per pixel (12)
 
 The surface is seen as the file's camera sees it. The domain is drawn from the UV coordinates alone, by quarter turns
 the way up that the surface is; the ring around each hole is the circle fitted to the hole's UV loop, in the colour of
@@ -44,8 +44,8 @@ def parse():
     parser.add_argument("--output", type=Path, required=True, metavar="OUT.png")
     parser.add_argument("--object", metavar="NAME")
     parser.add_argument("--layer", default="Koebe")
-    parser.add_argument("--size", type=_size, default=(1600, 800), metavar="WIDTHxHEIGHT")
-    parser.add_argument("--samples", type=int, default=32)
+    parser.add_argument("--size", type=_size, default=(1200, 600), metavar="WIDTHxHEIGHT")
+    parser.add_argument("--samples", type=int, default=12)
     options = parser.parse_args(given)
     if not bpy.app.binary_path:
         bpy.ops.wm.open_mainfile(filepath=str(Path(before[-1]).absolute()))
@@ -120,8 +120,7 @@ def main():
         studio.add_ring(scene, surface[loop], code)
         studio.add_ring(scene, np.append(center, 0.0) + radius * circle, code)
     studio.add_studio(scene, options.size, options.samples)
-    scene.render.filepath = str(options.output.absolute())
-    bpy.ops.render.render(write_still=True, scene=scene.name)
+    studio.render(scene, options.output)
 
 
 if __name__ == "__main__":

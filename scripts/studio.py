@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The look of the pictures: colours, materials, rings, light and camera."""
 
+from pathlib import Path
+
 import bpy
+import grain
 import numpy as np
 from mathutils import Vector
 
@@ -158,15 +161,12 @@ def add_studio(scene, size, samples):
     render.engine = "CYCLES"
     render.resolution_x, render.resolution_y = size
     render.resolution_percentage = 100
-    render.image_settings.file_format = "PNG"
-    render.image_settings.color_mode = "RGB"
     render.use_stamp_filename = False  # a picture names no folder of this machine
     scene.view_settings.view_transform = "Standard"
     scene.cycles.device = "CPU"
     scene.cycles.samples = samples
     scene.cycles.adaptive_threshold = 0.02
     scene.cycles.max_bounces = 1
-    scene.cycles.use_denoising = _can_denoise()
 
 
 def surround(scene, color, strength):
@@ -179,19 +179,25 @@ def surround(scene, color, strength):
     background.inputs["Strength"].default_value = strength
 
 
-def render_jpeg(scene, path):
-    """Render the scene to a file."""
-    scene.render.image_settings.file_format, scene.render.image_settings.quality = "JPEG", 85
-    scene.render.filepath = str(path)
+def render(scene, path):
+    """Render the scene to a file, .jpg or .png, without grain."""
+    form = scene.render.image_settings
+    form.file_format, form.quality = "JPEG" if Path(path).suffix == ".jpg" else "PNG", 85
+    form.color_mode = "RGB"
+    scene.cycles.use_denoising = _can_denoise()
+    if not scene.cycles.use_denoising:
+        grain.render_smoothly(scene, Path(path).absolute())
+        return
+    scene.render.filepath = str(Path(path).absolute())
     bpy.ops.render.render(write_still=True, scene=scene.name)
 
 
 def render_finely(scene, size, path):
     """Render the scene in the studio, all its rings equally thin."""
-    add_studio(scene, size, 32)
+    add_studio(scene, size, 16)
     for curve in bpy.data.curves:
         curve.bevel_depth = 0.006
-    render_jpeg(scene, path)
+    render(scene, path)
 
 
 def _can_denoise():

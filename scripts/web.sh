@@ -15,14 +15,7 @@ cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FIL
     -DKOEBE_BUNDLE=ON -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
 cmake --build "$build" --target koebe_web
 
-packages=$build/page
-mkdir -p "$packages"
-if ! cmp --silent native/apps/web/page/package-lock.json "$packages/installed"; then
-    cp native/apps/web/page/package.json native/apps/web/page/package-lock.json "$packages"
-    npm ci --prefix "$packages" --ignore-scripts --no-audit --no-fund --loglevel=error
-    cp native/apps/web/page/package-lock.json "$packages/installed"
-fi
-node native/apps/web/page/build.mjs "$build/command" "$packages" "$out"
+node native/apps/web/page/build.mjs "$build/command" "$build/page" "$out"
 
 bytes=$(for file in "$out"/*; do gzip --best --stdout "$file"; done | wc --bytes)
 echo "$out: $bytes bytes compressed"

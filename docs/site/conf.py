@@ -23,9 +23,9 @@ myst_enable_extensions = ["colon_fence", "dollarmath"]
 nb_execution_mode = "off"
 suppress_warnings = ["mystnb.unknown_mime_type"]
 
-# Names of Python and labels must exist; C++ names of other libraries have no page to lead to.
+# Names of Python and labels must exist; names of other libraries have no page to lead to.
 nitpicky = True
-nitpick_ignore_regex = [("cpp:.*", ".*")]
+nitpick_ignore_regex = [("cpp:.*", ".*"), ("py:class", r"(numpy|np|collections|os|pathlib|typing)\..*")]
 
 autodoc_typehints = "none"  # the docstrings give shapes and units
 autodoc_member_order = "bysource"
@@ -39,13 +39,13 @@ breathe_show_include = False
 html_theme = "furo"
 html_title = f"Koebe UV {release}"
 html_logo = html_favicon = "logo.svg"
-html_static_path = ["style.css", "sort.js"]
+html_static_path = ["style.css", "site.js"]
 html_css_files = ["style.css"]
-html_js_files = ["sort.js"]
+html_js_files = ["site.js"]
 html_copy_source = False
 html_show_sphinx = html_show_copyright = False
-pygments_style = "tango"
-pygments_dark_style = "github-dark"
+pygments_style = "a11y-high-contrast-light"
+pygments_dark_style = "a11y-high-contrast-dark"
 copybutton_prompt_text = r">>> |\.\.\. "
 copybutton_prompt_is_regexp = True
 html_theme_options = {

@@ -1,4 +1,5 @@
-"""The reference of the add-on: its operators and their properties, as blender_names.py has found them."""
+"""The reference of the add-on: a page for each operator, with its picture and its properties as blender_names.py has
+found them."""
 
 import json
 import re
@@ -8,6 +9,34 @@ from markup import escaped, indented, sentence, title, toctree
 ROOMS = {"uv": "UV maps", "mesh": "Meshes", "object": "Objects", "node": "Node groups"}
 FIRST = ["uv.koebe_unwrap", "uv.koebe_uniformize", "uv.koebe_parts"]
 TEXTLESS = {"filter_glob"}  # Blender's own
+# Of docs/images, and what it shows of these operators.
+PICTURES = {
+    "guide_film.gif": ("Unwrap is pressed, a circle is dragged, and Even is moved", "unwrap even"),
+    "suzanne_mask.jpg": ("A mask in its checker, and its disk", "uniformize checker use_for_rendering"),
+    "parts_character.jpg": ("A character in parts, and its islands", "parts select_cuts bake_texture"),
+    "guide_parts_hand.jpg": ("Islands of one texel density, packed",
+                             "pack sew measure_density set_density copy_density"),
+    "domains_ring.png": ("A tube with holes, and its cylinder", "ring"),
+    "guide_tile.jpg": ("A ring with two holes, its tile, and the next copies", "torus"),
+    "guide_sphere.jpg": ("A head, its sphere, and its UVs", "sphere"),
+    "domains_schottky.png": ("A surface with handles, and its domain", "schottky select_torn"),
+    "guide_circles.jpg": ("The disk is dragged, and the checker follows", "moebius symmetrize"),
+    "guide_live.gif": ("UVs that follow the hand", "relax sequence"),
+    "guide_uv_editor.jpg": ("The mouth's loop, selected by its number", "select_loop"),
+    "guide_distortion.jpg": ("The report, and texel density in colours",
+                             "distortion show select_flipped select_offenders select_warning"),
+    "guide_filled.jpg": ("The mouth filled with faces", "fill_holes"),
+    "guide_loops.jpg": ("Loops round the holes of a face", "loops_around_holes"),
+    "guide_flat.jpg": ("A vase, and its flat copy", "flat_copy"),
+    "patterns.svg": ("A hat, and its pattern", "flat_svg"),
+    "guide_lift.jpg": ("Circles cut out of a face, and the redo panel", "lift redo"),
+    "guide_scatter.jpg": ("Balls on a face, by the node group Koebe Scatter",
+                          "add_groups remove_groups add_library remove_library"),
+    "guide_trims.jpg": ("Islands in a trim sheet", "arrange trims"),
+    "carry_aligned.jpg": ("One texture on two faces", "carry_texture compare_shapes"),
+    "guide_panel.jpg": ("The panel, its presets in the title", "preset preset_add reset"),
+}  # fmt: skip
+PICTURE_OF = {name: (file, text) for file, (text, names) in PICTURES.items() for name in names.split()}
 
 
 def operators(path):
@@ -27,7 +56,13 @@ def faults(found):
         for said in seen(one["properties"])
         if not said["does"]
     ]
-    return bare + silent
+    blind = [f"bpy.ops.{one['name']} has no picture" for one in found if word(one) not in PICTURE_OF]
+    return bare + silent + blind
+
+
+def word(one):
+    """The operator's name without the add-on's."""
+    return one["name"].partition(".koebe_")[2]
 
 
 def number(value):
@@ -64,7 +99,8 @@ def entry(one):
 
 def operator(one):
     """An operator in reStructuredText."""
-    made = title(one["label"], "-")
+    file, text = PICTURE_OF[word(one)]
+    made = title(one["label"]) + f".. figure:: /images/{file}\n   :alt: {text}\n\n   {text}.\n\n"
     body = sentence(escaped(one["does"])) + "\n\n" + "".join(entry(said) for said in seen(one["properties"]))
     return made + f".. py:function:: bpy.ops.{one['name']}(...)\n   :no-contents-entry:\n\n{indented(body)}\n"
 
@@ -86,6 +122,6 @@ def pages(found):
             brief = re.split(r"(?<=\.)\s", sentence(one["does"]))[0]
             index += f"   * - :py:func:`{escaped(one['label'])} <bpy.ops.{one['name']}>`\n     - {escaped(brief)}\n"
         index += "\n"
-        made[f"reference/blender/{room}.rst"] = title(ROOMS[room]) + "".join(map(operator, mine))
-    made["reference/blender/index.rst"] = index + toctree(sorted(rooms, key=[*ROOMS].index), ":hidden:")
+        made |= {f"reference/blender/{one['name']}.rst": operator(one) for one in mine}
+    made["reference/blender/index.rst"] = index + toctree([one["name"] for one in found], ":hidden:")
     return made

@@ -1,4 +1,5 @@
 """Builds the site in build/docs/html: writes the sources of its pages, runs Doxygen and Sphinx, and checks the links.
+The page of `make web`, if it is there, becomes a part of it.
 
     PYTHONPATH=build/python build/venv-docs/bin/python scripts/site/build.py build/docs
 
@@ -58,7 +59,10 @@ def main():
     texts = {**pages.texts(), **python_pages.pages(), **command_pages.pages(), **cpp_pages.pages(folder / "doxygen")}
     write(folder / "source", {**texts, **blender_pages.pages(found)}, pages.files())
     html = folder / "html"
+    shutil.rmtree(html / pages.TRY, ignore_errors=True)
     run_sphinx(folder / "source", html, folder / "doctrees")
+    if pages.WEB.is_dir():
+        shutil.copytree(pages.WEB, html / pages.TRY)
     fail(links.dead(html))
     print(f"{len(list(html.rglob('*.html')))} pages: {html / 'index.html'}")
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "docs" / "site"
+WEB, TRY = ROOT / "dist" / "web", "try"  # the page for browsers, and its folder on the site
 PROJECT = ("CHANGELOG.md", "CONTRIBUTING.md", "THIRD_PARTY.md")
 LINK = re.compile(r"(\]\()(?!https?:|#)([^)\s]+)(\))")
 PLACE = re.compile(r"^(?:\.\./)*(?:docs/)?(?:developers/)?")
@@ -30,12 +31,12 @@ def flat(text):
     titles = dict(contents())
     text = DATA.sub(table_of_file, ELSEWHERE.sub(r"\1", text))
     text = SOME_ROWS.sub(with_all_rows, text)
-    text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]) + link[3], text)
+    text = LINK.sub(lambda link: link[1] + PLACE.sub("", link[2]).replace("README.md", "index.md") + link[3], text)
     return FILE_NAME.sub(lambda link: f"[{titles.get(link[1]) or link[1]}]" + link[2], text)
 
 
 def table_of_file(data):
-    """A folded table to sort (sort.js) in place of a link to a data file, and the link below it."""
+    """A folded table to sort (site.js) in place of a link to a data file, and the link below it."""
     return (f"\n<details><summary>{data[1]}</summary>\n\n:::{{csv-table}}\n:file: {data[2]}\n:header-rows: 1\n"
             f":class: sortable\n:::\n\n[{data[2]}]({data[2]})\n\n</details>\n")  # fmt: skip
 
@@ -81,6 +82,9 @@ def gallery():
 def texts():
     """The pages: name -> text."""
     front = flat((ROOT / "README.md").read_text(encoding="utf-8"))
+    if (WEB / "index.html").is_file():
+        first = front.index("\n![")  # above the first picture
+        front = f'{front[:first]}\n<a href="{TRY}/index.html?sample">Try it here, on a face</a>\n{front[first:]}'
     made = {"index.md": front + "\n" + (SITE / "contents.md").read_text(encoding="utf-8"), "gallery.md": gallery()}
     for path in documents():
         made[path.name] = flat(path.read_text(encoding="utf-8"))

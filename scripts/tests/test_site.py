@@ -101,10 +101,16 @@ def test_the_maps_of_the_library_have_examples():
 
 def test_operators_without_a_description_are_seen():
     said = {"name": "even", "does": "", "hidden": False}
-    found = [{"name": "uv.a", "does": "Map", "properties": [said]}, {"name": "uv.b", "does": "", "properties": []}]
+    found = [{"name": "uv.koebe_even", "does": "Map", "properties": [said]},
+             {"name": "uv.koebe_b", "does": "", "properties": []}]  # fmt: skip
     assert blender_pages.faults(found) == [
-        "bpy.ops.uv.b has no description", "bpy.ops.uv.a: even has no description",
+        "bpy.ops.uv.koebe_b has no description", "bpy.ops.uv.koebe_even: even has no description",
+        "bpy.ops.uv.koebe_b has no picture",
     ]  # fmt: skip
+
+
+def test_the_pictures_of_the_operators_are_there():
+    assert [name for name in blender_pages.PICTURES if not (ROOT / "docs" / "images" / name).exists()] == []
 
 
 def test_a_link_that_is_named_by_its_file_gets_the_title_of_the_contents():
@@ -118,6 +124,19 @@ def test_a_list_of_data_becomes_tables_to_sort():
     made = pages.flat("- [times](data/benchmark_times.csv)\n\n<!-- figures: polish | face -->\n\n<!-- end -->\n")
     assert made.count(":class: sortable") == 2 and "| surprised |" in made and ":file: data/benchmark_times.csv" in made
     assert all((ROOT / "docs" / name).exists() for name in pages.linked_files(ROOT / "docs" / "comparison.md"))
+
+
+def test_the_page_for_browsers_is_one_click_from_the_first_screen(monkeypatch, tmp_path):
+    link = 'href="try/index.html?sample"'
+    monkeypatch.setattr(pages, "WEB", tmp_path)
+    assert link not in pages.texts()["index.md"]
+    (tmp_path / "index.html").touch()
+    front = pages.texts()["index.md"]
+    assert front.index(link) < front.index("![")
+
+
+def test_the_front_page_is_the_index_of_the_site():
+    assert pages.flat("[zip](../README.md#get-it)") == "[zip](index.md#get-it)"
 
 
 def test_the_releases_of_the_repository_are_no_page_of_the_site():

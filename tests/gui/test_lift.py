@@ -74,7 +74,7 @@ face.update_tag()
 
 def test_scattered_balls_are_as_large_as_the_map_is(window, open_sample):
     open_sample("face_five_holes")
-    window.run("bpy.ops.uv.koebe_unwrap(shape='DISK', checker=False)")
+    window.run("bpy.ops.uv.koebe_unwrap(shape='DISK', even=0.4, checker=False)")
     assert window.press("node.koebe_add_groups") is None
     window.run(SCATTER)
     window.settle()

@@ -59,6 +59,7 @@ def test_checker_and_distortion(window, open_sample):
     window.click(angle, y)
     window.picture("07_angle")
     window.click(area, y)
+    window.move(*window.middle("VIEW_3D"))  # away from the button, whose tooltip would cover the report
     window.picture("08_area")
     assert window.ask("bpy.context.active_object.data['koebe_distortion']['kind']") == "area"
     assert window.ask("[a.name for a in bpy.context.active_object.data.color_attributes]") == ["Koebe Distortion"]
@@ -83,6 +84,7 @@ def test_u_menu_in_edit_mode_and_the_uv_editor(window, open_sample):
     window.key("Home")
     window.picture("10_uv_editor")
     assert window.ask("bpy.context.view_layer.objects.active.mode") == "EDIT"
+    window.key("n", "Home")  # the panel would lie over the disk
     window.press("uv.koebe_select_loop", loop=1)
     window.picture("11_loop_selected")
     data = "bpy.context.view_layer.objects.active.data"

@@ -235,6 +235,10 @@ class Window:
         """Show a workspace, and wait until it is there."""
         self.run(f"bpy.context.window_manager.windows[0].workspace = bpy.data.workspaces[{name!r}]")
         self.wait(f"bpy.context.window_manager.windows[0].workspace.name == {name!r}")
+        self.run("for area in bpy.context.window_manager.windows[0].screen.areas:\n"
+                 "    if area.type == 'VIEW_3D':  # no wires of lamps and cameras over the model\n"
+                 "        overlay = area.spaces.active.overlay\n"
+                 "        overlay.show_extras = overlay.show_cursor = False")  # fmt: skip
         self.settle()
 
     def show_textures(self):

@@ -1,30 +1,19 @@
 // The page in Chromium: node --test tests/web/page.test.mjs. Pictures go to out/web/.
 import assert from "node:assert/strict";
-import { createServer } from "node:http";
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { basename, extname, join } from "node:path";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { basename, join } from "node:path";
 import { after, before, test } from "node:test";
+import { launch, served } from "./browser.mjs";
 import { bad, circleDifference, damaged, good, native, root, samples, sensitivity } from "./meshes.mjs";
 
-const puppeteer = createRequire(join(root, "build/web/page/package.json"))("puppeteer-core");
 const folder = join(root, "dist/web"), pictures = join(root, "out/web");
-const types = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".obj": "text/plain" };
 let server, browser, page, address;
 
 before(async () => {
   mkdirSync(pictures, { recursive: true });
-  server = createServer((request, answer) => {
-    const path = join(folder, request.url === "/" ? "index.html" : new URL(request.url, "http://x").pathname);
-    if (!existsSync(path)) return answer.writeHead(404).end();
-    answer.writeHead(200, { "Content-Type": types[extname(path)] }).end(readFileSync(path));
-  });
-  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-  address = `http://127.0.0.1:${server.address().port}/`;
-  browser = await puppeteer.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", protocolTimeout: 900000,
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-  });
+  server = await served(folder);
+  address = server.address;
+  browser = await launch();
   page = await browser.newPage();
   page.faults = [];
   page.on("pageerror", (error) => page.faults.push(error.message));
@@ -55,6 +44,12 @@ async function after_(action) {
   return settled();
 }
 const picture = (name) => page.screenshot({ path: join(pictures, `${name}.png`), fullPage: true });
+
+test("a link with ?sample maps the sample at once", async () => {
+  await page.goto(`${address}?sample`);
+  assert.equal(await settled(), "done", await status());
+  await page.goto(address);
+});
 
 test("the sample is mapped, and drawn at a desktop's and at a phone's width", async () => {
   await picture("empty");

@@ -185,6 +185,7 @@ $("file").addEventListener("change", async ({ target }) => {
   target.value = "";
 });
 $("sample").addEventListener("click", async () => open("face.obj", await (await fetch("face.obj")).arrayBuffer()));
+if (new URLSearchParams(location.search).has("sample")) $("sample").click(); // the site's link
 addEventListener("dragover", (event) => {
   event.preventDefault();
   document.body.classList.add("dragged");
