@@ -13,6 +13,7 @@ import numpy as np
 
 from ._option_table import INTERRUPTED, NOT_CONVERGED, REFUSED, WRONG_USAGE
 from ._report_entries import Loop
+from ._types import Floats, Ints
 from .errors import Cancelled, InputError, KoebeError, OptionError
 from .io.corner_mesh import mesh_with_corner_uv
 from .io.export import CUT_TEXT, export, has_one_place_a_vertex, obj_of
@@ -81,7 +82,7 @@ class _Map(MapReport):
     """A surface with the UVs that the command wrote, as far as files need it."""
 
     _source: Source
-    uv: np.ndarray
+    uv: Floats
     is_surface: bool
     loops: list[Loop] = field(default_factory=list)
 
@@ -195,7 +196,7 @@ class _Conversion:
             result.points = points
             export(result, sphere)
 
-    def _result(self, vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray) -> _Map:
+    def _result(self, vertices: Floats, triangles: Ints, uv: Floats) -> _Map:
         """The written surface: the input with its UVs, or another one."""
         source = self._sources[0]
         same = np.array_equal(triangles, source.triangles) and len(vertices) == len(source.vertices)
@@ -235,7 +236,7 @@ def _without_region(words: list[str]) -> tuple[list[str], str | None]:
     return left, region
 
 
-def _read_obj(path: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _read_obj(path: str) -> tuple[Floats, Ints, Floats]:
     """Vertices, triangles and the UVs (F, 3, 2) of their corners, or (0, 3, 2), of a file that the command wrote."""
     rows: dict[str, list[list[str]]] = {"v": [], "vt": [], "f": []}
     for line in Path(path).read_text("utf-8").splitlines():

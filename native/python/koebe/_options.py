@@ -11,6 +11,7 @@ import numpy as np
 
 from ._native import _koebe
 from ._option_table import Row, rows
+from ._types import Floats
 from .errors import InputError, OptionError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -71,7 +72,7 @@ def filled(of: str, native: Native, given: Mapping[str, Any]) -> tuple[Native, d
     return native, said
 
 
-def vertex_weights(name: str, values: Any, count: int) -> np.ndarray:
+def vertex_weights(name: str, values: Any, count: int) -> Floats:
     """(V,) a weight in [0, 1] for each vertex, or empty."""
     if values is None:
         return np.zeros(0)

@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from .._comparable import Result
 from .._options import choice_of, whole
+from .._types import Bools, Floats, Values
 from ..errors import FileError, InputError
 from .export import package_of, saved_bytes
 from .files import whole_file
@@ -21,8 +23,8 @@ _MOST_LABELS = 1 << 14  # of an annotation, whose table has a row for each
 Color = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True)
-class VertexField:
+@dataclass(frozen=True, eq=False, repr=False)
+class VertexField(Result):
     """Values at the vertices of a surface.
 
     values   (V,), or (V, k) for k maps: float64, NaN where a file has none; or labels, int32, -1 where it has none
@@ -30,7 +32,7 @@ class VertexField:
     colors   label -> red, green, blue and alpha, from 0 to 1
     """
 
-    values: np.ndarray
+    values: Values
     names: dict[int, str] = field(default_factory=dict)
     colors: dict[int, Color] = field(default_factory=dict)
 
@@ -38,7 +40,10 @@ class VertexField:
         of = f"{len(self.names)} labels" if self.names else "values"
         return f"<koebe.VertexField {self.values.shape} {of}>"
 
-    def __array__(self, dtype: Any = None, copy: Any = None) -> np.ndarray:
+    def _drawing(self) -> dict[str, Any]:
+        return {"values": self.values}
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Values:
         return np.array(self.values, dtype=dtype)
 
 
@@ -132,7 +137,7 @@ def _from_cifti(image: Any, path: Any, hemisphere: str | None) -> VertexField:
     return VertexField(values.astype(np.int32), names, colors)
 
 
-def read_region(path: str | os.PathLike[str], vertex_count: int) -> np.ndarray:
+def read_region(path: str | os.PathLike[str], vertex_count: int) -> Bools:
     """(V,) bool: the vertices that a file names. `mask=~region` leaves out all others.
 
     path           a label (lh.cortex.label) or a patch of FreeSurfer: the vertices that it lists; or a file as for
@@ -231,7 +236,7 @@ def _color(key: int, colors: Mapping[int, Color]) -> Color:
     return red, green, blue, 1.0
 
 
-def _save_annot(place: str, labels: np.ndarray, names: dict[int, str], colors: dict[int, Color]) -> None:
+def _save_annot(place: str, labels: Floats, names: dict[int, str], colors: dict[int, Color]) -> None:
     """Labels are distinguished by their colours in this format, so each has a colour of its own, none of them black."""
     keys = range(max(names, default=0) + 1)  # the format numbers labels without gaps
     taken: set[tuple[int, ...]] = {(0, 0, 0)}
@@ -246,7 +251,7 @@ def _save_annot(place: str, labels: np.ndarray, names: dict[int, str], colors: d
     package_of("nibabel.freesurfer").write_annot(place, labels.astype(np.int64), table, words, fill_ctab=True)
 
 
-def _gifti(values: np.ndarray, names: Any, colors: Any, structure: str, labels: bool) -> Any:
+def _gifti(values: Floats, names: Any, colors: Any, structure: str, labels: bool) -> Any:
     gifti = package_of("nibabel.gifti")
     if not labels:
         data, intent, kind = np.float32(values), "NIFTI_INTENT_SHAPE", "NIFTI_TYPE_FLOAT32"
@@ -273,7 +278,7 @@ def _side(path: Any, hemisphere: str | None) -> str:
     return named
 
 
-def _cifti(values: np.ndarray, names: Any, colors: Any, side: str, labels: bool) -> Any:
+def _cifti(values: Floats, names: Any, colors: Any, side: str, labels: bool) -> Any:
     cifti = package_of("nibabel.cifti2")
     inside = values != NO_LABEL if labels else ~np.isnan(values.astype(np.float64))
     if not inside.any():

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from .._comparable import Comparable
+from .._comparable import Result
 from .._progress import Run
+from .._types import Bools, Floats, Ints, Values
 from ..errors import InputError
 from .sphere_alignment import nearest_rotation
 from .sphere_transfer import SphereCorrespondence, vertex_areas
@@ -18,17 +19,17 @@ AnyCorrespondence = Correspondence | SphereCorrespondence
 
 
 @dataclass(frozen=True, eq=False)
-class LaidShapes(Comparable):
+class LaidShapes(Result):
     """Shapes with a point of each for every vertex of a reference, as PointFamily says."""
 
-    points: np.ndarray
-    triangles: np.ndarray
-    weights: np.ndarray
+    points: Floats
+    triangles: Ints
+    weights: Floats
     correspondences: list[AnyCorrespondence | None]
     maps: list[Any]
 
 
-class PointFamily(Comparable):
+class PointFamily(Result):
     """Shapes with a point of each for every vertex of a reference, moved and turned over their mean.
 
     labels    of the shapes
@@ -38,30 +39,30 @@ class PointFamily(Comparable):
     laid: LaidShapes
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> Floats:
         """(N, V, 3) the corresponding points, moved and turned to lie as near to the mean as they can, in the shapes'
         unit. Sizes are kept. NaN at vertices of the reference without a face."""
         return self.laid.points
 
     @property
-    def mean(self) -> np.ndarray:
+    def mean(self) -> Floats:
         """(V, 3) the mean of the points: with the reference's triangles, the mean surface."""
         return self.points.mean(axis=0)
 
     @property
-    def spread(self) -> np.ndarray:
+    def spread(self) -> Floats:
         """(V,) root mean square distance of the points from their mean, in the shapes' unit."""
         away = np.linalg.norm(self.points - self.mean, axis=2)
         size = _size(away)
         return size * np.sqrt(((away / size) ** 2).mean(axis=0))
 
     @property
-    def triangles(self) -> np.ndarray:
+    def triangles(self) -> Ints:
         """(F, 3) int32: the reference's triangles."""
         return self.laid.triangles
 
     @property
-    def weights(self) -> np.ndarray:
+    def weights(self) -> Floats:
         """(V,) area around each of the reference's vertices, sum 1; 0 without a face."""
         return self.laid.weights
 
@@ -76,7 +77,7 @@ class PointFamily(Comparable):
         return self.laid.maps
 
     @property
-    def vertices(self) -> np.ndarray:
+    def vertices(self) -> Floats:
         """(V, 3) the mean: the family is a surface, and koebe.plot draws it."""
         return self.mean
 
@@ -85,16 +86,20 @@ class PointFamily(Comparable):
         """The reference's map."""
         return next(one for one, found in zip(self.maps, self.correspondences, strict=True) if found is None)
 
-    def _drawn(self) -> np.ndarray:
-        drawn: np.ndarray = self._base._drawn()
+    def _drawn(self) -> Bools:
+        drawn: Bools = self._base._drawn()
         return drawn
 
-    def _layout(self) -> tuple[np.ndarray, float]:
-        layout: tuple[np.ndarray, float] = self._base._layout()
+    def _picture(self) -> str:
+        picture: str = self._base._picture()
+        return picture
+
+    def _layout(self) -> tuple[Floats, float]:
+        layout: tuple[Floats, float] = self._base._layout()
         return layout
 
     @property
-    def point_distances(self) -> np.ndarray:
+    def point_distances(self) -> Floats:
         """(N, N) root mean square distances of corresponding points by area, each two turned over each other: in the
         shapes' unit."""
         used, found = self.weights > 0.0, np.zeros((len(self.points),) * 2)
@@ -114,7 +119,7 @@ class PointFamily(Comparable):
         count = len(self.weights)
         return import_module("scipy.sparse").csr_matrix((np.ones(len(both)), both.T), (count, count))
 
-    def matrix(self, fields: Sequence[Any], *, labels: bool | None = None) -> np.ndarray:
+    def matrix(self, fields: Sequence[Any], *, labels: bool | None = None) -> Values:
         """Fields of all shapes at corresponding points: (N, V) subjects x points, or (N, V, k).
 
         fields    of each shape its values (V_i,) or (V_i, k) at its vertices, in any unit
@@ -125,7 +130,7 @@ class PointFamily(Comparable):
         if len(given) != len(self.labels):
             raise InputError(f"there are fields of {len(given)} shapes, not of {len(self.labels)}")
         first = next(number for number, found in enumerate(self.correspondences) if found is None)
-        rows: list[np.ndarray] = []
+        rows: list[Floats] = []
         for number, (field, found) in enumerate(zip(given, self.correspondences, strict=True)):
             if found is None and len(field) != len(self.weights):
                 raise InputError(f"the field of shape {number} has {len(field)} values, not {len(self.weights)}")
@@ -177,12 +182,12 @@ def landmark_pairs_of(landmarks: Sequence[Sequence[Any]] | None, number: int, re
     return list(zip(landmarks[number], landmarks[reference], strict=True))
 
 
-def _size(values: np.ndarray) -> float:
+def _size(values: Floats) -> float:
     """The largest value's size, by which squares are kept in range; 1 for none."""
     return float(np.nanmax(np.abs(values), initial=0.0)) or 1.0
 
 
-def _over_their_mean(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def _over_their_mean(points: Floats, weights: Floats) -> Floats:
     """Shapes (N, n, 3) moved and turned over their mean, and that in turn, until it stays [Gower 1975]."""
     mean = points[0] - weights @ points[0]
     for _ in range(100):
@@ -193,7 +198,7 @@ def _over_their_mean(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return points
 
 
-def _laid_over(shape: np.ndarray, other: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def _laid_over(shape: Floats, other: Floats, weights: Floats) -> Floats:
     """The shape (n, 3), moved and turned to lie nearest to the other."""
     middle, there = weights @ shape, weights @ other
     turn = nearest_rotation((other - there).T @ ((shape - middle) * weights[:, None]))

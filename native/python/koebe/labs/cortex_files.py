@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .._options import choice_of
+from .._types import Bools
 from ..errors import FileError, InputError
 from ..io.vertex_fields import NO_LABEL, read_field, read_region
 
@@ -55,7 +56,7 @@ class Hemisphere:
         raise FileError(f"{self.folder} has no {what} of the {self.words['side']} hemisphere: sought {wanted}")
 
 
-def cortex_of(region: object, count: int) -> np.ndarray:
+def cortex_of(region: object, count: int) -> Bools:
     """(V,) bool, from a file or an array: the vertices of the cortex. Of an atlas the areas that are no wall."""
     if not isinstance(region, (str, os.PathLike)):
         given = np.asarray(region)
@@ -70,5 +71,5 @@ def cortex_of(region: object, count: int) -> np.ndarray:
         raise FileError(f"{region} has {field.values.shape} labels, not one for each of {count} vertices")
     walls = [label for label, text in field.names.items() if text.lower() in _WALL]
     out = [NO_LABEL, *walls] if name.endswith(".annot") else [NO_LABEL, 0, *walls]
-    inside: np.ndarray = ~np.isin(field.values, out)
+    inside: Bools = ~np.isin(field.values, out)
     return inside

@@ -19,6 +19,7 @@ from .._options import flag, whole
 from .._progress import Progress, Run, Watched
 from .._report_entries import Warning
 from .._signatures import Rims, Unpack
+from .._types import Floats, Ints, Values
 from ..errors import InputError, TopologyError
 from ..io.files import whole_file
 from ..maps.image import to_image
@@ -53,13 +54,13 @@ class Family(PointFamily):
     reference, template, landmarks    as given to `family`
     """
 
-    modules: np.ndarray
+    modules: Floats
     columns: list[str]
-    orders: np.ndarray
+    orders: Ints
     labels: list[str]
-    errors: np.ndarray | None = None
+    errors: Floats | None = None
     rims: str = "smooth"
-    margins: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    margins: Floats = field(default_factory=lambda: np.zeros(0))
     shapes: tuple[Any, ...] = ()
     reference: int = 0
     template: Any = None
@@ -77,7 +78,7 @@ class Family(PointFamily):
         orders = list(self.orders)
         return over_template(self.shapes, orders, self.reference, self.template, self.landmarks, run)
 
-    def images(self, fields: Sequence[Any], pixels: int = 256, *, labels: bool | None = None) -> np.ndarray:
+    def images(self, fields: Sequence[Any], pixels: int = 256, *, labels: bool | None = None) -> Values:
         """(N, n, n) or (N, n, n, k): fields of all shapes as images of the template's disk, as in `to_image`.
 
         fields    of each shape its values (V_i,) or (V_i, k) at its vertices
@@ -90,12 +91,12 @@ class Family(PointFamily):
     def __repr__(self) -> str:
         return f"<koebe.Family {len(self.labels)} shapes, {self.orders.shape[1]} loops>"
 
-    def match(self, a: int, b: int) -> np.ndarray:
+    def match(self, a: int, b: int) -> Ints:
         """(n + 1,) int32: shape b's loop for each of shape a's: the form of `match` in all functions."""
         return self.orders[b][np.argsort(self.orders[a])]
 
     @property
-    def distance_errors(self) -> np.ndarray | None:
+    def distance_errors(self) -> Floats | None:
         """(N, N) error bars of the distances: root of the sum of both modules' squared bars; None without bars."""
         if self.errors is None:
             return None
@@ -103,7 +104,7 @@ class Family(PointFamily):
         return np.where(np.eye(len(size), dtype=bool), 0.0, np.hypot(size[:, None], size[None]))
 
     @property
-    def distances(self) -> np.ndarray:
+    def distances(self) -> Floats:
         """(N, N) L2 distances of the modules: a metric, as all use one order of the loops."""
         return np.linalg.norm(self.modules[:, None] - self.modules[None], axis=2)
 
@@ -244,7 +245,7 @@ def family(
     if orders is None:
         wanted = np.arange(count, dtype=np.int32) if order is None else as_indices(order, "order", count, "loops")
         part = run.part(0.0, 0.3 * later if error else later)
-        chosen: list[np.ndarray] = []
+        chosen: list[Ints] = []
         for number, shape in enumerate(shapes):
             part.at(number / len(shapes), "match")
             own = part.part(number / len(shapes), (number + 1) / len(shapes))
@@ -261,7 +262,7 @@ def family(
     modules = [
         conformal_module(shape, order=each.tolist(), rims=rims) for shape, each in zip(shapes, chosen, strict=True)
     ]
-    bars: list[np.ndarray] = []
+    bars: list[Floats] = []
     for shape, each in zip(shapes, chosen, strict=True) if flag(error, "error") else ():
         part = run.part(*(later * (0.3 + 0.7 * (len(bars) + k) / len(shapes)) for k in (0, 1)))
         bars.append(module_error(shape, order=each.tolist(), rims=rims, progress=part.progress, cancel=part.cancel))
@@ -299,7 +300,7 @@ def _mapped(shapes: list[Any], run: Run) -> list[Any]:
     return found
 
 
-def _match(reference: Any, shape: Any, rims: Rims, pairs: list[Any] | None, run: Run) -> tuple[np.ndarray, float]:
+def _match(reference: Any, shape: Any, rims: Rims, pairs: list[Any] | None, run: Run) -> tuple[Ints, float]:
     """The shape's loop for each of the reference's, and the margin of this match; NaN if it was not searched."""
     if shape is reference or on_one_template(reference, shape):
         return np.arange(len(reference.radii), dtype=np.int32), math.nan
@@ -310,7 +311,7 @@ def _match(reference: Any, shape: Any, rims: Rims, pairs: list[Any] | None, run:
     return sure_match(reference, shape, rims, run)
 
 
-def _tell_of_doubt(margins: np.ndarray, names: list[str]) -> None:
+def _tell_of_doubt(margins: Floats, names: list[str]) -> None:
     """Warn of shapes whose loops may be matched wrongly."""
     unsure = np.flatnonzero(margins < _koebe.ambiguous_margin)
     if len(unsure):

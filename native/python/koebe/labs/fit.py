@@ -11,6 +11,7 @@ from .._arrays import as_indices, as_numbers, as_points
 from .._native import _koebe
 from .._options import callback, flag, takes, token, vertex
 from .._signatures import ShapesOptions, Unpack
+from .._types import Floats, Ints
 from ..errors import InputError
 from ..maps.input import polygons_of, surface_of
 from ..maps.result import UniformizeResult
@@ -69,15 +70,15 @@ class FitResult(UniformizeResult):
     """
 
     fit: Fit
-    mu: np.ndarray
+    mu: Floats
     names: list[str]
-    ranks: np.ndarray
+    ranks: Ints
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
-        self._set_arrays(mu=native.mu)
+        self._set(mu=native.mu)
         self._set(names=[loop["name"] for loop in report["loops"][1:] if "name" in loop])
-        self.ranks = np.array([loop["rank"] for loop in report["loops"]], dtype=np.int32)
+        self._set(ranks=np.array([loop["rank"] for loop in report["loops"]], dtype=np.int32))
 
     def _arrays(self) -> dict[str, Any]:
         return {**super()._arrays(), "mu": self.mu}
@@ -159,7 +160,7 @@ def _are_triangles(given: Any) -> bool:
     return array.ndim == 2 and array.shape[1] == 3 and array.dtype.kind in "iu"
 
 
-def holes_of(centers: Any, radii: Any) -> tuple[np.ndarray, np.ndarray]:
+def holes_of(centers: Any, radii: Any) -> tuple[Floats, Floats]:
     """The circles without the unit circle."""
     sizes = as_numbers(radii, "radii")
     if not len(sizes):

@@ -9,6 +9,7 @@ import numpy as np
 from .._native import _koebe
 from .._options import whole
 from .._progress import Progress, Run
+from .._types import Floats
 from ..errors import InputError, KoebeError, OptionError, SolverError
 from ..maps.input import surface_of
 from ..maps.result import UniformizeResult
@@ -48,7 +49,7 @@ def _noise_of(source: Source) -> float:
     ends = np.concatenate([edges, edges[:, ::-1]])
     degree = np.maximum(np.bincount(ends[:, 0], minlength=count), 1)
 
-    def filtered(values: np.ndarray) -> np.ndarray:
+    def filtered(values: Floats) -> Floats:
         sums = np.stack([np.bincount(ends[:, 0], column[ends[:, 1]], minlength=count) for column in values.T], axis=1)
         return values - sums / degree[:, None]
 
@@ -79,7 +80,7 @@ def noise_error(
     seed: int = 0,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
-) -> np.ndarray:
+) -> Floats:
     """Error bars of conformal_module(result, order=order), lengths in the unit disk: the effect of noise in a scan.
 
     noise     standard deviation of each coordinate of a vertex, in the surface's unit; None: vertex_noise of it

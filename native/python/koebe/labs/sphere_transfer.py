@@ -1,7 +1,5 @@
 """Takes points of one closed surface to another, through their maps to the sphere."""
 
-import json
-import os
 import warnings as python_warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -9,13 +7,13 @@ from typing import Any, TypedDict
 
 import numpy as np
 
-from .._comparable import Comparable
+from .._comparable import Result
 from .._native import _koebe
 from .._options import flag
 from .._progress import Run, Watched
 from .._report_entries import Warning
+from .._types import Floats, Ints, Values, Whole
 from ..errors import InputError, OptionError
-from ..io.files import whole_file
 from ..maps.carry import carried, landmark_pairs
 from ..maps.result import Beltrami, MapReport
 from ..maps.sphere import SphereMap
@@ -52,7 +50,7 @@ class Bending(TypedDict):
 
 
 @dataclass(frozen=True, eq=False)
-class SphereCorrespondence(Comparable):
+class SphereCorrespondence(Result):
     """A point of closed surface a for each vertex of closed surface b.
 
     faces       (V_b,) int32 triangle of a that holds the point
@@ -70,18 +68,18 @@ class SphereCorrespondence(Comparable):
     A vertex of b without a face corresponds to nothing: its face is -1, all else NaN.
     """
 
-    faces: np.ndarray
-    weights: np.ndarray
-    points: np.ndarray
-    sphere: np.ndarray
-    alignment: np.ndarray
-    misses_deg: np.ndarray
+    faces: Ints
+    weights: Floats
+    points: Floats
+    sphere: Floats
+    alignment: Floats
+    misses_deg: Floats
     similarity: float | None
     bending: Bending | None
-    triangles: np.ndarray
+    triangles: Ints
     count: int
-    own_sphere: np.ndarray
-    own_triangles: np.ndarray
+    own_sphere: Floats
+    own_triangles: Ints
     warnings: list[Warning] = field(default_factory=list)
 
     def __repr__(self) -> str:
@@ -93,7 +91,10 @@ class SphereCorrespondence(Comparable):
         like = "" if self.similarity is None else f", fields correlate by {self.similarity:.3g}"
         return f"<koebe.SphereCorrespondence {len(self.points)} points, turned by {angle:.3g} deg{bent}{like}>"
 
-    def __call__(self, directions: Any) -> np.ndarray:
+    def _drawing(self) -> dict[str, Any]:
+        return {"corners": self.points[self.own_triangles]}
+
+    def __call__(self, directions: Any) -> Floats:
         """The points (n, 3) of a's sphere at points (n, 3) of b's sphere."""
         places = np.asarray(directions, np.float64)
         if self.bending is None:
@@ -102,27 +103,9 @@ class SphereCorrespondence(Comparable):
         there = np.einsum("nk,nkc->nc", weights, self.sphere[self.own_triangles[faces]])
         return there / np.linalg.norm(there, axis=1, keepdims=True)
 
-    def carry(self, field: Any, *, labels: bool | None = None) -> np.ndarray:
+    def carry(self, field: Any, *, labels: bool | None = None) -> Values:
         """Values (V_b,) or (V_b, k) at b's vertices of a field at a's vertices, as Correspondence.carry."""
         return carried(field, self.triangles, self.faces, self.weights, self.count, labels)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the correspondence to a file for `koebe.load`: NumPy's .npz. The file is complete or absent."""
-        parts = dict(vars(self))
-        report = {name: parts.pop(name) for name in ("similarity", "bending", "count")}
-        report["warnings"] = [dict(warning) for warning in parts.pop("warnings")]
-        with whole_file(path) as file:
-            np.savez_compressed(
-                file, kind=np.array("SphereCorrespondence"), report=np.array(json.dumps(report)), **parts
-            )
-
-
-def loaded_correspondence(file: Any) -> SphereCorrespondence:
-    """The correspondence in a file that `save` wrote."""
-    report = json.loads(str(file["report"]))
-    warnings = [Warning(warning) for warning in report.pop("warnings")]
-    arrays = {name: file[name] for name in file if name not in ("kind", "report")}
-    return SphereCorrespondence(**arrays, **report, warnings=warnings)
 
 
 def sphere_transfer(
@@ -190,13 +173,13 @@ def sphere_transfer(
 def _bent(
     a: SphereMap,
     b: SphereMap,
-    sphere: np.ndarray,
-    fields: tuple[np.ndarray, np.ndarray],
-    on_a: np.ndarray,
-    on_b: np.ndarray,
+    sphere: Floats,
+    fields: tuple[Floats, Floats],
+    on_a: Whole,
+    on_b: Whole,
     stiffness: float,
     run: Run,
-) -> tuple[np.ndarray, Bending]:
+) -> tuple[Floats, Bending]:
     """b's vertices on a's sphere after the bending, and its figures."""
     found = _koebe.register_spheres(
         a.vertices, _upright(a.points, a.triangles), _anywhere(a.points), fields[0],
@@ -206,7 +189,7 @@ def _bent(
     return found.pop("sphere"), found
 
 
-def _checked(fields: Any, a: SphereMap, b: SphereMap) -> tuple[np.ndarray, np.ndarray]:
+def _checked(fields: Any, a: SphereMap, b: SphereMap) -> tuple[Floats, Floats]:
     """The fields of both, (V_a, k) and (V_b, k) float64. Raises InputError."""
     if not isinstance(fields, (tuple, list)) or len(fields) != 2:
         raise InputError("fields must be a pair: values at a's vertices and at b's")
@@ -226,7 +209,7 @@ def _checked(fields: Any, a: SphereMap, b: SphereMap) -> tuple[np.ndarray, np.nd
     return on_a, on_b
 
 
-def _vertices(result: SphereMap, places: list[Any]) -> np.ndarray:
+def _vertices(result: SphereMap, places: list[Any]) -> Whole:
     """(n,) vertices: as named, or nearest to points in space."""
     found = np.zeros(len(places), np.int64)
     numbers = np.flatnonzero(result._source.used)
@@ -243,12 +226,12 @@ def _vertices(result: SphereMap, places: list[Any]) -> np.ndarray:
     return found
 
 
-def _anywhere(points: np.ndarray) -> np.ndarray:
+def _anywhere(points: Floats) -> Floats:
     """The points (V, 3), with vertices that have no face at (0, 0, 1)."""
     return np.where(np.isfinite(points), points, [0.0, 0.0, 1.0])
 
 
-def _upright(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+def _upright(points: Floats, triangles: Ints) -> Ints:
     """The triangles (F, 3), those that were turned to the others' orientation with two corners exchanged."""
     a, b, c = points[triangles].transpose(1, 0, 2)
     turned = np.einsum("fk,fk->f", a, np.cross(b - a, c - a)) < 0.0
@@ -258,31 +241,31 @@ def _upright(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 class _Located:
     """Where points lie among the triangles of a sphere."""
 
-    def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None:
+    def __init__(self, points: Floats, triangles: Ints) -> None:
         self.triangles, upright = triangles, _upright(points, triangles)
         self.turned = (upright != triangles).any(axis=1)
         self.native = _koebe.SpherePlaces(_anywhere(points), upright)
 
-    def at(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def at(self, places: Floats) -> tuple[Ints, Floats]:
         """The triangles (n,) that hold points on the sphere, and the weights (n, 3) of their corners."""
         faces, weights = self.native.at(places)
         return faces, np.where(self.turned[faces, None], weights[:, [0, 2, 1]], weights)
 
-    def values(self, field: np.ndarray, places: np.ndarray) -> np.ndarray:
+    def values(self, field: Floats, places: Floats) -> Floats:
         """Fields (V, k) at points (n, 3) of the sphere: NaN beside a vertex where they are NaN."""
         faces, weights = self.at(places)
         return np.einsum("nc,nck->nk", weights, field[self.triangles[faces]])
 
 
-def _similarity(located: _Located, sphere: np.ndarray, b: SphereMap, fields: tuple[np.ndarray, np.ndarray]) -> float:
+def _similarity(located: _Located, sphere: Floats, b: SphereMap, fields: tuple[Floats, Floats]) -> float:
     """Mean correlation of the fields by area on b, with b's vertices at places (V, 3) on a's sphere."""
     used = b._source.used
     return float(correlation(located.values(fields[0], sphere[used]), fields[1][used], vertex_areas(b)[used]))
 
 
-def vertex_areas(result: MapReport) -> np.ndarray:
+def vertex_areas(result: MapReport) -> Floats:
     """(V,) areas of the faces around each vertex, relative to each other."""
     points = result.vertices / np.abs(result.vertices).max(initial=np.finfo(float).tiny)
     a, b, c = points[result.triangles].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    return np.bincount(result.triangles.ravel(), np.repeat(area, 3), minlength=result.vertex_count)
+    return np.asarray(np.bincount(result.triangles.ravel(), np.repeat(area, 3), minlength=result.vertex_count), float)

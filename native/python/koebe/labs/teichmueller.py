@@ -8,9 +8,10 @@ from typing import Any, Literal
 import numpy as np
 
 from .._arrays import as_circles, as_indices
-from .._comparable import Comparable
+from .._comparable import Result
 from .._native import _koebe
 from .._options import callback, token
+from .._types import Floats, Ints
 from ..errors import InputError
 from ..maps.carry import landmark_pairs
 from ..maps.result import UniformizeResult
@@ -20,7 +21,7 @@ from .transfer import places
 
 
 @dataclass(frozen=True, eq=False)
-class TeichmuellerMap(Comparable):
+class TeichmuellerMap(Result):
     """The extremal map of a to b: of all one-to-one maps the one whose largest |mu| is least.
 
     K           its dilatation, at least 1. 1: a conformal map takes a to b. Without landmarks it depends on the two
@@ -42,12 +43,15 @@ class TeichmuellerMap(Comparable):
     distance: float
     lower: float
     largest: float
-    mu: np.ndarray
-    uv: np.ndarray | None
-    match: np.ndarray
+    mu: Floats
+    uv: Floats | None
+    match: Ints
     path: str
     flipped: int
     refused: int = 0
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"values": self.mu} if self.uv is None else {"points": self.uv}
 
     def __repr__(self) -> str:
         return f"<koebe.TeichmuellerMap K {self.K:.5g}, distance {self.distance:.4g}, {self.flipped} flipped>"

@@ -10,12 +10,13 @@ from typing import Any, overload
 import numpy as np
 
 from .._arrays import as_indices, as_numbers
-from .._comparable import Comparable
+from .._comparable import Result
 from .._native import _koebe
 from .._options import callback, flag, token, vertex
 from .._progress import Progress, Run, Watched
 from .._report_entries import Warning
 from .._signatures import Unpack
+from .._types import Bools, Floats, Ints, Values
 from ..errors import InputError
 from ..maps.carry import carried, landmark_pairs
 from ..maps.result import Beltrami, UniformizeResult
@@ -26,7 +27,7 @@ from .sphere_transfer import STIFFNESS, SphereCorrespondence, SphereOptions, sph
 
 
 @dataclass(frozen=True, eq=False)
-class Correspondence(Comparable):
+class Correspondence(Result):
     """A point of surface a for each vertex of surface b.
 
     faces       (V_b,) int32 triangle of a that holds the point
@@ -44,17 +45,20 @@ class Correspondence(Comparable):
                 if fit=True and the holes could not be bent onto each other
     """
 
-    faces: np.ndarray
-    weights: np.ndarray
-    points: np.ndarray
-    distances: np.ndarray
+    faces: Ints
+    weights: Floats
+    points: Floats
+    distances: Floats
     alignment: DomainAlignment
     fitted: bool
-    uv: np.ndarray
+    uv: Floats
     beltrami: Beltrami
     flipped: int
-    triangles: np.ndarray
+    triangles: Ints
     warnings: list[Warning] = dataclasses.field(default_factory=list)
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"corners": self.uv[self.triangles]}
 
     @property
     def match(self) -> list[int]:
@@ -68,7 +72,7 @@ class Correspondence(Comparable):
             f"|mu| {self.beltrami['mean']:.3g} in the mean, {self.beltrami['max']:.3g} at most>"
         )
 
-    def carry(self, field: Any, *, labels: bool | None = None) -> np.ndarray:
+    def carry(self, field: Any, *, labels: bool | None = None) -> Values:
         """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's.
 
         labels   True: each vertex takes one of the labels at its triangle's corners: the label of greatest weight.
@@ -98,9 +102,9 @@ def transfer(
 @overload
 def transfer(a: SphereMap, b: SphereMap, field: None = None, **how: "Unpack[_OnSpheres]") -> SphereCorrespondence: ...
 @overload
-def transfer(a: UniformizeResult, b: UniformizeResult, field: Any, **how: "Unpack[_OnDisks]") -> np.ndarray: ...
+def transfer(a: UniformizeResult, b: UniformizeResult, field: Any, **how: "Unpack[_OnDisks]") -> Values: ...
 @overload
-def transfer(a: SphereMap, b: SphereMap, field: Any, **how: "Unpack[_OnSpheres]") -> np.ndarray: ...
+def transfer(a: SphereMap, b: SphereMap, field: Any, **how: "Unpack[_OnSpheres]") -> Values: ...
 def transfer(
     a: UniformizeResult | SphereMap,
     b: UniformizeResult | SphereMap,
@@ -116,7 +120,7 @@ def transfer(
     stiffness: float = STIFFNESS,
     progress: Progress | None = None,
     cancel: "_koebe.CancelToken | None" = None,
-) -> Correspondence | SphereCorrespondence | np.ndarray:
+) -> Correspondence | SphereCorrespondence | Values:
     """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
 
     The automorphism of the disk that brings the holes nearest lays a's circle domain over b's (align_domains). fit=True
@@ -191,7 +195,7 @@ def transfer(
     return correspondence if field is None else correspondence.carry(field)
 
 
-def _forget(found: dict[str, Any], vertices: np.ndarray) -> None:
+def _forget(found: dict[str, Any], vertices: Bools) -> None:
     """Vertices of b without a face correspond to nothing."""
     for name, nothing in (("faces", -1), ("weights", np.nan), ("points", np.nan), ("distances", np.nan)):
         found[name] = np.array(found[name])

@@ -5,12 +5,11 @@ from typing import Any
 import numpy as np
 
 from .._options import flag
+from .._types import Floats, Values, Whole
 from ..errors import InputError
 
 
-def carried(
-    field: Any, triangles: np.ndarray, faces: np.ndarray, weights: np.ndarray, count: int, labels: bool | None
-) -> np.ndarray:
+def carried(field: Any, triangles: Whole, faces: Whole, weights: Floats, count: int, labels: bool | None) -> Values:
     """A field at points of triangles, from the field at the vertices."""
     values = np.asarray(field)
     if values.ndim not in (1, 2) or len(values) != count:

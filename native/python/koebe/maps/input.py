@@ -9,6 +9,7 @@ import numpy as np
 
 from .._arrays import as_points, as_surface
 from .._native import _koebe
+from .._types import Bools, Floats, Ints
 from ..errors import InputError
 from ..io.formats import is_foreign_surface, read_surface
 from ..io.meshes import Polygons, can_give_back, is_mesh, plain, read_mesh
@@ -41,10 +42,10 @@ def _welded(source: Source, distance: float, degenerate: bool) -> Source:
     return welded if degenerate or len(kept) == len(a) else _restricted(welded, kept)
 
 
-def _restricted(source: Source, kept: np.ndarray) -> Source:
+def _restricted(source: Source, kept: Ints) -> Source:
     """The surface with only these of its triangles."""
 
-    def rows(array: np.ndarray | None) -> np.ndarray | None:
+    def rows(array: Ints | None) -> Ints | None:
         return None if array is None else array[kept]
 
     return replace(
@@ -60,10 +61,10 @@ def _masked(source: Source, mask: Any) -> Source:
         dropped = np.isin(source.polygon, source.polygon[dropped])
     if dropped.all():
         raise InputError("the mask leaves out all faces")
-    return replace(_restricted(source, np.flatnonzero(~dropped)), mask=out)
+    return replace(_restricted(source, np.flatnonzero(~dropped).astype(np.int32)), mask=out)
 
 
-def as_mask(mask: Any, count: int) -> np.ndarray:
+def as_mask(mask: Any, count: int) -> Bools:
     """(V,) bool. Raises InputError for any other array: numbers of vertices would look like 0 and 1."""
     out = np.array(mask)
     if out.shape != (count,) or out.dtype != bool:
@@ -74,7 +75,7 @@ def as_mask(mask: Any, count: int) -> np.ndarray:
     return out
 
 
-def points_at_vertices(points: Any, name: str, source: Source) -> np.ndarray:
+def points_at_vertices(points: Any, name: str, source: Source) -> Floats:
     """(V, 2) float64, finite. Where a vertex has no face, its point is not looked at, and becomes 0."""
     given = np.array(points)
     if given.shape == (len(source.vertices), 2) and given.dtype.kind == "f":
@@ -141,7 +142,7 @@ def _is_table(thing: Any) -> bool:
     )
 
 
-def polygons_of(given: Any, source: Source) -> np.ndarray:
+def polygons_of(given: Any, source: Source) -> Ints:
     """(F,) int32: the polygons' numbers as given, or as in the mesh; empty if each triangle is by itself."""
     if given is None:
         return np.zeros(0, np.int32) if source.polygon is None else source.polygon

@@ -6,11 +6,12 @@ import numpy as np
 
 from .._arrays import as_points
 from .._native import _koebe
+from .._types import Floats, Ints
 from ..errors import InputError
 from .input import polygons_of, surface_of
 
 
-def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -> np.ndarray | None:
+def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -> Ints | None:
     """The vertex (V,) that is the mirror image of each, int32, or None if the surface is not symmetric.
 
     Tries planes through the middle of the surface: perpendicular to x, y and z, then perpendicular to the principal
@@ -32,7 +33,7 @@ def mirror_image(vertices: Any, triangles: Any = None, *, polygon: Any = None) -
 MOST_IMPORTANT: float = _koebe.most_important  # texel density at importance 1 over that at 0
 
 
-def pack_disks(radii: Any, margin: float = 0.02) -> tuple[np.ndarray, np.ndarray]:
+def pack_disks(radii: Any, margin: float = 0.02) -> tuple[Floats, Floats]:
     """Centres (n, 2) and radii (n,) of disks in these proportions, as large as found to fit the unit square.
 
     margin       between two disks, half of it at the border; less for many disks, so that they have room
@@ -49,7 +50,7 @@ def pack_disks(radii: Any, margin: float = 0.02) -> tuple[np.ndarray, np.ndarray
     return _koebe.pack_disks(sizes, float(margin))
 
 
-def fit_circle(points: Any) -> tuple[np.ndarray, float, float]:
+def fit_circle(points: Any) -> tuple[Floats, float, float]:
     """Centre (2,) and radius of the circle of least squared distance to points (n, 2), and the largest distance.
 
     Points on a line, or on less than an eighth of a turn, get the circle round their mean.

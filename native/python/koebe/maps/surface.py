@@ -10,6 +10,7 @@ from .._native import _koebe
 from .._options import callback, takes, token
 from .._progress import Progress
 from .._signatures import SequenceOptions, Unpack
+from .._types import Values, Whole
 from ..errors import InputError
 from .input import is_surface, polygons_of, surface_of
 from .result import UniformizeResult
@@ -84,7 +85,7 @@ class Surface:
         return f"<koebe.Surface {len(self._source.vertices)} vertices, {len(self._source.triangles)} faces>"
 
 
-def _faces(source: Source) -> tuple[np.ndarray, np.ndarray]:
+def _faces(source: Source) -> tuple[Values, Whole]:
     """Vertices at the corners of the polygons, and the first corner of each polygon."""
     if source.polygons is not None:
         return source.polygons.corners, source.polygons.begin
