@@ -78,8 +78,7 @@ BAD_VERTICES = {
     "the most negative whole number": with_entry(VERTICES.astype(np.int64), (5, 1), -(2**63)),
     "unsigned ones": with_entry(VERTICES.astype(np.uint64), (5, 1), 2**64 - 1),
     "bools": VERTICES.astype(bool),
-    "16 bits": VERTICES.astype(np.float16),
-    "more than 64 bits": VERTICES.astype(np.longdouble),
+    "more than 64 bits, too large": VERTICES.astype(np.longdouble) * np.finfo(np.longdouble).max,
     "complex": VERTICES.astype(complex),
     "objects": VERTICES.astype(object),
     "texts": VERTICES.astype(str),
@@ -122,10 +121,25 @@ def test_the_error_names_the_offending_elements(name):
         assert list(caught.value.elements) == [5]
 
 
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.longdouble, np.int8, np.uint64])
+def test_numbers_of_any_width_are_taken(kind):
+    points = np.round(VERTICES * 64).astype(kind)
+    assert np.array_equal(koebe.uniformize(points, FACES).uv, koebe.uniformize(points.astype(float), FACES).uv)
+
+
+def test_masks_may_be_0_and_1():
+    out = np.zeros(COUNT, np.uint8)
+    out[RIMS[1]] = 1
+    assert np.array_equal(koebe.uniformize(VERTICES, FACES, mask=out).triangles,
+                          koebe.uniformize(VERTICES, FACES, mask=out == 1).triangles)  # fmt: skip
+    ragged, masked = [[1], [0, 1]], np.ma.masked_array(out, out == 1)
+    for mask in (out * 2, out[1:], out.astype(float), np.where(out)[0], masked, ragged):
+        with pytest.raises(koebe.InputError, match="the mask"):
+            koebe.uniformize(VERTICES, FACES, mask=mask)
+
+
 def test_lists_are_arrays_too():
-    assert np.array_equal(
-        koebe.uniformize(VERTICES.tolist(), FACES.tolist()).uv, koebe.uniformize(VERTICES, FACES).uv
-    )
+    assert np.array_equal(koebe.uniformize(VERTICES.tolist(), FACES.tolist()).uv, koebe.uniformize(VERTICES, FACES).uv)
 
 
 # ---------------------------------------------------------------- arrays in any form

@@ -4,6 +4,7 @@ W. Zeng, X. Yin, M. Zhang, F. Luo, X. Gu, "Generalized Koebe's Method for Confor
 Domains". Arrays in, UVs and a report out; nothing here knows Blender.
 """
 
+from . import _docstrings
 from ._batch import batch
 from ._example import example
 from ._fields import disk_to_uv, uv_to_disk
@@ -182,3 +183,5 @@ if hasattr(_koebe, "conformal_module"):
         "transfer",
         "vertex_noise",
     ]
+
+_docstrings.write({name: globals()[name] for name in __all__})

@@ -11,7 +11,7 @@ from ._native import _koebe
 from ._types import Bools, Floats, Ints, Values
 from .errors import InputError
 
-_REAL = (np.dtype(np.float32), np.dtype(np.float64))
+_REAL = tuple(np.dtype(kind) for kind in (np.float16, np.float32, np.float64, np.longdouble))
 _WHOLE = tuple(np.dtype(f"{sign}int{bits}") for bits in (8, 16, 32, 64) for sign in ("", "u"))
 _EXACT = 2**53  # beyond it 64-bit floats skip whole numbers
 # Half-edges, three per face, have 32-bit numbers, too.
@@ -22,7 +22,7 @@ _MOST_FACES = _MOST_VERTICES // 3
 def as_surface(vertices: Any, triangles: Any, *, degenerate: bool = False) -> tuple[Floats, Ints]:
     """Positions (V, 3) float64 and faces (F, 3) int32, C order; degenerate: faces may name a vertex twice.
 
-    Takes float32, float64 or whole numbers of any width, in any order and byte order, read-only too.
+    Takes floats and whole numbers of any width, in any order and byte order, read-only too.
     """
     positions = as_points(vertices, "vertices", 3)
     if not len(positions):
@@ -56,7 +56,7 @@ def as_points(points: Any, name: str, dimension: int, count: int | None = None) 
     if array.dtype.kind != "f":
         beyond: Bools = np.any((array > _EXACT) | (array < -_EXACT), axis=1)
         _refuse(beyond, f"{name} have a whole number beyond 2^53 for a coordinate", "vertices")
-    array = array.astype(np.float64, copy=False)
+    array = _double(array)
     known = np.asarray(np.isfinite(array).all(axis=1))
     _refuse(~known, f"{name} have a coordinate that is NaN or infinite", "vertices")
     return array
@@ -72,6 +72,18 @@ def as_indices(indices: Any, name: str, count: int, of: str) -> Ints:
     if (times > 1).any():
         raise InputError(f"{name} names {found[times > 1][0]} twice", found[times > 1].tolist(), of)
     return array.astype(np.int32, copy=False)
+
+
+def as_flags(flags: Any, name: str, count: int, means: str = "True and False") -> Bools:
+    """(count,) bool, own, from bools or from 0 and 1. Raises InputError for any other array, such as numbers."""
+    try:
+        array = np.array(flags)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise InputError(f"{name} cannot be made an array: {error}") from None
+    known = array.dtype == bool or (array.dtype.kind in "iu" and np.isin(array, (0, 1)).all())
+    if array.shape != (count,) or not known or np.ma.is_masked(flags):
+        raise InputError(f"{name} must be ({count},) of {means}, or of 1 and 0, not {array.shape} {array.dtype}")
+    return array.astype(bool)
 
 
 def as_circles(domain: Any) -> tuple[Floats, Floats]:
@@ -90,7 +102,7 @@ def as_circles(domain: Any) -> tuple[Floats, Floats]:
 def as_numbers(numbers: Any, name: str) -> Floats:
     """(n,) float64, finite. Takes whole numbers too, and an empty list."""
     array = np.zeros(0) if _is_empty(numbers) else _copy(numbers, name, _REAL + _WHOLE)
-    array = array.astype(np.float64, copy=False)
+    array = _double(array)
     _refuse(~np.isfinite(array), f"numbers of {name} are NaN or infinite", "loops")
     return array
 
@@ -113,9 +125,15 @@ def _copy(values: Any, name: str, dtypes: tuple[np.dtype[Any], ...], columns: in
         raise InputError(f"{name} must have shape {expected}, not {array.shape}")
     native = array.dtype.newbyteorder("=")
     if native not in dtypes:
-        kinds = [d.name for d in dtypes if d.kind == "f"] + ["whole numbers"] * (dtypes[-1].kind == "u")
+        kinds = ["floats"] * (dtypes[0].kind == "f") + ["whole numbers"] * (dtypes[-1].kind == "u")
         raise InputError(f"{name} must be {' or '.join(kinds)}, not {array.dtype}")
     return array.astype(native, copy=False)
+
+
+def _double(array: Values) -> Floats:
+    """As float64: what is too large becomes infinite."""
+    with np.errstate(over="ignore"):
+        return array.astype(np.float64, copy=False)
 
 
 def _is_empty(values: Any) -> bool:

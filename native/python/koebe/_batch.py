@@ -16,7 +16,8 @@ from typing import Any
 from . import _command
 from ._native import _koebe
 from ._option_table import INTERRUPTED, WRONG_USAGE, rows
-from ._progress import Progress, Run
+from ._progress import Run, Shown
+from ._watched import watched
 from .errors import Cancelled, KoebeError, OptionError
 
 PathLike = str | os.PathLike[str]
@@ -29,6 +30,7 @@ _FILES_OF_A_TASK = 10  # at most: a task of Dask and its command take as long as
 _TASKS_OF_A_THREAD = 8  # at least, so that the threads end at about the same time
 
 
+@watched()
 def batch(
     files: PathLike | Sequence[PathLike],
     output: PathLike,
@@ -38,7 +40,7 @@ def batch(
     base: PathLike | None = None,
     retry: bool = False,
     scheduler: Any = None,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
     **options: Any,
 ) -> list[Row]:

@@ -9,7 +9,7 @@ from ._types import Floats, Whole
 
 
 def disk_to_uv(points: Any) -> Floats:
-    """UVs (n, 2) in [0, 1]^2 of points (n, 2) of the unit disk: u = (1 + x) / 2, v = (1 + y) / 2.
+    """Compute UVs (n, 2) in [0, 1]^2 of points (n, 2) of the unit disk: u = (1 + x) / 2, v = (1 + y) / 2.
 
     >>> import koebe
     >>> koebe.disk_to_uv([[0, 0], [1, 0]])
@@ -20,7 +20,7 @@ def disk_to_uv(points: Any) -> Floats:
 
 
 def uv_to_disk(uv: Any) -> Floats:
-    """Points (n, 2) of the unit disk at UVs (n, 2): the inverse of disk_to_uv. The disk of radius 1 is UVs' 1/2.
+    """Compute points (n, 2) of the unit disk at UVs (n, 2): the inverse of disk_to_uv. Radius 1 is UVs' 1/2.
 
     >>> import koebe
     >>> koebe.uv_to_disk([[0.5, 0.5], [1, 0.5]])

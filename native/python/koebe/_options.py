@@ -5,6 +5,7 @@ import inspect
 import math
 from collections.abc import Callable, Iterable, Mapping
 from numbers import Integral, Real
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 import numpy as np
@@ -12,6 +13,7 @@ import numpy as np
 from ._native import _koebe
 from ._option_table import Row, rows
 from ._types import Floats
+from ._watched import call, take_old_names
 from .errors import InputError, OptionError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -21,10 +23,13 @@ _MOST = 2**31 - 1  # of a 32-bit integer
 _OUTER = ("auto", "longest")  # choices of the outer loop; the next one is a vertex
 
 
-def takes(of: str, /, **others: Any) -> Callable[[Function], Function]:
+def takes(
+    of: str, /, *, old_names: Mapping[str, str] = MappingProxyType({}), **others: Any
+) -> Callable[[Function], Function]:
     """Gives a function a map's options as keywords with their defaults, and describes them in its docstring.
 
     others   keywords beside the table's, with their defaults
+    old_names    of arguments, new name: old
     The docstring has {options} at the place for the descriptions. The signature has the defaults without types, so that
     `help` is short: the types are in _signatures.py.
     """
@@ -34,10 +39,14 @@ def takes(of: str, /, **others: Any) -> Callable[[Function], Function]:
     def changed(function: Function) -> Function:
         @functools.wraps(function)
         def with_defaults(*arguments: Any, **given: Any) -> Any:
+            take_old_names(function.__qualname__, given, old_names)
             for name in given:
                 if name not in defaults and name not in positional:
                     raise TypeError(f"{function.__qualname__}() got an unexpected keyword argument {name!r}")
-            return function(*arguments, **{**defaults, **given})
+            given = {**defaults, **given}
+            with call(function.__name__, given, "progress" in defaults) as results:
+                results.append(function(*arguments, **given))
+            return results[0]
 
         signature = inspect.signature(function)
         positional = {name: one for name, one in signature.parameters.items() if one.kind is one.POSITIONAL_OR_KEYWORD}
@@ -199,8 +208,10 @@ def vertex(value: Any, option: str) -> int:
 
 
 def callback(value: Any, option: str) -> Any:
-    if value is not None and not callable(value):
-        raise TypeError(f"{option} must be a function, not {value!r}")
+    if value is None or value is False:
+        return None
+    if not callable(value):
+        raise TypeError(f"{option} must be a function, or False, not {value!r}")
     return value
 
 

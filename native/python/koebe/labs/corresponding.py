@@ -120,7 +120,7 @@ class PointFamily(Result):
         return import_module("scipy.sparse").csr_matrix((np.ones(len(both)), both.T), (count, count))
 
     def matrix(self, fields: Sequence[Any], *, labels: bool | None = None) -> Values:
-        """Fields of all shapes at corresponding points: (N, V) subjects x points, or (N, V, k).
+        """Gather fields of all shapes at corresponding points: (N, V) subjects x points, or (N, V, k).
 
         fields    of each shape its values (V_i,) or (V_i, k) at its vertices, in any unit
         labels    as in Correspondence.carry. None: as labels, unless a field has floats

@@ -14,8 +14,9 @@ from .._fields import areas
 from .._native import _koebe
 from .._option_table import rows
 from .._options import callback, number, token
-from .._progress import Progress
+from .._progress import Shown
 from .._types import Bools, Floats, Whole
+from .._watched import watched
 from ..errors import FileError, InputError
 from ..io.export import FIELDS, export
 from ..io.files import whole_file
@@ -97,6 +98,7 @@ class FlatCortex(Result):
         return SimpleNamespace(**{**vars(self.map), "uv": places})
 
 
+@watched()
 def cortex(
     subject: PathLike,
     hemisphere: str,
@@ -106,7 +108,7 @@ def cortex(
     cuts: PathLike | None = None,
     even: float = 0.825,
     darts: float = 0.005,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> FlatCortex:
     """Lay a hemisphere of the cortex flat: the medial wall is left out, cuts are found, and no face turns over.
@@ -161,7 +163,7 @@ def cortex(
     return FlatCortex(flat, _upright(flat, uv, files.words["side"]), wall, mask & ~wall, float(1.0 - kept / whole))
 
 
-def _flat(given: Any, mask: Bools, even: float, progress: Progress | None, stop: Any) -> tuple[MapReport, Floats]:
+def _flat(given: Any, mask: Bools, even: float, progress: Shown, stop: Any) -> tuple[MapReport, Floats]:
     """The map, and (V, 2) its places, NaN where no face is left.
 
     A part is relaxed from a map that is even already: in a disk, tongues between cuts can be thinner than its unit. But

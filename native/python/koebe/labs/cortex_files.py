@@ -6,9 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from .._arrays import as_flags
 from .._options import choice_of
 from .._types import Bools
-from ..errors import FileError, InputError
+from ..errors import FileError
 from ..io.vertex_fields import NO_LABEL, read_field, read_region
 
 _SIDES = {side: (f"{side[0]}h", side, side[0].upper()) for side in ("left", "right")}
@@ -59,10 +60,7 @@ class Hemisphere:
 def cortex_of(region: object, count: int) -> Bools:
     """(V,) bool, from a file or an array: the vertices of the cortex. Of an atlas the areas that are no wall."""
     if not isinstance(region, (str, os.PathLike)):
-        given = np.asarray(region)
-        if given.shape != (count,) or given.dtype != bool:
-            raise InputError(f"the region must be ({count},) bool, not {given.shape} {given.dtype}")
-        return given
+        return as_flags(region, "the region", count)
     name = Path(region).name
     if not name.endswith((".annot", ".label.gii")):
         return read_region(region, count)

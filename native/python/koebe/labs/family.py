@@ -16,10 +16,11 @@ import numpy as np
 from .._arrays import as_indices
 from .._native import _koebe
 from .._options import flag, whole
-from .._progress import Progress, Run, Watched
+from .._progress import Run, Shown, Watched
 from .._report_entries import Warning
 from .._signatures import Rims, Unpack
 from .._types import Floats, Ints, Values
+from .._watched import watched
 from ..errors import InputError, TopologyError
 from ..io.files import whole_file
 from ..maps.image import to_image
@@ -151,6 +152,7 @@ class _OfDisks(Watched, total=False):
 def family(results: Sequence[SphereMap], **how: "Unpack[_OfSpheres]") -> SphereFamily: ...
 @overload
 def family(results: Sequence[Any], **how: "Unpack[_OfDisks]") -> Family: ...
+@watched()
 def family(
     results: Sequence[Any],
     *,
@@ -166,7 +168,7 @@ def family(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> Family | SphereFamily:
     """Take one order of the loops for all shapes, and compute their modules in it; lay shapes over one of them.
@@ -320,4 +322,4 @@ def _tell_of_doubt(margins: Floats, names: list[str]) -> None:
             f"the loops of {len(unsure)} of {len(names)} shapes may be matched wrongly: of shape {names[worst]} "
             f"another match fits nearly as well (margin {margins[worst]:.2g}). Give orders, or landmarks"
         )
-        warnings.warn(Warning(kind="ambiguous_match", elements=[], text=text), stacklevel=3)
+        warnings.warn(Warning(kind="ambiguous_match", elements=[], text=text), stacklevel=4)

@@ -91,9 +91,18 @@ class FitResult(UniformizeResult):
         )
 
 
-@takes("shapes", names=None, pins=None, fixed=(), extremal=False, progress=None, cancel=None)
+@takes(
+    "shapes",
+    old_names={"vertices": "mesh"},
+    names=None,
+    pins=None,
+    fixed=(),
+    extremal=False,
+    progress=None,
+    cancel=None,
+)
 def fit_circles(
-    mesh: Any,
+    vertices: Any = None,
     triangles: Any = None,
     centers: Any = None,
     radii: Any = None,
@@ -105,7 +114,7 @@ def fit_circles(
     Of all such maps, those of least angle distortion: it minimizes the sum of a_f 4 |mu_f|^2 / (1 - |mu_f|^2), a_f a
     face's area on the surface, mu_f its Beltrami coefficient from the conformal circle domain. It starts there, and the
     circles move to their places without meeting.
-    mesh, triangles    vertices and triangles as for `uniformize`; or a mesh alone, without `triangles`: a pair
+    vertices, triangles    as for `uniformize`; or a mesh alone in place of both, without `triangles`: a pair
                 (vertices, triangles), a file, a mesh of another package
     centers     (H, 2) of the H holes' circles, in the unit disk
     radii       (H,) their radii. The unit circle may come first in both, as in a result's `centers` and `radii`
@@ -139,7 +148,7 @@ def fit_circles(
         triangles = None
     if centers is None or radii is None:
         raise TypeError("fit_circles needs the centers and the radii of the circles: fit_circles(mesh, centers, radii)")
-    source = surface_of(mesh, triangles, mask=given.pop("mask"), weld=said["weld"])
+    source = surface_of(vertices, triangles, mask=given.pop("mask"), weld=said["weld"])
     places, sizes = holes_of(centers, radii)
     count = len(sizes)
     ranks = [] if loops is None else as_indices(loops, "loops", max(len(source.triangles), 1), "loops").tolist()

@@ -8,8 +8,9 @@ import numpy as np
 
 from .._native import _koebe
 from .._options import whole
-from .._progress import Progress, Run
+from .._progress import Run, Shown
 from .._types import Floats
+from .._watched import watched
 from ..errors import InputError, KoebeError, OptionError, SolverError
 from ..maps.input import surface_of
 from ..maps.result import UniformizeResult
@@ -71,6 +72,7 @@ def _noise_of(source: Source) -> float:
     return float(np.median(np.abs(rest[known]) / (length[known] * rows[known])) / _MEDIAN)
 
 
+@watched()
 def noise_error(
     result: UniformizeResult,
     *,
@@ -78,7 +80,7 @@ def noise_error(
     order: Sequence[int] | str | None = None,
     samples: int = 24,
     seed: int = 0,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> Floats:
     """Error bars of conformal_module(result, order=order), lengths in the unit disk: the effect of noise in a scan.

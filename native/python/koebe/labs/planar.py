@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,9 @@ from .._comparable import Result
 from .._native import _koebe
 from .._option_table import rows
 from .._options import callback, filled, token
+from .._progress import Shown
 from .._types import Floats, Ints
+from .._watched import watched
 from ..errors import FileError, InputError
 
 
@@ -149,6 +151,7 @@ def _mapped(text: str, is_svg: bool, given: dict[str, Any], progress: Any = None
     )
 
 
+@watched()
 def planar(
     rims: Any,
     *,
@@ -157,7 +160,7 @@ def planar(
     slits: str = rows("planar")["slits"].default,
     slit_angle: float = rows("planar")["slit_angle"].default,
     pole: Any = None,
-    progress: Callable[[float, str], Any] | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> PlanarMap:
     """Map a planar domain with holes to a circle domain, to ten digits, corners included.

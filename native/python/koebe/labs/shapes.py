@@ -16,10 +16,11 @@ from .._comparable import Result, TupleResult
 from .._native import _koebe
 from .._option_table import rows
 from .._options import choice_of, filled, flag, whole
-from .._progress import Progress, Run
+from .._progress import Run, Shown
 from .._report_entries import Warning
 from .._signatures import Rims
 from .._types import Floats, Ints
+from .._watched import watched
 from ..errors import InputError, OptionError
 from ..maps.result import UniformizeResult
 
@@ -88,12 +89,13 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None, r
     return _koebe.conformal_module(*as_circles(result), chosen_order(result, order))
 
 
+@watched()
 def module_error(
     result: UniformizeResult,
     *,
     order: Sequence[int] | str | None = None,
     rims: Rims = "smooth",
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> Floats:
     """Error bars of conformal_module(result, order=order, rims=rims), lengths in the unit disk: the effect of the mesh.
@@ -141,7 +143,7 @@ def _tell_of_polygons(result: UniformizeResult, refined: tuple[Floats, Floats]) 
             "the mesh is coarse at its rims: as polygons in place of smooth curves they have another module, in which "
             f"the radius of loop {loop} differs by about {100.0 * change[loop]:+.2g} %. The option rims chooses"
         )
-        warnings.warn(Warning(kind="coarse_mesh", elements=[], text=text), stacklevel=3)
+        warnings.warn(Warning(kind="coarse_mesh", elements=[], text=text), stacklevel=4)
 
 
 def _refined(result: UniformizeResult, run: Run) -> tuple[Floats, Floats]:
@@ -339,11 +341,11 @@ class DomainAlignment(Result):
         return np.stack([images.real, images.imag], axis=1)
 
 
-def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = None) -> DomainAlignment:
-    """The automorphism of the unit disk that moves the target's circles as close as possible to the source's circles.
+@watched(a="source", b="target")
+def align_domains(a: Any, b: Any, *, match: Sequence[int] | None = None) -> DomainAlignment:
+    """The automorphism of the unit disk that moves b's circles as close as possible to a's circles.
 
-    match    the target's loop for each of the source's, 0 for 0, such as match_loops(source, target).match, which is
-             the default
+    match    b's loop for each of a's, 0 for 0, such as match_loops(a, b).match, which is the default
     With one hole the circles do not determine the rotation, and it is 0. Without holes they determine nothing, and
     the map is the identity.
     Lengths are in the unit disk.
@@ -355,8 +357,8 @@ def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = Non
     >>> print(laid.shape, f"{alignment.residual:.2f}")
     (2309, 2) 0.03
     """
-    a, b = as_circles(source), as_circles(target)
-    chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(b[1]), "loops")
+    on_a, on_b = as_circles(a), as_circles(b)
+    chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(on_b[1]), "loops")
     if match is not None and not len(chosen):
-        raise InputError("the match must name each of the target's loops once, the outer one first")
-    return DomainAlignment(_koebe.align_domains(*a, *b, chosen), a[1])
+        raise InputError("the match must name each of b's loops once, the outer one first")
+    return DomainAlignment(_koebe.align_domains(*on_a, *on_b, chosen), on_a[1])

@@ -104,7 +104,7 @@ class SphereCorrespondence(Result):
         return there / np.linalg.norm(there, axis=1, keepdims=True)
 
     def carry(self, field: Any, *, labels: bool | None = None) -> Values:
-        """Values (V_b,) or (V_b, k) at b's vertices of a field at a's vertices, as Correspondence.carry."""
+        """Carry a field at a's vertices to b's vertices, as Correspondence.carry."""
         return carried(field, self.triangles, self.faces, self.weights, self.count, labels)
 
 
@@ -162,7 +162,7 @@ def sphere_transfer(
     if bending is not None and not bending["settled"]:
         text = "the bending ended before it settled: a greater stiffness settles sooner"
         warnings.append(Warning(kind="not_converged", elements=[], text=text))
-        python_warnings.warn(warnings[0], stacklevel=3)
+        python_warnings.warn(warnings[0], stacklevel=4)
     run.at(1.0, "finish")
     return SphereCorrespondence(
         faces, weights, points, sphere, matrix, misses, similarity, bending, a.triangles, a.vertex_count, b.points,

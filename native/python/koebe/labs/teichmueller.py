@@ -1,7 +1,7 @@
 """The extremal quasiconformal map of one domain to another, and the Teichmueller distance."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -11,7 +11,9 @@ from .._arrays import as_circles, as_indices
 from .._comparable import Result
 from .._native import _koebe
 from .._options import callback, token
+from .._progress import Shown
 from .._types import Floats, Ints
+from .._watched import watched
 from ..errors import InputError
 from ..maps.carry import landmark_pairs
 from ..maps.result import UniformizeResult
@@ -57,13 +59,14 @@ class TeichmuellerMap(Result):
         return f"<koebe.TeichmuellerMap K {self.K:.5g}, distance {self.distance:.4g}, {self.flipped} flipped>"
 
 
+@watched()
 def teichmueller(
     a: Any,
     b: Any,
     *,
     match: Sequence[int] | Literal["least"] | None = None,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
-    progress: Callable[[float, str], Any] | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> TeichmuellerMap:
     """The extremal quasiconformal map of circle domain a to circle domain b, and the Teichmueller distance.

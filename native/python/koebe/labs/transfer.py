@@ -13,10 +13,11 @@ from .._arrays import as_indices, as_numbers
 from .._comparable import Result
 from .._native import _koebe
 from .._options import callback, flag, token, vertex
-from .._progress import Progress, Run, Watched
+from .._progress import Run, Shown, Watched
 from .._report_entries import Warning
 from .._signatures import Unpack
 from .._types import Bools, Floats, Ints, Values
+from .._watched import watched
 from ..errors import InputError
 from ..maps.carry import carried, landmark_pairs
 from ..maps.result import Beltrami, UniformizeResult
@@ -73,7 +74,7 @@ class Correspondence(Result):
         )
 
     def carry(self, field: Any, *, labels: bool | None = None) -> Values:
-        """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's.
+        """Carry to b's vertices, as (V_b,) or (V_b, k) values, a field (V_a,) or (V_a, k) at a's.
 
         labels   True: each vertex takes one of the labels at its triangle's corners: the label of greatest weight.
                  False: values are linear in each face. None: as labels, unless the field has floats
@@ -105,6 +106,7 @@ def transfer(a: SphereMap, b: SphereMap, field: None = None, **how: "Unpack[_OnS
 def transfer(a: UniformizeResult, b: UniformizeResult, field: Any, **how: "Unpack[_OnDisks]") -> Values: ...
 @overload
 def transfer(a: SphereMap, b: SphereMap, field: Any, **how: "Unpack[_OnSpheres]") -> Values: ...
+@watched()
 def transfer(
     a: UniformizeResult | SphereMap,
     b: UniformizeResult | SphereMap,
@@ -118,7 +120,7 @@ def transfer(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> Correspondence | SphereCorrespondence | Values:
     """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
@@ -190,7 +192,7 @@ def transfer(
     found["alignment"] = DomainAlignment(found["alignment"], radii, np.argsort(found["alignment"].match).tolist())
     found["warnings"] = [Warning(warning) for warning in found["warnings"]]
     for warning in found["warnings"]:
-        warnings.warn(warning, stacklevel=2)
+        warnings.warn(warning, stacklevel=3)
     correspondence = Correspondence(**found, triangles=a.surface[1])
     return correspondence if field is None else correspondence.carry(field)
 

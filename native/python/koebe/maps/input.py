@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import as_points, as_surface
+from .._arrays import as_flags, as_points, as_surface
 from .._native import _koebe
-from .._types import Bools, Floats, Ints
+from .._types import Floats, Ints
 from ..errors import InputError
 from ..io.formats import is_foreign_surface, read_surface
 from ..io.meshes import Polygons, can_give_back, is_mesh, plain, read_mesh
@@ -55,24 +55,13 @@ def _restricted(source: Source, kept: Ints) -> Source:
 
 
 def _masked(source: Source, mask: Any) -> Source:
-    out = as_mask(mask, len(source.vertices))
+    out = as_flags(mask, "the mask", len(source.vertices), "True (left out) and False")
     dropped = out[source.given_triangles].any(axis=1)
     if source.polygon is not None:  # a polygon is one face
         dropped = np.isin(source.polygon, source.polygon[dropped])
     if dropped.all():
         raise InputError("the mask leaves out all faces")
     return replace(_restricted(source, np.flatnonzero(~dropped).astype(np.int32)), mask=out)
-
-
-def as_mask(mask: Any, count: int) -> Bools:
-    """(V,) bool. Raises InputError for any other array: numbers of vertices would look like 0 and 1."""
-    out = np.array(mask)
-    if out.shape != (count,) or out.dtype != bool:
-        raise InputError(
-            f"the mask must be ({count},) of True (left out) and False, not {out.shape} {out.dtype}: koebe.read_region "
-            "reads one from a file"
-        )
-    return out
 
 
 def points_at_vertices(points: Any, name: str, source: Source) -> Floats:

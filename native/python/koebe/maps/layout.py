@@ -34,7 +34,7 @@ MOST_IMPORTANT: float = _koebe.most_important  # texel density at importance 1 o
 
 
 def pack_disks(radii: Any, margin: float = 0.02) -> tuple[Floats, Floats]:
-    """Centres (n, 2) and radii (n,) of disks in these proportions, as large as found to fit the unit square.
+    """Pack disks in these proportions into the unit square: centres (n, 2) and radii (n,), as large as found to fit.
 
     margin       between two disks, half of it at the border; less for many disks, so that they have room
     One disk fills the square. Raises InputError for radii that are not positive.

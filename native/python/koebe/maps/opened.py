@@ -1,6 +1,5 @@
 """Cuts any mesh, in its connectivity only, into surfaces that can be mapped."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,7 +8,9 @@ import numpy as np
 from .._comparable import Result
 from .._native import _koebe
 from .._options import callback, token
+from .._progress import Shown
 from .._types import Bools, Floats, Ints
+from .._watched import watched
 from .input import polygons_of, surface_of
 from .source import Source
 
@@ -79,13 +80,14 @@ class OpenedSurface(Result):
         return f"<koebe.OpenedSurface {len(self.pieces)} pieces, {len(self.cuts)} cuts, {self.handles_cut} handles cut>"
 
 
+@watched()
 def open_surface(
     vertices: Any,
     triangles: Any = None,
     *,
     polygon: Any = None,
     mask: Any = None,
-    progress: Callable[[float, str], Any] | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> OpenedSurface:
     """Open, cut and split any mesh until each piece can be mapped, as `uniformize(..., cut=True)` does first.

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_flags
 from .._native import _koebe
 from .._options import takes, token
 from .._signatures import PackOptions, Unpack
@@ -95,9 +96,7 @@ def _locks(given: Any, source: Source) -> Floats:
     locked = np.asarray(given)
     if source.kept is not None and len(locked) > source.kept[-1]:  # of all triangles
         locked = locked[source.kept]
-    if locked.shape != (len(source.triangles),) or locked.dtype != bool:
-        raise InputError(f"locked must be ({len(source.triangles)},) bool, not {locked.shape} {locked.dtype}")
-    return locked.astype(np.float64)
+    return as_flags(locked, "locked", len(source.triangles)).astype(np.float64)
 
 
 def corner_uv(given: Any, source: Source) -> Floats:

@@ -16,7 +16,7 @@ from .._comparable import Result, fixed
 from .._fields import face_angle_error_deg, log_scale
 from .._native import _koebe
 from .._report_entries import Loop, Warning
-from .._types import Bools, Floats, Ints
+from .._types import Bools, Complex, Floats, Ints
 from ..errors import InputError
 from ..io.meshes import ANGLE_ERROR, LOG_SCALE, Fields, mesh_with_fields
 from ..io.picture import drawing_svg, outline_svg
@@ -360,6 +360,11 @@ class UniformizeResult(MapReport):
             uv,
             as_loops([loop["off_circle"] for loop in loops]),
         )
+
+    @property
+    def z(self) -> Complex:
+        """(V,) complex128: `uv` as points x + iy of the unit disk."""
+        return np.asarray(self.uv @ [1.0, 1.0j], np.complex128)
 
     @cached_property
     def log_scale(self) -> Floats:

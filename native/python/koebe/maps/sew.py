@@ -1,6 +1,6 @@
 """Joins islands of a UV layer along cuts."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,7 +9,9 @@ from .._comparable import TupleResult
 from .._native import _koebe
 from .._option_table import rows
 from .._options import callback, number, token
+from .._progress import Shown
 from .._types import Floats, Ints, Whole
+from .._watched import watched
 from ..errors import InputError
 from .input import polygons_of, surface_of
 from .pack import corner_uv
@@ -38,6 +40,7 @@ class SewnUV(TupleResult, _Sewn):
         return f"<koebe.SewnUV {len(self.uv)} faces, {self.joined} islands joined, {self.sewn} edges sewn>"
 
 
+@watched()
 def sew(
     vertices: Any,
     triangles: Any = None,
@@ -47,7 +50,7 @@ def sew(
     polygon: Any = None,
     even: float | None = None,
     mask: Any = None,
-    progress: Callable[[float, str], Any] | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> SewnUV:
     """Join the two sides of cuts of UVs: two islands become one, or a cut inside one is closed.

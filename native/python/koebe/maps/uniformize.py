@@ -73,7 +73,8 @@ def uniformize(
     polygon      (F,) integers: triangles of one number are one polygon. If it is convex on the surface, it is convex in
                  the UVs, or the warning concave_polygons has one of its triangles. Cuts do not part it. None: the
                  polygons of the file or mesh
-    progress     called as progress(fraction, stage) on the calling thread; fraction never falls
+    progress     called as progress(fraction, stage) on the calling thread; fraction never falls. None: a bar in a
+                 terminal or a notebook after a second. False: nothing
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
 
     With cut=True the result is a CutResult, whose uv belong to corners: (F, 3, 2) in [0, 1]^2. A vertex named by outer,
@@ -128,10 +129,12 @@ def importance_of(values: Any, chosen: Mapping[str, Any], count: int) -> Floats:
     return vertex_weights("importance", values, count)
 
 
-def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any = None) -> list[Ints]:
+def boundary_loops(
+    vertices: Any = None, triangles: Any = None, *, vertex_count: int | None = None, mask: Any = None
+) -> list[Ints]:
     """Boundary loops as int32 arrays of vertices, in order with the surface on the left; lowest vertex first.
 
-    triangles       (F, 3), or a whole surface as for `uniformize`
+    vertices, triangles    as for `uniformize`, or triangles (F, 3) alone
     vertex_count    of the mesh; without it any number is a vertex
     mask            (V,) bool: faces with a vertex where it is True are left out
     Faces that do not have the orientation of the others give a koebe.Warning.
@@ -142,7 +145,11 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any
     [172, 29, 21, 21]
     """
     count = None if vertex_count is None else whole(vertex_count, "vertex_count", least=1)
-    if is_surface(triangles):
+    if triangles is None:
+        vertices, triangles = None, vertices
+    if vertices is not None:
+        source = surface_of(vertices, triangles, mask=mask)
+    elif is_surface(triangles):
         source = surface_of(triangles, mask=mask)
     elif mask is None:
         source = Source(np.zeros((0, 3)), as_triangles(triangles, count))
