@@ -51,6 +51,7 @@ PAGES = {
         "planar": ["planar", "PlanarMap"],
         "teichmueller": ["teichmueller", "TeichmuellerMap"],
         "transfer": ["transfer", "Correspondence", "SphereCorrespondence"],
+        "spharm": ["spharm", "SphereHarmonics"],
         "to_image": ["to_image", "from_image"],
         "align_domains": ["align_domains", "DomainAlignment"],
     },
@@ -128,7 +129,7 @@ def entry(name):
     if inspect.isclass(one):
         arguments = "" if name in CALLED else "()"  # conf.py hides these
         others = "dict, ndarray, Mapping, Exception"  # whose members are not ours
-        rows = parts(plain(one) or inspect.cleandoc(one.__doc__).splitlines())  # attributes already, as conf.py makes them
+        rows = parts(plain(one) or inspect.cleandoc(one.__doc__).splitlines())
         described = ", ".join(names for kind, names, _ in rows if kind == "row") or "-"
         return (f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: {others}\n"
                 f"   :exclude-members: {described}\n\n")  # fmt: skip

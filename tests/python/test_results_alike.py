@@ -39,6 +39,7 @@ OTHERS = {  # results that are no maps
     "lift": lambda: koebe.lift(FACE, perforate=True),
     "transfer": lambda: koebe.transfer(MADE["uniformize"](), MADE["uniformize"]()),
     "spheres": lambda: koebe.transfer(koebe.sphere_map(BALL), koebe.sphere_map(BALL)),
+    "harmonics": lambda: koebe.SphereHarmonics(np.ones((3, 2, 3, 3)), 2, 0.1, BALL[0], BALL[1]),
     "teichmueller": lambda: koebe.teichmueller(MADE["uniformize"](), MADE["uniformize"]()),
     "alignment": lambda: koebe.align_domains(MADE["uniformize"](), MADE["fit"]()),
     "match": lambda: koebe.match_loops(MADE["uniformize"](), MADE["fit"]()),

@@ -125,6 +125,7 @@ if hasattr(_koebe, "conformal_module"):
     from .labs.cortex import FlatCortex, cortex
     from .labs.family import Family, family
     from .labs.fit import FitResult, fit_circles
+    from .labs.harmonics import SphereHarmonics, spharm
     from .labs.noise import noise_error, vertex_noise
     from .labs.planar import PlanarMap, planar
     from .labs.shapes import (
@@ -160,6 +161,7 @@ if hasattr(_koebe, "conformal_module"):
         "PointTest",
         "SphereCorrespondence",
         "SphereFamily",
+        "SphereHarmonics",
         "TeichmuellerMap",
         "align_domains",
         "canonical_order",
@@ -179,6 +181,7 @@ if hasattr(_koebe, "conformal_module"):
         "point_test",
         "separation_distance",
         "separations",
+        "spharm",
         "teichmueller",
         "transfer",
         "vertex_noise",

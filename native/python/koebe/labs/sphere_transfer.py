@@ -1,12 +1,15 @@
 """Takes points of one closed surface to another, through their maps to the sphere."""
 
+import os
 import warnings as python_warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any, TypedDict
 
 import numpy as np
 
+from .._arrays import as_points
 from .._comparable import Result
 from .._native import _koebe
 from .._options import flag
@@ -14,8 +17,11 @@ from .._progress import Run, Watched
 from .._report_entries import Warning
 from .._types import Floats, Ints, Values, Whole
 from ..errors import InputError, OptionError
+from ..io.export import export, has_one_place_a_vertex
+from ..io.formats import is_patch_name
 from ..maps.carry import carried, landmark_pairs
 from ..maps.result import Beltrami, MapReport
+from ..maps.source import Source
 from ..maps.sphere import SphereMap
 from .sphere_alignment import applied, by_fields, by_landmarks, correlation, nearest_rotation
 
@@ -102,6 +108,35 @@ class SphereCorrespondence(Result):
         faces, weights = _Located(self.own_sphere, self.own_triangles).at(places)
         there = np.einsum("nk,nkc->nc", weights, self.sphere[self.own_triangles[faces]])
         return there / np.linalg.norm(there, axis=1, keepdims=True)
+
+    def export(self, path: str | os.PathLike[str], *, sphere: Any = None) -> None:
+        """Write b's sphere, registered to a's: b's vertices on the sphere of radius 100.
+
+        The file is complete or absent.
+        path      lh.sphere.reg, rh.NAME (FreeSurfer) or NAME.surf.gii
+        sphere    (V_a, 3) the points of a on another sphere round 0, such as fsaverage's own, to which b is registered
+                  then; None: a's of sphere_map
+        Faces that are turned over there, as stored in 32 bits, give a koebe.Warning. Needs nibabel. Raises InputError,
+        OSError.
+        """
+        if not has_one_place_a_vertex(path) or is_patch_name(path):
+            raise InputError(f"{os.fspath(path)}: a sphere is written as lh.sphere.reg or .surf.gii")
+        places = self.sphere
+        if sphere is not None:
+            given = as_points(sphere, "sphere", 3, self.count)
+            length = np.linalg.norm(given, axis=1, keepdims=True)
+            if not length.min() > 0.5 * length.max():
+                raise InputError("the sphere must lie round 0")
+            places = self.carry(given / length)
+            places = places / np.linalg.norm(places, axis=1, keepdims=True)
+        corners = (np.float32(points)[self.own_triangles].astype(float) for points in (places, self.own_sphere))
+        here, before = map(np.linalg.det, corners)
+        if len(turned := np.flatnonzero(here * np.sign(before) <= 0.0)):
+            text = f"{len(turned)} faces are turned over on the sphere; the first face is {turned[0]}"
+            entry = Warning(kind="flipped", elements=turned.tolist(), text=text)
+            python_warnings.warn(entry, stacklevel=2)
+        source = Source(self.own_sphere, self.own_triangles)
+        export(SimpleNamespace(_source=source, points=places, loops=[], uv=places), path)
 
     def carry(self, field: Any, *, labels: bool | None = None) -> Values:
         """Carry a field at a's vertices to b's vertices, as Correspondence.carry."""

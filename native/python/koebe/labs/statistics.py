@@ -364,10 +364,10 @@ def _basis(columns: Floats) -> Floats:
     return u[:, values > 1e-10]
 
 
-def library(name: str, package: str = "") -> Any:
-    """A module of the extra `statistics`. Raises ImportError with what to install."""
+def library(name: str, package: str = "", extra: str = "statistics") -> Any:
+    """A module of an extra. Raises ImportError with what to install."""
     try:
         return importlib.import_module(name)
     except ImportError:
         needed = package or name.partition(".")[0]
-        raise ImportError(f'this needs {needed}: pip install "koebe[statistics]"') from None
+        raise ImportError(f'this needs {needed}: pip install "koebe[{extra}]"') from None
