@@ -74,12 +74,17 @@ def as_indices(indices: Any, name: str, count: int, of: str) -> Ints:
     return array.astype(np.int32, copy=False)
 
 
+def as_values(values: Any, name: str) -> Values:
+    """Any array, own. Raises InputError for what is none."""
+    try:
+        return np.array(values)
+    except (TypeError, ValueError, OverflowError, RuntimeError) as error:
+        raise InputError(f"{name} cannot be made an array: {error}") from None
+
+
 def as_flags(flags: Any, name: str, count: int, means: str = "True and False") -> Bools:
     """(count,) bool, own, from bools or from 0 and 1. Raises InputError for any other array, such as numbers."""
-    try:
-        array = np.array(flags)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{name} cannot be made an array: {error}") from None
+    array = as_values(flags, name)
     known = array.dtype == bool or (array.dtype.kind in "iu" and np.isin(array, (0, 1)).all())
     if array.shape != (count,) or not known or np.ma.is_masked(flags):
         raise InputError(f"{name} must be ({count},) of {means}, or of 1 and 0, not {array.shape} {array.dtype}")

@@ -6,6 +6,7 @@ import numpy as np
 
 from ._arrays import as_points
 from ._types import Floats, Whole
+from .errors import InputError
 
 
 def disk_to_uv(points: Any) -> Floats:
@@ -27,7 +28,10 @@ def uv_to_disk(uv: Any) -> Floats:
     array([[0., 0.],
            [1., 0.]])
     """
-    return 2.0 * as_points(uv, "uv", 2) - 1.0
+    given = as_points(uv, "uv", 2)
+    if (np.abs(given) > 0.25 * np.finfo(float).max).any():
+        raise InputError("uv have a number beyond floating point")
+    return 2.0 * given - 1.0
 
 
 def log_scale(vertices: Floats, triangles: Whole, uv: Floats) -> Floats:

@@ -7,6 +7,7 @@ from typing import Any, TypeVar, overload
 
 import numpy as np
 
+from ._options import path_of
 from ._saved import made_of
 from .errors import InputError
 
@@ -31,6 +32,9 @@ def load(path: str | os.PathLike[str], kind: type[Any] | None = None) -> Any:
     >>> bool((koebe.load(path).uv == result.uv).all())
     True
     """
+    path_of(path)
+    if kind is not None and not isinstance(kind, type):
+        raise TypeError(f"kind must be a class, not {kind!r}")
     result = _loaded(path)
     if kind is not None and not isinstance(result, kind):
         raise InputError(f"{os.fspath(path)} has a {type(result).__name__}, not a {kind.__name__}")

@@ -3,6 +3,7 @@
 import functools
 import inspect
 import math
+import os
 from collections.abc import Callable, Iterable, Mapping
 from numbers import Integral, Real
 from types import MappingProxyType
@@ -213,6 +214,26 @@ def callback(value: Any, option: str) -> Any:
     if not callable(value):
         raise TypeError(f"{option} must be a function, or False, not {value!r}")
     return value
+
+
+def path_of(value: Any, option: str = "path") -> str:
+    """A file's path as text."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{option} must be a file's path, not {value!r}")
+    text = os.fspath(value)
+    if not isinstance(text, str) or "\0" in text:
+        raise OptionError(f"{option} is no file's path: {text!r}")
+    return text
+
+
+def listed(value: Any, option: str) -> list[Any]:
+    """The entries of a list, or of anything else that has some."""
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+        raise TypeError(f"{option} must be a list, not {value!r}")
+    try:
+        return list(value)
+    except TypeError:  # such as an array without dimensions
+        raise TypeError(f"{option} must be a list, not {value!r}") from None
 
 
 def token(value: Any, option: str) -> "_koebe.CancelToken":

@@ -19,6 +19,7 @@ import numpy as np
 
 from .._comparable import Result
 from .._native import _koebe
+from .._options import path_of
 from .._types import Bools, Floats, Ints, Whole
 from ..errors import FileError, InputError, KoebeError
 
@@ -72,7 +73,7 @@ def is_patch_name(path: str | os.PathLike[str]) -> bool:
 
 def head_of(path: str | os.PathLike[str]) -> bytes:
     """The first four bytes of a file."""
-    with open(path, "rb") as file:
+    with open(path_of(path), "rb") as file:
         return file.read(4)
 
 
@@ -238,7 +239,7 @@ def read_patch(path: str | os.PathLike[str]) -> Patch:
     >>> koebe.read_patch(path)
     <koebe.Patch 2309 vertices, 243 at the border>
     """
-    text = Path(path).read_bytes()
+    text = Path(path_of(path)).read_bytes()
     if text[:4] != PATCH or len(text) < 8:
         raise FileError(f"{os.fspath(path)} is no patch of FreeSurfer")
     count = int.from_bytes(text[4:8], "big", signed=True)

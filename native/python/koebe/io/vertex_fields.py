@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._comparable import Result
-from .._options import choice_of, whole
+from .._options import choice_of, path_of, whole
 from .._types import Bools, Floats, Values
 from ..errors import FileError, InputError
 from .export import package_of, saved_bytes
@@ -63,7 +63,7 @@ def read_field(path: str | os.PathLike[str], *, hemisphere: str | None = None) -
     >>> labels.values, labels.names
     (array([ 0,  1,  1, -1], dtype=int32), {0: 'V1', 1: 'V2'})
     """
-    name = Path(path).name.lower()
+    name = Path(path_of(path)).name.lower()
     if hemisphere is not None:
         choice_of(hemisphere, "hemisphere", _CIFTI)
     if name.endswith(".nii"):
@@ -199,7 +199,10 @@ def write_field(
     array = np.asarray(values)
     if array.ndim != 1 or array.dtype.kind not in "fiub" or not len(array):
         raise InputError(f"the values must be (V,) numbers, not {array.shape} {array.dtype}")
-    low = Path(path).name.lower()
+    for name, given in (("names", names), ("colors", colors)):
+        if given is not None and not isinstance(given, Mapping):
+            raise TypeError(f"{name} must be a dict, not {given!r}")
+    low = Path(path_of(path)).name.lower()
     as_labels = low.endswith((".annot", ".label.gii", ".dlabel.nii"))
     if as_labels and (array.dtype.kind == "f" or array.min() < NO_LABEL):
         raise InputError(f"{low} has labels: whole numbers from 0, and -1 for none, not {array.dtype}")

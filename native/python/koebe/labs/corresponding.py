@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._comparable import Result
+from .._options import listed
 from .._progress import Run
 from .._types import Bools, Floats, Ints, Values
 from ..errors import InputError
@@ -168,9 +169,10 @@ def laid_over_mean(
 
 def checked_labels(labels: Sequence[Any] | None, count: int) -> list[str]:
     """The labels of so many shapes: as given, or their numbers. Raises InputError."""
-    if labels is not None and len(labels) != count:
-        raise InputError(f"there are {len(labels)} labels for {count} shapes")
-    return [str(label) for label in (labels if labels is not None else range(count))]
+    given = list(range(count)) if labels is None else listed(labels, "labels")
+    if len(given) != count:
+        raise InputError(f"there are {len(given)} labels for {count} shapes")
+    return [str(label) for label in given]
 
 
 def landmark_pairs_of(landmarks: Sequence[Sequence[Any]] | None, number: int, reference: int) -> list[Any] | None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from .._arrays import as_flags
-from .._options import choice_of
+from .._options import choice_of, path_of
 from .._types import Bools
 from ..errors import FileError
 from ..io.vertex_fields import NO_LABEL, read_field, read_region
@@ -33,7 +33,7 @@ class Hemisphere:
     """The files of one hemisphere of a subject. Raises FileError for a folder without them."""
 
     def __init__(self, folder: str | os.PathLike[str], hemisphere: str) -> None:
-        self.folder = Path(folder)
+        self.folder = Path(path_of(folder, "subject"))
         self.words = dict(zip(("h", "side", "H"), choice_of(hemisphere, "hemisphere", _NAMES), strict=True))
         self.others = {word for words in _SIDES.values() if self.words["h"] not in words for word in words}
         if not self.folder.is_dir():

@@ -15,7 +15,7 @@ import numpy as np
 
 from .._arrays import as_indices
 from .._native import _koebe
-from .._options import flag, whole
+from .._options import flag, listed, whole
 from .._progress import Run, Shown, Watched
 from .._report_entries import Warning
 from .._signatures import Rims, Unpack
@@ -209,7 +209,7 @@ def family(
     (2, 2309, 3)
     """
     run = Run(progress, cancel)
-    given = list(results)
+    given = listed(results, "results")
     if not given:
         raise InputError("there are no shapes")
     share = sum(not _is_result(shape) for shape in given) / (2.0 * len(given))  # of the time, for maps
@@ -228,7 +228,7 @@ def family(
             raise InputError("order, orders, rims, error and template are for surfaces with holes")
         how: dict[str, Any] = {"moebius": moebius, "bend": bend, "stiffness": stiffness}
         return sphere_family(shapes, reference, labels, landmarks, fields, run, **how)
-    if fields is not None or moebius or bend:
+    if fields is not None or flag(moebius, "moebius") or flag(bend, "bend"):
         raise InputError("fields, moebius and bend are for results of sphere_map")
     count = len(shapes[0].radii)
     for number, shape in enumerate(shapes):

@@ -9,7 +9,7 @@ import numpy as np
 
 from .._arrays import as_indices, as_numbers, as_points
 from .._native import _koebe
-from .._options import callback, flag, takes, token, vertex
+from .._options import callback, flag, listed, takes, token, vertex
 from .._signatures import ShapesOptions, Unpack
 from .._types import Floats, Ints
 from ..errors import InputError
@@ -180,7 +180,7 @@ def holes_of(centers: Any, radii: Any) -> tuple[Floats, Floats]:
 
 
 def _words(names: Sequence[str] | None, count: int) -> list[str]:
-    words = [] if names is None else list(names)
+    words = [] if names is None else listed(names, "names")
     if any(not isinstance(word, str) for word in words):
         raise TypeError("names must be text")
     if words and len(words) != count:
@@ -194,9 +194,11 @@ def _rims(
     """For each rim, the outer one first, whether it rotates, its pinned vertex or -1, and that vertex's angle in
     radians."""
     rotates, vertices, angles = [True] * (count + 1), [-1] * (count + 1), [0.0] * (count + 1)
-    for circle in fixed:
+    for circle in listed(fixed, "fixed"):
         rotates[_place(circle, count)] = False
-    for circle, pin in (pins or {}).items():
+    if pins is not None and not isinstance(pins, Mapping):
+        raise TypeError(f"pins must be a dict, not {pins!r}")
+    for circle, pin in ({} if pins is None else pins).items():
         place = _place(circle, count)
         if isinstance(pin, (str, bytes)) or not hasattr(pin, "__len__") or len(pin) != 2:
             raise InputError(f"the pin of circle {circle} is no pair: a vertex and an angle", [int(circle)], "loops")

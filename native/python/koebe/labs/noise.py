@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -105,6 +106,8 @@ def noise_error(
         raise TypeError(f"noise_error takes a result of uniformize, not {type(result).__name__}")
     count, chosen = whole(samples, "samples", least=2), chosen_order(result, order)
     module = conformal_module(result, order=chosen.tolist())
+    if noise is not None and (not isinstance(noise, Real) or isinstance(noise, (bool, np.bool_))):
+        raise TypeError(f"noise must be a number, not {noise!r}")
     sigma = vertex_noise(*result.surface) if noise is None else float(noise)
     if not (math.isfinite(sigma) and sigma >= 0.0):
         raise OptionError(f"noise must be a finite number from 0, not {noise!r}")

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_values
 from .._comparable import Result
 from .._native import _koebe
 from .._option_table import rows
@@ -86,7 +87,7 @@ class PlanarMap(Result):
 
 
 def _places(points: Any) -> Floats:
-    array = np.asarray(points)
+    array = as_values(points, "points")
     if array.dtype.kind == "c":
         array = np.stack([array.real, array.imag], axis=-1)
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "fiu":
@@ -128,7 +129,9 @@ def _mapped(text: str, is_svg: bool, given: dict[str, Any], progress: Any = None
     pole = given["pole"]
     options, _ = filled("planar", _koebe.PlanarOptions(), given)
     if pole is not None:
-        options.pole = complex(*_places([pole] if np.ndim(pole) else np.array([pole], complex))[0])
+        place = as_values(pole, "pole")
+        is_number = not place.ndim and place.dtype.kind in "fiuc"
+        options.pole = complex(*_places(place.reshape(1).astype(complex) if is_number else place[None])[0])
     native = _koebe.planar_map(text, is_svg, options, progress, token(cancel, "cancel"))
     centers, radii = native.circles
     order, residuals = np.array(native.order, np.int32), np.array(native.residuals)

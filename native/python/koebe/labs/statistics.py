@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import as_points
+from .._arrays import as_points, as_values
 from .._comparable import Result
 from .._options import flag, whole
 from .._types import Floats, Values, Whole
@@ -327,14 +327,15 @@ def _all_of_two(member: Whole, first: Whole) -> Iterator[Whole]:
 def _distances(given: Any) -> Floats:
     """(N, N) of a family, or as given. Raises InputError."""
     matrix = given.distances if isinstance(given, (Family, SphereFamily)) else given
-    matrix = as_points(matrix, "distances", len(np.asarray(matrix)))
+    matrix = as_values(matrix, "distances")
+    matrix = as_points(matrix, "distances", len(matrix) if matrix.ndim else 0)
     if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0) or matrix.diagonal().any() or (matrix < 0.0).any():
         raise InputError("the distances must be a symmetric matrix without negative numbers, 0 on the diagonal")
     return matrix
 
 
 def _labels(given: Any, name: str, count: int) -> Values:
-    labels = np.asarray(given)
+    labels = as_values(given, f"the {name}")
     if labels.shape != (count,):
         raise InputError(f"the {name} must be ({count},) labels, one for each shape, not {labels.shape}")
     return labels

@@ -168,7 +168,7 @@ def transfer(
             raise InputError("match, fit and extremal are for surfaces with holes")
         found_on_sphere = sphere_transfer(a, b, landmarks, fields, moebius, bend, stiffness, Run(progress, cancel))
         return found_on_sphere if field is None else found_on_sphere.carry(field)
-    if fields is not None or moebius or bend:
+    if fields is not None or flag(moebius, "moebius") or flag(bend, "bend"):
         raise InputError("fields, moebius and bend are for two results of sphere_map")
     if not (isinstance(a, UniformizeResult) and isinstance(b, UniformizeResult)):
         other = next(type(one).__name__ for one in (a, b) if not isinstance(one, UniformizeResult))

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from .._options import flag
+from .._options import flag, listed
 from .._types import Floats, Values, Whole
 from ..errors import InputError
 
@@ -35,7 +35,7 @@ def carried(field: Any, triangles: Whole, faces: Whole, weights: Floats, count: 
 
 def landmark_pairs(landmarks: Any) -> list[Any]:
     """The landmarks as a list. Raises InputError for one that is no pair."""
-    pairs = [] if landmarks is None else list(landmarks)
+    pairs = [] if landmarks is None else listed(landmarks, "landmarks")
     for number, pair in enumerate(pairs):
         if isinstance(pair, (str, bytes)) or not hasattr(pair, "__len__") or len(pair) != 2:
             raise InputError(f"landmark {number} is no pair: a point on a and one on b", [number], "landmarks")

@@ -43,7 +43,7 @@ def to_image(
     (256, 256) True True
     """
     _require_disk(result)
-    side = whole(pixels, "pixels", 2, _MOST_PIXELS)
+    side, exact = whole(pixels, "pixels", 2, _MOST_PIXELS), flag(exact, "exact")
     covered, faces, weights = _pixels(result, side)
     triangles, count = result.surface[1], result.vertex_count
     values = carried(field, triangles, faces, weights, count, labels)

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import as_flags, as_points, as_surface
+from .._arrays import as_flags, as_points, as_surface, as_values
 from .._native import _koebe
+from .._options import path_of
 from .._types import Floats, Ints
 from ..errors import InputError
 from ..io.formats import is_foreign_surface, read_surface
@@ -73,6 +74,8 @@ def points_at_vertices(points: Any, name: str, source: Source) -> Floats:
 
 
 def _whole_surface(vertices: Any, triangles: Any, degenerate: bool) -> Source:
+    if _is_path(vertices):
+        path_of(vertices, "vertices")
     if _is_path(vertices) and is_foreign_surface(vertices):
         vertices = read_surface(vertices)
     if is_mesh(vertices):
@@ -135,8 +138,8 @@ def polygons_of(given: Any, source: Source) -> Ints:
     """(F,) int32: the polygons' numbers as given, or as in the mesh; empty if each triangle is by itself."""
     if given is None:
         return np.zeros(0, np.int32) if source.polygon is None else source.polygon
-    numbers, count = np.asarray(given), len(source.triangles)
-    if source.kept is not None and len(numbers) > source.kept[-1]:  # of all faces
+    numbers, count = as_values(given, "polygon"), len(source.triangles)
+    if source.kept is not None and numbers.ndim and len(numbers) > source.kept[-1]:  # of all faces
         numbers = numbers[source.kept]
     if numbers.shape != (count,) or numbers.dtype.kind not in "iu":
         raise InputError(f"polygon must be ({count},) integers, not {numbers.shape} {numbers.dtype}")

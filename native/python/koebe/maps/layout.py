@@ -1,13 +1,14 @@
 """Mirror images, disks in a square and circles through points: helpers to lay maps out."""
 
+from numbers import Real
 from typing import Any
 
 import numpy as np
 
-from .._arrays import as_points
+from .._arrays import as_numbers, as_points
 from .._native import _koebe
 from .._types import Floats, Ints
-from ..errors import InputError
+from ..errors import OptionError
 from .input import polygons_of, surface_of
 
 
@@ -44,9 +45,9 @@ def pack_disks(radii: Any, margin: float = 0.02) -> tuple[Floats, Floats]:
     >>> (radii / radii[2]).round(9)
     array([3., 2., 1.])
     """
-    sizes = np.asarray(radii, dtype=np.float64)
-    if sizes.ndim != 1 or not 0.0 <= margin < 0.5:
-        raise InputError("disks to pack need a list of radii, and a margin in [0, 0.5)")
+    sizes = as_numbers(radii, "radii")
+    if not isinstance(margin, Real) or isinstance(margin, bool) or not 0.0 <= margin < 0.5:
+        raise OptionError(f"margin must be a number from 0 to below 0.5, not {margin!r}")
     return _koebe.pack_disks(sizes, float(margin))
 
 
