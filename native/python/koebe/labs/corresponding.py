@@ -112,6 +112,15 @@ class PointFamily(Result):
                 found[i, j] = found[j, i] = np.sqrt(weights @ (away**2).sum(axis=1))
         return size * found
 
+    def to_dataframe(self) -> Any:
+        """A row and a column per shape, named by its label: the point_distances, as a pandas DataFrame."""
+        return library("pandas").DataFrame(self.point_distances, index=self.labels, columns=self.labels)
+
+    def to_xarray(self) -> Any:
+        """The points as an xarray DataArray with the dimensions shape (by label), vertex and axis (x, y, z)."""
+        coords = {"shape": self.labels, "axis": ["x", "y", "z"], "weight": ("vertex", self.weights)}
+        return library("xarray").DataArray(self.points, coords, ("shape", "vertex", "axis"), "points")
+
     def adjacency(self) -> Any:
         """(V, V) scipy.sparse matrix: 1 for the ends of each edge of the reference. Tests of clusters take it, such as
         MNE's. Needs SciPy."""
@@ -205,3 +214,12 @@ def _laid_over(shape: Floats, other: Floats, weights: Floats) -> Floats:
     middle, there = weights @ shape, weights @ other
     turn = nearest_rotation((other - there).T @ ((shape - middle) * weights[:, None]))
     return (shape - middle) @ turn.T + there
+
+
+def library(name: str, package: str = "", extra: str = "statistics") -> Any:
+    """A module of an extra. Raises ImportError with what to install."""
+    try:
+        return import_module(name)
+    except ImportError:
+        needed = package or name.partition(".")[0]
+        raise ImportError(f'this needs {needed}: pip install "koebe[{extra}]"') from None

@@ -10,8 +10,8 @@ from .._options import whole
 from .._types import Floats, Ints
 from ..errors import InputError
 from ..maps.sphere import SphereMap
+from .corresponding import library
 from .sphere_transfer import vertex_areas
-from .statistics import library
 
 _MOST_DEGREE = 128
 

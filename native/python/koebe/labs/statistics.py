@@ -1,6 +1,5 @@
 """Whether groups of shapes differ: by their distances, in their spread, and point by point."""
 
-import importlib
 import itertools
 import math
 from collections.abc import Iterator
@@ -14,6 +13,7 @@ from .._comparable import Result
 from .._options import flag, whole
 from .._types import Floats, Values, Whole
 from ..errors import InputError
+from .corresponding import library
 from .family import Family
 from .sphere_family import SphereFamily
 
@@ -219,6 +219,7 @@ def point_test(
         raise InputError(f"the matrix must be (N, V), subjects x points, not {values.shape}")
     design = _Design(len(values), groups, covariates, strata, numeric)
     known = np.asarray(np.isfinite(values).all(axis=0))
+    values = values / np.where(known, _sizes(values), 1.0)  # no figure depends on the unit
     rest = design.without_covariates(values[:, known])
     total = (rest**2).sum(axis=0)
     varies = total > 1e-12 * (values[:, known] ** 2).sum(axis=0)
@@ -325,13 +326,13 @@ def _all_of_two(member: Whole, first: Whole) -> Iterator[Whole]:
 
 
 def _distances(given: Any) -> Floats:
-    """(N, N) of a family, or as given. Raises InputError."""
+    """(N, N) of a family, or as given; the largest is 1, as no figure depends on the unit. Raises InputError."""
     matrix = given.distances if isinstance(given, (Family, SphereFamily)) else given
     matrix = as_values(matrix, "distances")
     matrix = as_points(matrix, "distances", len(matrix) if matrix.ndim else 0)
     if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0) or matrix.diagonal().any() or (matrix < 0.0).any():
         raise InputError("the distances must be a symmetric matrix without negative numbers, 0 on the diagonal")
-    return matrix
+    return matrix / (matrix.max(initial=0.0) or 1.0)
 
 
 def _labels(given: Any, name: str, count: int) -> Values:
@@ -353,8 +354,15 @@ def _columns(given: Any, name: str, count: int) -> Floats:
     return table
 
 
+def _sizes(columns: Floats) -> Floats:
+    """(k,) the largest sizes in columns, 1 for none."""
+    sizes = np.abs(columns).max(axis=0, initial=0.0)
+    return np.where(sizes > 0.0, sizes, 1.0)
+
+
 def _scaled(columns: Floats) -> Floats:
     """Columns (N, k) of length 1, or 0."""
+    columns = columns / _sizes(columns)
     lengths = np.linalg.norm(columns, axis=0)
     return columns / np.where(lengths > 0.0, lengths, 1.0)
 
@@ -363,12 +371,3 @@ def _basis(columns: Floats) -> Floats:
     """(N, k) orthonormal basis of the span of columns whose length was 1."""
     u, values, _ = np.linalg.svd(columns, full_matrices=False)
     return u[:, values > 1e-10]
-
-
-def library(name: str, package: str = "", extra: str = "statistics") -> Any:
-    """A module of an extra. Raises ImportError with what to install."""
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        needed = package or name.partition(".")[0]
-        raise ImportError(f'this needs {needed}: pip install "koebe[{extra}]"') from None
