@@ -127,6 +127,25 @@ def test_numbers_of_any_width_are_taken(kind):
     assert np.array_equal(koebe.uniformize(points, FACES).uv, koebe.uniformize(points.astype(float), FACES).uv)
 
 
+def test_a_circle_through_no_points_or_beyond_floating_point_is_refused():
+    with pytest.raises(koebe.InputError, match="no points"):
+        koebe.fit_circle(np.zeros((0, 2)))
+    with pytest.raises(koebe.SolverError, match="beyond floating point"):
+        koebe.fit_circle([[1e308, 0], [-1e308, 0], [0, 1e308]])
+    with pytest.raises(koebe.InputError, match="beyond floating point"):
+        koebe.uv_to_disk([[1e308, 0]])
+
+
+@pytest.mark.parametrize("path", [1, True, b"face.obj", "fa\0ce.obj", None, ["face.obj"]])
+def test_a_path_is_a_text(path, tmp_path):
+    """A number would be the descriptor of an open file, and reading it would close the output."""
+    for call in (koebe.load, koebe.read_patch, koebe.read_field, lambda one: koebe.read_region(one, 3),
+                 lambda one: koebe.write_field(one, [0.0]), lambda one: koebe.cortex(one, "lh"),
+                 lambda one: koebe.batch([one], tmp_path), lambda one: koebe.uniformize(VERTICES, FACES).save(one)):  # fmt: skip
+        with pytest.raises((TypeError, koebe.InputError)):
+            call(path)
+
+
 def test_masks_may_be_0_and_1():
     out = np.zeros(COUNT, np.uint8)
     out[RIMS[1]] = 1

@@ -8,7 +8,7 @@ import numpy as np
 from .._arrays import as_numbers, as_points
 from .._native import _koebe
 from .._types import Floats, Ints
-from ..errors import OptionError
+from ..errors import InputError, OptionError, SolverError
 from .input import polygons_of, surface_of
 
 
@@ -61,5 +61,10 @@ def fit_circle(points: Any) -> tuple[Floats, float, float]:
     >>> round(radius, 9)
     1.0
     """
-    center, radius, off = _koebe.fit_circle(as_points(points, "points", 2))
+    given = as_points(points, "points", 2)
+    if not len(given):
+        raise InputError("there are no points")
+    center, radius, off = _koebe.fit_circle(given)
+    if not np.isfinite([center, radius, off]).all():
+        raise SolverError("the circle is beyond floating point: scale the points to about 1")
     return np.array([center.real, center.imag]), radius, off
