@@ -139,11 +139,21 @@ def test_a_circle_through_no_points_or_beyond_floating_point_is_refused():
 @pytest.mark.parametrize("path", [1, True, b"face.obj", "fa\0ce.obj", None, ["face.obj"]])
 def test_a_path_is_a_text(path, tmp_path):
     """A number would be the descriptor of an open file, and reading it would close the output."""
-    for call in (koebe.load, koebe.read_patch, koebe.read_field, lambda one: koebe.read_region(one, 3),
-                 lambda one: koebe.write_field(one, [0.0]), lambda one: koebe.cortex(one, "lh"),
-                 lambda one: koebe.batch([one], tmp_path), lambda one: koebe.uniformize(VERTICES, FACES).save(one)):  # fmt: skip
+    calls = [
+        koebe.load, koebe.read_patch, koebe.read_field, lambda one: koebe.read_region(one, 3),
+        lambda one: koebe.write_field(one, [0.0]), lambda one: koebe.cortex(one, "lh"),
+        lambda one: koebe.batch([one], tmp_path), koebe.uniformize(VERTICES, FACES).save,
+    ]  # fmt: skip
+    for call in calls:
         with pytest.raises((TypeError, koebe.InputError)):
             call(path)
+
+
+def test_values_that_no_file_can_hold_are_refused(tmp_path):
+    with pytest.raises(koebe.InputError, match="beyond floats of 32 bits"):
+        koebe.write_field(tmp_path / "lh.curv", [0.0, 1e200])
+    for _ in range(100):  # it read freed memory
+        assert len(koebe.weld(np.zeros((0, 3)))) == 0 and not list(tmp_path.iterdir())
 
 
 def test_masks_may_be_0_and_1():

@@ -83,7 +83,7 @@ def batch(
     folder, run = os.path.abspath(path_of(output, "output")), Run(progress, cancel)
     # A worker of Dask has another working folder.
     common = _words({"time_limit": time_limit, "retry": retry, **options})
-    named = [*inputs, *_words({"base": base and os.path.abspath(base)}), "--output", folder, *common]
+    named = [*inputs, *_words({"base": base and os.path.abspath(path_of(base, "base"))}), "--output", folder, *common]
     lines = _run([*named, "--list"]).splitlines()
     run.at(0.0, "list")
     if scheduler is None:

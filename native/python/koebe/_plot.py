@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ._arrays import as_values
 from ._comparable import Result
 from ._fields import face_angle_error_deg, log_scale_of_corners
 from ._options import choice_of
@@ -195,7 +196,7 @@ def _values(field: str, vertices: Floats, triangles: Ints, images: Floats) -> Fl
 
 def _given_values(field: Any, vertices: Floats, triangles: Ints, drawn: Bools) -> Floats:
     """(F,) values of the drawn triangles, from values at the vertices or at all triangles. Raises InputError."""
-    values = np.asarray(field)
+    values = as_values(field, "the field")
     if values.dtype.kind not in "fiub" or values.shape not in ((len(vertices),), (len(drawn),)):
         raise InputError(
             f"the field must be ({len(vertices)},) numbers at the vertices or ({len(drawn)},) at the triangles, "

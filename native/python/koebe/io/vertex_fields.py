@@ -202,6 +202,8 @@ def write_field(
     for name, given in (("names", names), ("colors", colors)):
         if given is not None and not isinstance(given, Mapping):
             raise TypeError(f"{name} must be a dict, not {given!r}")
+    if array.dtype.kind == "f" and (np.abs(array[np.isfinite(array)]) > np.finfo(np.float32).max).any():
+        raise InputError("the values are beyond floats of 32 bits, which the files have")
     low = Path(path_of(path)).name.lower()
     as_labels = low.endswith((".annot", ".label.gii", ".dlabel.nii"))
     if as_labels and (array.dtype.kind == "f" or array.min() < NO_LABEL):

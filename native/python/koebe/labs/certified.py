@@ -8,7 +8,7 @@ import numpy as np
 from .._arrays import as_indices
 from .._comparable import Result
 from .._native import _koebe
-from .._options import takes
+from .._options import listed, takes
 from .._report_entries import Warning
 from .._signatures import CertifiedOptions, Unpack
 from .._types import Floats
@@ -108,7 +108,7 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     >>> low < 0.2987 < high and high - low < 0.001
     True
     """
-    between = [_condenser(one) for one in given["between"]] if given["between"] is not None else []
+    between = [_condenser(one) for one in listed(given["between"], "between")] if given["between"] is not None else []
     if given["between"] is not None and not between:
         raise InputError("between must have at least one pair of loops at 0 and loops at 1")
     options, said, source, run = prepared("certified", _koebe.CapacityOptions(), given, (vertices, triangles))

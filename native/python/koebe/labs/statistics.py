@@ -214,7 +214,10 @@ def point_test(
     >>> np.flatnonzero(found.p_family <= 0.05).tolist()
     [7]
     """
-    values = np.array(matrix, np.float64)
+    values = as_values(matrix, "the matrix")
+    if values.dtype.kind not in "fiub":
+        raise InputError(f"the matrix must have numbers, not {values.dtype}")
+    values = values.astype(np.float64)
     if values.ndim != 2 or not len(values):
         raise InputError(f"the matrix must be (N, V), subjects x points, not {values.shape}")
     design = _Design(len(values), groups, covariates, strata, numeric)
