@@ -5,14 +5,12 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ._option_table import INTERRUPTED, NOT_CONVERGED, REFUSED, WRONG_USAGE
-from ._report_entries import Loop
 from ._types import Floats, Ints
 from .errors import Cancelled, InputError, KoebeError, OptionError
 from .io.corner_mesh import mesh_with_corner_uv
@@ -77,14 +75,13 @@ def ended(work: Callable[[], int]) -> int:
         return REFUSED
 
 
-@dataclass
 class _Map(MapReport):
     """A surface with the UVs that the command wrote, as far as files need it."""
 
-    _source: Source
-    uv: Floats
     is_surface: bool
-    loops: list[Loop] = field(default_factory=list)
+
+    def __init__(self, source: Source, uv: Floats, is_surface: bool) -> None:
+        self._set(_source=source, uv=uv, is_surface=is_surface, loops=[])
 
     def to_mesh(self) -> Any:
         if not len(self.uv):
@@ -188,12 +185,12 @@ class _Conversion:
         if output:
             result = self._result(*_read_obj(temporary[output]))
             if points is not None:
-                result.points = result._source.outside_nan(points)
+                result._set(points=result._source.outside_nan(points))
             export(result, output)
         if sphere:
             assert points is not None
             result = _Map(self._sources[0], np.zeros((0, 3, 2)), False)
-            result.points = points
+            result._set(points=points)
             export(result, sphere)
 
     def _result(self, vertices: Floats, triangles: Ints, uv: Floats) -> _Map:

@@ -239,7 +239,7 @@ def family(
                 "shapes",
             )
     names = checked_labels(labels, len(shapes))
-    if landmarks is not None and len(landmarks) != len(shapes):
+    if landmarks is not None and len(listed(landmarks, "landmarks")) != len(shapes):
         raise InputError(f"there are landmarks of {len(landmarks)} shapes, not of {len(shapes)}")
     first = whole(reference, "reference", least=0, most=len(shapes) - 1)
     margins = np.full(len(shapes), np.nan)

@@ -37,6 +37,11 @@ def landmark_pairs(landmarks: Any) -> list[Any]:
     """The landmarks as a list. Raises InputError for one that is no pair."""
     pairs = [] if landmarks is None else listed(landmarks, "landmarks")
     for number, pair in enumerate(pairs):
-        if isinstance(pair, (str, bytes)) or not hasattr(pair, "__len__") or len(pair) != 2:
+        if (
+            isinstance(pair, (str, bytes))
+            or np.ma.isMaskedArray(pair)
+            or not hasattr(pair, "__len__")
+            or len(pair) != 2
+        ):
             raise InputError(f"landmark {number} is no pair: a point on a and one on b", [number], "landmarks")
     return pairs

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_values
 from .._native import _koebe
 from .._options import flag, whole
 from .._types import Bools, Floats, Values, Whole
@@ -78,7 +79,7 @@ def from_image(image: Any, result: UniformizeResult, *, labels: bool | None = No
     (2309,)
     """
     _require_disk(result)
-    values = np.asarray(image)
+    values = as_values(image, "the image")
     if values.ndim not in (2, 3) or values.shape[0] != values.shape[1] or len(values) < 2:
         raise InputError(f"the image has the shape {values.shape}, not (n, n) or (n, n, k)")
     if values.dtype.kind not in "fiubU" or values.dtype.kind == "U" and labels is False:
