@@ -125,7 +125,8 @@ class SphereCorrespondence(Result):
         if sphere is not None:
             given = as_points(sphere, "sphere", 3, self.count)
             length = np.linalg.norm(given, axis=1, keepdims=True)
-            if not length.min() > 0.5 * length.max():
+            middle = np.linalg.norm((given / np.maximum(length, 1e-300)).mean(axis=0))
+            if not length.min() > 0.5 * length.max() or middle > 0.5:
                 raise InputError("the sphere must lie round 0")
             places = self.carry(given / length)
             places = places / np.linalg.norm(places, axis=1, keepdims=True)
