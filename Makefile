@@ -10,11 +10,12 @@ TOOLS := pybind11>=2.13
 # What `make lint` checks with, pinned: another version finds other things.
 LINTERS := ruff==0.8.4 mypy==2.4.1 numpy==2.4.6 fake-bpy-module-4.2==20260730
 # Whose meshes `koebe.uniformize` takes, what its pictures are drawn with, what spreads `koebe.batch`, and what runs the
-# notebook; beside scikit-learn and SciPy the wheel is tried. nilearn brings a cortex, pygeodesic its exact distances.
+# notebook; beside scikit-learn and SciPy the wheel is tried. nilearn brings a cortex, pygeodesic its exact distances,
+# numpydoc its validator of docstrings.
 LABS := pytest==9.2.0 numpy==2.4.6 scikit-learn==1.9.1 scipy==1.17.1 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 matplotlib==3.11.2 \
         scikit-bio==0.7.4 statsmodels==0.15.0 pandas==3.1.1 \
         distributed==2026.8.0 nibabel==5.4.2 nbclient==0.11.0 ipykernel==7.4.0 \
-        nilearn==0.14.1 pygeodesic==0.1.11
+        nilearn==0.14.1 pygeodesic==0.1.11 numpydoc==1.11.0 pyshtools==4.14.1 xarray==2026.9.0
 # What the site is built with.
 SITE := sphinx==9.0.4 furo==2025.12.19 myst-nb==1.4.0 breathe==5.1.0 sphinx-copybutton==0.5.2 sphinx-mathjax-offline==0.0.2 numpy==2.4.6
 # What ours is compared with, and what draws it.

@@ -58,7 +58,8 @@ def write_docstring(app, what, name, obj, options, lines):
     """Brings a docstring of the package into the markup of the site."""
     if name.startswith("koebe."):
         results = python_pages.results(obj) if what == "function" else []
-        lines[:] = docstrings.converted(list(lines), what == "class", python_pages.PUBLIC, results)
+        plain = docstrings.plain(obj) or lines
+        lines[:] = docstrings.converted(list(plain), what == "class", python_pages.PUBLIC, results)
 
 
 def hide_arguments(app, what, name, obj, options, signature, returned):

@@ -1,15 +1,10 @@
-"""The package's docstrings as reStructuredText: rows become definitions or attributes, and examples get a heading.
-
-A row is a name, or several with commas, two spaces or more, and its text, which goes on in lines that are indented.
-"""
+"""The package's docstrings as reStructuredText: rows become definitions or attributes, and examples get a heading."""
 
 import re
 
+from koebe._docstrings import PLAIN, parts
 from markup import escaped, sentence
 
-NAMES = r"\*{0,2}[A-Za-z_]\w*(?:, [A-Za-z_]\w*)*"
-ROW = re.compile(rf"({NAMES})  +(\S.*)")
-ONLY_NAMES = re.compile(rf"(?:{NAMES}),")
 # Public names that are words of English too: links only in backticks.
 WORDS = {"Warning", "Surface", "Family", "batch", "distortion", "family", "flatten", "lift", "load", "parts", "plot",
          "transfer"}  # fmt: skip
@@ -42,26 +37,9 @@ def linked(text, public):
     return made + escaped(text[at:])
 
 
-def parts(lines):
-    """A docstring in parts: (kind, names, text), where kind is row, text or example."""
-    found, names = [], ""
-    for line in lines:
-        if found and found[-1][0] == "example" and line.strip():
-            found[-1][2].append(line)
-        elif line.startswith(">>> "):
-            found.append(("example", "", [line]))
-        elif row := ROW.fullmatch(names + line):
-            found.append(("row", row[1], [row[2]]))
-            names = ""
-        elif ONLY_NAMES.fullmatch(line):
-            names += line + " "
-        elif line.startswith(" ") and found and found[-1][0] == "row":
-            found[-1][2].append(line.strip())
-        elif found and found[-1][0] == "text" and line.strip():
-            found[-1][2].append(line)
-        else:
-            found.append(("text", "", [line] if line.strip() else []))
-    return [one for one in found if one[2]]
+def plain(one):
+    """The lines of a docstring as the source has it, or nothing."""
+    return PLAIN.get(getattr(one, "__qualname__", ""), "").splitlines()
 
 
 def with_results(found, results):

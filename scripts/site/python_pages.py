@@ -9,7 +9,7 @@ import re
 import typing
 
 import koebe
-from docstrings import linked, parts
+from docstrings import linked, parts, plain
 from koebe import _report_entries
 from koebe.labs import fit as _fit
 from koebe.maps import result as _result
@@ -51,6 +51,7 @@ PAGES = {
         "planar": ["planar", "PlanarMap"],
         "teichmueller": ["teichmueller", "TeichmuellerMap"],
         "transfer": ["transfer", "Correspondence", "SphereCorrespondence"],
+        "spharm": ["spharm", "SphereHarmonics"],
         "to_image": ["to_image", "from_image"],
         "align_domains": ["align_domains", "DomainAlignment"],
     },
@@ -100,7 +101,8 @@ def text_of(name):
         return "The version of the package."
     if not callable(one):
         return comment_of(name)
-    return one.__dict__.get("__doc__") if inspect.isclass(one) else one.__doc__
+    text = one.__dict__.get("__doc__") if inspect.isclass(one) else one.__doc__
+    return text and ("\n".join(plain(one)) or text)
 
 
 def results(function):
@@ -127,7 +129,7 @@ def entry(name):
     if inspect.isclass(one):
         arguments = "" if name in CALLED else "()"  # conf.py hides these
         others = "dict, ndarray, Mapping, Exception"  # whose members are not ours
-        rows = parts(inspect.cleandoc(one.__doc__).splitlines())  # attributes already, as conf.py makes them
+        rows = parts(plain(one) or inspect.cleandoc(one.__doc__).splitlines())
         described = ", ".join(names for kind, names, _ in rows if kind == "row") or "-"
         return (f".. autoclass:: koebe.{name}{arguments}\n   :members:\n   :inherited-members: {others}\n"
                 f"   :exclude-members: {described}\n\n")  # fmt: skip

@@ -59,7 +59,7 @@ def test_the_examples_of_a_docstring_run(name, monkeypatch):
     monkeypatch.chdir(ROOT)
     (found,) = doctest.DocTestFinder(recurse=False).find(getattr(koebe, name), name, module=False, globs={})
     assert found.examples, "no example"
-    packages = {"plot": "matplotlib", "dispersion_test": "skbio"}
+    packages = {"plot": "matplotlib", "dispersion_test": "skbio", "spharm": "pyshtools"}
     package = {**packages, **dict.fromkeys(("read_field", "read_region", "write_field"), "nibabel")}.get(name)
     if package and not importlib.util.find_spec(package):
         pytest.skip(f"{package} is not here")

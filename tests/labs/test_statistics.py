@@ -5,6 +5,7 @@ import numpy as np
 import pandas
 import pytest
 from scipy import stats
+from scipy.spatial import ConvexHull
 from scipy.spatial.distance import squareform
 from skbio.stats.distance import DistanceMatrix, permanova, permdisp
 from statsmodels.formula.api import ols
@@ -85,3 +86,32 @@ def test_clusters_of_points_are_neighbours_on_the_reference():
     edges = koebe.family([face, other]).adjacency()
     assert (edges != edges.T).nnz == 0 and edges.diagonal().sum() == 0
     assert edges.nnz == 2 * (face.vertex_count + face.face_count - 2 + len(face.loops))  # Euler: E = V + F - 2 + loops
+
+
+def test_families_are_tables_and_labelled_arrays():
+    ball = (points := np.random.default_rng(1).normal(size=(40, 3))) / np.linalg.norm(points, axis=1)[:, None]
+    faces = ConvexHull(ball).simplices
+    faces = np.where((np.linalg.det(ball[faces]) < 0)[:, None], faces[:, ::-1], faces)
+    family = koebe.family([(ball, faces), (ball * [1, 1, 2], faces)], labels=["ball", "egg"])
+    frame, array = family.to_dataframe(), family.to_xarray()
+    assert (
+        np.array_equal(frame.to_numpy(), family.distances) and list(frame.columns) == list(frame.index) == family.labels
+    )
+    assert np.array_equal(array.sel(shape="egg", axis="z"), family.points[1, :, 2])
+    assert np.isclose(
+        array.weighted(array.weight).mean("vertex").sel(shape="ball").sum(), family.weights @ family.points[0].sum(1)
+    )
+    disks = koebe.family([koebe.example(name) for name in ("face", "surprised")])
+    assert disks.to_xarray().shape == disks.points.shape and list(disks.to_dataframe().columns) == disks.columns
+
+
+@pytest.mark.parametrize("unit", [1e-200, 1e200])
+def test_no_figure_depends_on_the_unit(unit):
+    how = {"covariates": AGE, "permutations": 49}
+    far = {"covariates": AGE * unit, "permutations": 49}
+    one, other = (koebe.point_test(POINTS * scale, GROUPS, **some) for scale, some in ((1, how), (unit, far)))
+    assert np.allclose(one.statistic, other.statistic, rtol=1e-6) and np.allclose(one.p, other.p)
+    one, other = (koebe.permutation_test(DISTANCES * scale, GROUPS, **some) for scale, some in ((1, how), (unit, far)))
+    assert one.statistic == pytest.approx(other.statistic) and one.p == other.p
+    one, other = (koebe.dispersion_test(DISTANCES * scale, GROUPS, permutations=49) for scale in (1, unit))
+    assert one.statistic == pytest.approx(other.statistic, rel=1e-6)

@@ -78,8 +78,7 @@ BAD_VERTICES = {
     "the most negative whole number": with_entry(VERTICES.astype(np.int64), (5, 1), -(2**63)),
     "unsigned ones": with_entry(VERTICES.astype(np.uint64), (5, 1), 2**64 - 1),
     "bools": VERTICES.astype(bool),
-    "16 bits": VERTICES.astype(np.float16),
-    "more than 64 bits": VERTICES.astype(np.longdouble),
+    "more than 64 bits, too large": np.full(VERTICES.shape, np.finfo(np.longdouble).max),
     "complex": VERTICES.astype(complex),
     "objects": VERTICES.astype(object),
     "texts": VERTICES.astype(str),
@@ -122,10 +121,54 @@ def test_the_error_names_the_offending_elements(name):
         assert list(caught.value.elements) == [5]
 
 
+@pytest.mark.parametrize("kind", [np.float16, np.float32, np.longdouble, np.int8, np.uint64])
+def test_numbers_of_any_width_are_taken(kind):
+    points = np.round((VERTICES - VERTICES.min()) * 32).astype(kind)
+    assert np.array_equal(koebe.uniformize(points, FACES).uv, koebe.uniformize(points.astype(float), FACES).uv)
+
+
+def test_a_circle_through_no_points_or_beyond_floating_point_is_refused():
+    with pytest.raises(koebe.InputError, match="no points"):
+        koebe.fit_circle(np.zeros((0, 2)))
+    with pytest.raises(koebe.SolverError, match="beyond floating point"):
+        koebe.fit_circle([[1e308, 0], [-1e308, 0], [0, 1e308]])
+    with pytest.raises(koebe.InputError, match="beyond floating point"):
+        koebe.uv_to_disk([[1e308, 0]])
+
+
+@pytest.mark.parametrize("path", [1, True, b"face.obj", "fa\0ce.obj", None, ["face.obj"]])
+def test_a_path_is_a_text(path, tmp_path):
+    """A number would be the descriptor of an open file, and reading it would close the output."""
+    calls = [
+        koebe.load, koebe.read_patch, koebe.read_field, lambda one: koebe.read_region(one, 3),
+        lambda one: koebe.write_field(one, [0.0]), lambda one: koebe.cortex(one, "lh"),
+        lambda one: koebe.batch([one], tmp_path), koebe.uniformize(VERTICES, FACES).save,
+    ]  # fmt: skip
+    for call in calls:
+        with pytest.raises((TypeError, koebe.InputError)):
+            call(path)
+
+
+def test_values_that_no_file_can_hold_are_refused(tmp_path):
+    with pytest.raises(koebe.InputError, match="beyond floats of 32 bits"):
+        koebe.write_field(tmp_path / "lh.curv", [0.0, 1e200])
+    for _ in range(100):  # it read freed memory
+        assert len(koebe.weld(np.zeros((0, 3)))) == 0 and not list(tmp_path.iterdir())
+
+
+def test_masks_may_be_0_and_1():
+    out = np.zeros(COUNT, np.uint8)
+    out[RIMS[1]] = 1
+    assert np.array_equal(koebe.uniformize(VERTICES, FACES, mask=out).triangles,
+                          koebe.uniformize(VERTICES, FACES, mask=out == 1).triangles)  # fmt: skip
+    ragged, masked = [[1], [0, 1]], np.ma.masked_array(out, out == 1)
+    for mask in (out * 2, out[1:], out.astype(float), np.where(out)[0], masked, ragged):
+        with pytest.raises(koebe.InputError, match="the mask"):
+            koebe.uniformize(VERTICES, FACES, mask=mask)
+
+
 def test_lists_are_arrays_too():
-    assert np.array_equal(
-        koebe.uniformize(VERTICES.tolist(), FACES.tolist()).uv, koebe.uniformize(VERTICES, FACES).uv
-    )
+    assert np.array_equal(koebe.uniformize(VERTICES.tolist(), FACES.tolist()).uv, koebe.uniformize(VERTICES, FACES).uv)
 
 
 # ---------------------------------------------------------------- arrays in any form

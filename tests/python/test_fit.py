@@ -205,7 +205,7 @@ def test_the_surface_may_be_two_arrays_or_one_mesh():
         koebe.fit_circles(*PLATE, SPOTS, [0.2, 0.3, 0.1]),
         koebe.fit_circles(*PLATE, **circles),
         koebe.fit_circles(PLATE, SPOTS, radii=[0.2, 0.3, 0.1]),
-        koebe.fit_circles(mesh=PLATE, **circles),
+        koebe.fit_circles(vertices=PLATE, **circles),
         koebe.fit_circles(*PLATE, SPOTS, [0.2, 0.3, 0.1], FIT.ranks[1:]),
     ]
     assert all(np.array_equal(fit.uv, FIT.uv) for fit in ways)

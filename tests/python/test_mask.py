@@ -106,7 +106,7 @@ def test_a_masked_result_is_saved_carried_and_made_again(tmp_path):
 
 @pytest.mark.parametrize(
     "mask",
-    [MASK.astype(int), np.flatnonzero(MASK), MASK[1:], np.ones(len(VERTICES), bool), "lh.cortex.label", MASK[:, None]],
+    [2 * MASK, np.flatnonzero(MASK), MASK[1:], np.ones(len(VERTICES), bool), "lh.cortex.label", MASK[:, None]],
 )
 def test_another_mask_is_an_error(mask):
     with pytest.raises(koebe.InputError, match="mask"):

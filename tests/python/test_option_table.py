@@ -160,22 +160,22 @@ def test_python_refuses_what_is_out_of_range_and_what_is_misspelt(of):
 
 @pytest.mark.parametrize("of", [of for of in MAPS if of != "sequence"])
 def test_docstrings_say_what_the_table_says(of):
-    text = " ".join(MAPS[of][0].__doc__.split())
+    text = " ".join(MAPS[of][0].__doc__.lower().split())
     assert "{options}" not in text
     for name, row in rows_in("python", of).items():
-        assert f"{name} " in text and row.get("of", {}).get(of, row["does"]) in text
+        assert f"{name} : " in text and row.get("of", {}).get(of, row["does"]).lower() in text
 
 
 def test_defaults_may_be_left_to_the_table():
     given = {"cut": True, "loops": "free", "darts": 0.5, "round_cuts": False, "most_lost": 0.5, "pixels": 64,
              "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False,
-             "hard_angle": 45.0, "cut_hard": True, "no_hard": True}  # fmt: skip
+             "hard_angle": 45.0, "cut_hard": True, "no_hard": True, "threads": 0}  # fmt: skip
     _, said = _options.filled("parts", _koebe.PartsOptions(), dict.fromkeys(rows_in("python", "parts"), None) | given)
     assert said == {
         "even": None, "loops": "free", "darts": 0.5, "price": 0.03, "cut": True, "round_cuts": False,
         "most_lost": 0.5, "density": None, "pixels": 64,
         "margin": 4.0, "tiles": 3, "rectify": False, "stack": True, "stack_mirrored": False, "weld": None,
-        "hard_angle": 45.0, "cut_hard": True, "no_hard": True,
+        "hard_angle": 45.0, "cut_hard": True, "no_hard": True, "threads": 0,
     }  # fmt: skip
     with pytest.raises(TypeError, match="most_lost"):
         koebe.parts([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], most_lost=None)
@@ -187,7 +187,7 @@ def test_the_addon_hands_every_option_to_the_solver(addon):
               **{name: domain.choice() for name, domain in addon("maps.domains").DOMAINS.items()}}  # fmt: skip
     by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance", "show"} | OF_READING
     engine = {row["name"] for row in TABLE if "with" in row}
-    not_there = {"sphere": {"threads"}}  # by the run
+    not_there = {"sphere": {"threads"}, "parts": {"threads"}}  # by the run
     for of, choice in chosen.items():
         expected = {*rows_in("python", of)} - by_island - engine - not_there.get(of, set())
         assert {*choice.solver_arguments()} == expected, of

@@ -4,6 +4,7 @@ W. Zeng, X. Yin, M. Zhang, F. Luo, X. Gu, "Generalized Koebe's Method for Confor
 Domains". Arrays in, UVs and a report out; nothing here knows Blender.
 """
 
+from . import _docstrings
 from ._batch import batch
 from ._example import example
 from ._fields import disk_to_uv, uv_to_disk
@@ -124,6 +125,7 @@ if hasattr(_koebe, "conformal_module"):
     from .labs.cortex import FlatCortex, cortex
     from .labs.family import Family, family
     from .labs.fit import FitResult, fit_circles
+    from .labs.harmonics import SphereHarmonics, spharm
     from .labs.noise import noise_error, vertex_noise
     from .labs.planar import PlanarMap, planar
     from .labs.shapes import (
@@ -159,6 +161,7 @@ if hasattr(_koebe, "conformal_module"):
         "PointTest",
         "SphereCorrespondence",
         "SphereFamily",
+        "SphereHarmonics",
         "TeichmuellerMap",
         "align_domains",
         "canonical_order",
@@ -178,7 +181,10 @@ if hasattr(_koebe, "conformal_module"):
         "point_test",
         "separation_distance",
         "separations",
+        "spharm",
         "teichmueller",
         "transfer",
         "vertex_noise",
     ]
+
+_docstrings.write({name: globals()[name] for name in __all__})

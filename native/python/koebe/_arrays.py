@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 from ._native import _koebe
+from ._types import Bools, Floats, Ints, Values
 from .errors import InputError
 
-_REAL = (np.dtype(np.float32), np.dtype(np.float64))
+_REAL = tuple(np.dtype(kind) for kind in (np.float16, np.float32, np.float64, np.longdouble))
 _WHOLE = tuple(np.dtype(f"{sign}int{bits}") for bits in (8, 16, 32, 64) for sign in ("", "u"))
 _EXACT = 2**53  # beyond it 64-bit floats skip whole numbers
 # Half-edges, three per face, have 32-bit numbers, too.
@@ -18,10 +19,10 @@ _MOST_VERTICES = 2**31 - 2
 _MOST_FACES = _MOST_VERTICES // 3
 
 
-def as_surface(vertices: Any, triangles: Any, *, degenerate: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def as_surface(vertices: Any, triangles: Any, *, degenerate: bool = False) -> tuple[Floats, Ints]:
     """Positions (V, 3) float64 and faces (F, 3) int32, C order; degenerate: faces may name a vertex twice.
 
-    Takes float32, float64 or whole numbers of any width, in any order and byte order, read-only too.
+    Takes floats and whole numbers of any width, in any order and byte order, read-only too.
     """
     positions = as_points(vertices, "vertices", 3)
     if not len(positions):
@@ -31,7 +32,7 @@ def as_surface(vertices: Any, triangles: Any, *, degenerate: bool = False) -> tu
     return positions, as_triangles(triangles, len(positions), degenerate=degenerate)
 
 
-def as_triangles(triangles: Any, vertex_count: int | None = None, *, degenerate: bool = False) -> np.ndarray:
+def as_triangles(triangles: Any, vertex_count: int | None = None, *, degenerate: bool = False) -> Ints:
     """(F, 3) int32, C order: different vertices of 0 .. vertex_count - 1, or any numbers without vertex_count."""
     faces = _copy(triangles, "triangles", _WHOLE, 3)
     if not len(faces):
@@ -39,28 +40,29 @@ def as_triangles(triangles: Any, vertex_count: int | None = None, *, degenerate:
     if len(faces) > _MOST_FACES:
         raise InputError(f"the mesh has {len(faces)} faces; there may be {_MOST_FACES}")
     limit = _MOST_VERTICES if vertex_count is None else vertex_count
-    missing: np.ndarray = np.any((faces < 0) | (faces >= limit), axis=1)
+    missing: Bools = np.any((faces < 0) | (faces >= limit), axis=1)
     _refuse(missing, "faces name a vertex that does not exist (faces listed)", "faces")
     a, b, c = faces.T
-    twice: np.ndarray = (a == b) | (b == c) | (c == a)
+    twice: Bools = (a == b) | (b == c) | (c == a)
     _refuse(twice & (not degenerate), "faces name the same vertex twice (faces listed)", "faces")
     return faces.astype(np.int32, copy=False)
 
 
-def as_points(points: Any, name: str, dimension: int, count: int | None = None) -> np.ndarray:
+def as_points(points: Any, name: str, dimension: int, count: int | None = None) -> Floats:
     """(n, dimension) float64, C order, finite; n = count, if given."""
     array = _copy(points, name, _REAL + _WHOLE, dimension)
     if count is not None and len(array) != count:
         raise InputError(f"{name} has {len(array)} rows, not {count}")
     if array.dtype.kind != "f":
-        beyond: np.ndarray = np.any((array > _EXACT) | (array < -_EXACT), axis=1)
+        beyond: Bools = np.any((array > _EXACT) | (array < -_EXACT), axis=1)
         _refuse(beyond, f"{name} have a whole number beyond 2^53 for a coordinate", "vertices")
-    array = array.astype(np.float64, copy=False)
-    _refuse(~np.isfinite(array).all(axis=1), f"{name} have a coordinate that is NaN or infinite", "vertices")
+    array = _double(array)
+    known = np.asarray(np.isfinite(array).all(axis=1))
+    _refuse(~known, f"{name} have a coordinate that is NaN or infinite", "vertices")
     return array
 
 
-def as_indices(indices: Any, name: str, count: int, of: str) -> np.ndarray:
+def as_indices(indices: Any, name: str, count: int, of: str) -> Ints:
     """(n,) int32: different numbers of 0 .. count - 1, from any sequence of whole numbers, which may be empty."""
     array = np.zeros(0, np.int64) if _is_empty(indices) else _copy(indices, name, _WHOLE)
     bad = array[(array < 0) | (array >= count)]
@@ -72,7 +74,24 @@ def as_indices(indices: Any, name: str, count: int, of: str) -> np.ndarray:
     return array.astype(np.int32, copy=False)
 
 
-def as_circles(domain: Any) -> tuple[np.ndarray, np.ndarray]:
+def as_values(values: Any, name: str) -> Values:
+    """Any array, own. Raises InputError for what is none."""
+    try:
+        return np.array(values)
+    except (TypeError, ValueError, OverflowError, RuntimeError) as error:
+        raise InputError(f"{name} cannot be made an array: {error}") from None
+
+
+def as_flags(flags: Any, name: str, count: int, means: str = "True and False") -> Bools:
+    """(count,) bool, own, from bools or from 0 and 1. Raises InputError for any other array, such as numbers."""
+    array = as_values(flags, name)
+    known = array.dtype == bool or (array.dtype.kind in "iu" and np.isin(array, (0, 1)).all())
+    if array.shape != (count,) or not known or np.ma.is_masked(flags):
+        raise InputError(f"{name} must be ({count},) of {means}, or of 1 and 0, not {array.shape} {array.dtype}")
+    return array.astype(bool)
+
+
+def as_circles(domain: Any) -> tuple[Floats, Floats]:
     """Centers (L, 2) and radii (L,) by which a shape is compared: of a result its conformal circles, else of an object
     that has both. Raises InputError if a result's circles are not the surface's own."""
     domain = getattr(domain, "conformal", domain)
@@ -85,20 +104,20 @@ def as_circles(domain: Any) -> tuple[np.ndarray, np.ndarray]:
     return as_points(domain.centers, "centers", 2, len(radii)), radii
 
 
-def as_numbers(numbers: Any, name: str) -> np.ndarray:
+def as_numbers(numbers: Any, name: str) -> Floats:
     """(n,) float64, finite. Takes whole numbers too, and an empty list."""
     array = np.zeros(0) if _is_empty(numbers) else _copy(numbers, name, _REAL + _WHOLE)
-    array = array.astype(np.float64, copy=False)
+    array = _double(array)
     _refuse(~np.isfinite(array), f"numbers of {name} are NaN or infinite", "loops")
     return array
 
 
-def as_loops(loops: Sequence[Sequence[int]]) -> list[np.ndarray]:
+def as_loops(loops: Sequence[Sequence[int]]) -> list[Ints]:
     """Vertex lists as int32 arrays."""
     return [np.asarray(loop, dtype=np.int32) for loop in loops]
 
 
-def _copy(values: Any, name: str, dtypes: tuple[np.dtype, ...], columns: int | None = None) -> np.ndarray:
+def _copy(values: Any, name: str, dtypes: tuple[np.dtype[Any], ...], columns: int | None = None) -> Values:
     """An own array of one of these types, in C order and the machine's byte order; (n, columns), or (n,)."""
     if np.ma.is_masked(values):
         raise InputError(f"{name} must not be masked")
@@ -111,9 +130,15 @@ def _copy(values: Any, name: str, dtypes: tuple[np.dtype, ...], columns: int | N
         raise InputError(f"{name} must have shape {expected}, not {array.shape}")
     native = array.dtype.newbyteorder("=")
     if native not in dtypes:
-        kinds = [d.name for d in dtypes if d.kind == "f"] + ["whole numbers"] * (dtypes[-1].kind == "u")
+        kinds = ["floats"] * (dtypes[0].kind == "f") + ["whole numbers"] * (dtypes[-1].kind == "u")
         raise InputError(f"{name} must be {' or '.join(kinds)}, not {array.dtype}")
     return array.astype(native, copy=False)
+
+
+def _double(array: Values) -> Floats:
+    """As float64: what is too large becomes infinite."""
+    with np.errstate(over="ignore"):
+        return array.astype(np.float64, copy=False)
 
 
 def _is_empty(values: Any) -> bool:
@@ -121,7 +146,7 @@ def _is_empty(values: Any) -> bool:
     return isinstance(values, (list, tuple)) and not values
 
 
-def _refuse(bad: np.ndarray, message: str, of: str) -> None:
+def _refuse(bad: Bools, message: str, of: str) -> None:
     """Raises InputError if an element is bad, with the numbers of the bad elements.
 
     of  what the elements are: "vertices", "faces" ...

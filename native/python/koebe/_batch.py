@@ -16,7 +16,9 @@ from typing import Any
 from . import _command
 from ._native import _koebe
 from ._option_table import INTERRUPTED, WRONG_USAGE, rows
-from ._progress import Progress, Run
+from ._options import listed, path_of
+from ._progress import Run, Shown
+from ._watched import watched
 from .errors import Cancelled, KoebeError, OptionError
 
 PathLike = str | os.PathLike[str]
@@ -29,6 +31,7 @@ _FILES_OF_A_TASK = 10  # at most: a task of Dask and its command take as long as
 _TASKS_OF_A_THREAD = 8  # at least, so that the threads end at about the same time
 
 
+@watched()
 def batch(
     files: PathLike | Sequence[PathLike],
     output: PathLike,
@@ -38,7 +41,7 @@ def batch(
     base: PathLike | None = None,
     retry: bool = False,
     scheduler: Any = None,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
     **options: Any,
 ) -> list[Row]:
@@ -74,23 +77,23 @@ def batch(
     """
     if isinstance(files, str | os.PathLike):
         files = [files]
-    inputs = [os.path.abspath(file) for file in files]
+    inputs = [os.path.abspath(path_of(file, "files")) for file in listed(files, "files")]
     if not inputs:
         return []
-    folder, run = os.path.abspath(output), Run(progress, cancel)
+    folder, run = os.path.abspath(path_of(output, "output")), Run(progress, cancel)
     # A worker of Dask has another working folder.
     common = _words({"time_limit": time_limit, "retry": retry, **options})
-    named = [*inputs, *_words({"base": base and os.path.abspath(base)}), "--output", folder, *common]
-    listed = _run([*named, "--list"]).splitlines()
+    named = [*inputs, *_words({"base": base and os.path.abspath(path_of(base, "base"))}), "--output", folder, *common]
+    lines = _run([*named, "--list"]).splitlines()
     run.at(0.0, "list")
     if scheduler is None:
         _run([*named, *_words({"workers": workers})], run)
     else:
-        _run_on_workers(scheduler, listed, ["--output", folder, *common, *_one_thread(options)], run)
+        _run_on_workers(scheduler, lines, ["--output", folder, *common, *_one_thread(options)], run)
         _run([*named, "--summary-only"])
     run.at(1.0, "table")
     found = {row["name"]: row for row in json.loads((Path(folder) / "summary.json").read_text("utf-8"))["files"]}
-    return [found[name] for name in (line.split("\t")[1] for line in listed)]
+    return [found[name] for name in (line.split("\t")[1] for line in lines)]
 
 
 def _run_on_workers(scheduler: Any, listed: list[str], words: list[str], run: Run) -> None:

@@ -5,14 +5,13 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ._option_table import INTERRUPTED, NOT_CONVERGED, REFUSED, WRONG_USAGE
-from ._report_entries import Loop
+from ._types import Floats, Ints
 from .errors import Cancelled, InputError, KoebeError, OptionError
 from .io.corner_mesh import mesh_with_corner_uv
 from .io.export import CUT_TEXT, export, has_one_place_a_vertex, obj_of
@@ -76,14 +75,13 @@ def ended(work: Callable[[], int]) -> int:
         return REFUSED
 
 
-@dataclass
 class _Map(MapReport):
     """A surface with the UVs that the command wrote, as far as files need it."""
 
-    _source: Source
-    uv: np.ndarray
     is_surface: bool
-    loops: list[Loop] = field(default_factory=list)
+
+    def __init__(self, source: Source, uv: Floats, is_surface: bool) -> None:
+        self._set(_source=source, uv=uv, is_surface=is_surface, loops=[])
 
     def to_mesh(self) -> Any:
         if not len(self.uv):
@@ -187,15 +185,15 @@ class _Conversion:
         if output:
             result = self._result(*_read_obj(temporary[output]))
             if points is not None:
-                result.points = result._source.outside_nan(points)
+                result._set(points=result._source.outside_nan(points))
             export(result, output)
         if sphere:
             assert points is not None
             result = _Map(self._sources[0], np.zeros((0, 3, 2)), False)
-            result.points = points
+            result._set(points=points)
             export(result, sphere)
 
-    def _result(self, vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray) -> _Map:
+    def _result(self, vertices: Floats, triangles: Ints, uv: Floats) -> _Map:
         """The written surface: the input with its UVs, or another one."""
         source = self._sources[0]
         same = np.array_equal(triangles, source.triangles) and len(vertices) == len(source.vertices)
@@ -235,7 +233,7 @@ def _without_region(words: list[str]) -> tuple[list[str], str | None]:
     return left, region
 
 
-def _read_obj(path: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _read_obj(path: str) -> tuple[Floats, Ints, Floats]:
     """Vertices, triangles and the UVs (F, 3, 2) of their corners, or (0, 3, 2), of a file that the command wrote."""
     rows: dict[str, list[list[str]]] = {"v": [], "vt": [], "f": []}
     for line in Path(path).read_text("utf-8").splitlines():

@@ -2,16 +2,15 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from ._options import choice_of
+from ._types import Floats, Ints
 from .maps.input import surface_of
 
 _FOLDER = Path(__file__).parent / "examples"
 _EXAMPLES = {"face": "a face, its mouth and eyes cut out", "surprised": "the same face with another expression"}
 
 
-def example(name: str = "face") -> tuple[np.ndarray, np.ndarray]:
+def example(name: str = "face") -> tuple[Floats, Ints]:
     """A surface that comes with the package: vertices (V, 3) float64 and triangles (F, 3) int32.
 
     name    'face': a face with its mouth and eyes cut out, four loops; 'surprised': the same triangles, the face with

@@ -3,14 +3,18 @@
 import functools
 import inspect
 import math
+import os
 from collections.abc import Callable, Iterable, Mapping
 from numbers import Integral, Real
+from types import MappingProxyType
 from typing import Any, TypeVar
 
 import numpy as np
 
 from ._native import _koebe
 from ._option_table import Row, rows
+from ._types import Floats
+from ._watched import call, take_old_names
 from .errors import InputError, OptionError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -20,10 +24,13 @@ _MOST = 2**31 - 1  # of a 32-bit integer
 _OUTER = ("auto", "longest")  # choices of the outer loop; the next one is a vertex
 
 
-def takes(of: str, /, **others: Any) -> Callable[[Function], Function]:
+def takes(
+    of: str, /, *, old_names: Mapping[str, str] = MappingProxyType({}), **others: Any
+) -> Callable[[Function], Function]:
     """Gives a function a map's options as keywords with their defaults, and describes them in its docstring.
 
     others   keywords beside the table's, with their defaults
+    old_names    of arguments, new name: old
     The docstring has {options} at the place for the descriptions. The signature has the defaults without types, so that
     `help` is short: the types are in _signatures.py.
     """
@@ -33,10 +40,14 @@ def takes(of: str, /, **others: Any) -> Callable[[Function], Function]:
     def changed(function: Function) -> Function:
         @functools.wraps(function)
         def with_defaults(*arguments: Any, **given: Any) -> Any:
+            take_old_names(function.__qualname__, given, old_names)
             for name in given:
                 if name not in defaults and name not in positional:
                     raise TypeError(f"{function.__qualname__}() got an unexpected keyword argument {name!r}")
-            return function(*arguments, **{**defaults, **given})
+            given = {**defaults, **given}
+            with call(function.__name__, given, "progress" in defaults) as results:
+                results.append(function(*arguments, **given))
+            return results[0]
 
         signature = inspect.signature(function)
         positional = {name: one for name, one in signature.parameters.items() if one.kind is one.POSITIONAL_OR_KEYWORD}
@@ -71,7 +82,7 @@ def filled(of: str, native: Native, given: Mapping[str, Any]) -> tuple[Native, d
     return native, said
 
 
-def vertex_weights(name: str, values: Any, count: int) -> np.ndarray:
+def vertex_weights(name: str, values: Any, count: int) -> Floats:
     """(V,) a weight in [0, 1] for each vertex, or empty."""
     if values is None:
         return np.zeros(0)
@@ -198,9 +209,31 @@ def vertex(value: Any, option: str) -> int:
 
 
 def callback(value: Any, option: str) -> Any:
-    if value is not None and not callable(value):
-        raise TypeError(f"{option} must be a function, not {value!r}")
+    if value is None or value is False:
+        return None
+    if not callable(value):
+        raise TypeError(f"{option} must be a function, or False, not {value!r}")
     return value
+
+
+def path_of(value: Any, option: str = "path") -> str:
+    """A file's path as text."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{option} must be a file's path, not {value!r}")
+    text = os.fspath(value)
+    if not isinstance(text, str) or "\0" in text:
+        raise OptionError(f"{option} is no file's path: {text!r}")
+    return text
+
+
+def listed(value: Any, option: str) -> list[Any]:
+    """The entries of a list, or of anything else that has some."""
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+        raise TypeError(f"{option} must be a list, not {value!r}")
+    try:
+        return list(value)
+    except TypeError:  # such as an array without dimensions
+        raise TypeError(f"{option} must be a list, not {value!r}") from None
 
 
 def token(value: Any, option: str) -> "_koebe.CancelToken":

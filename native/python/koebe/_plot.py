@@ -4,9 +4,13 @@ from typing import Any
 
 import numpy as np
 
+from ._arrays import as_values
+from ._comparable import Result
 from ._fields import face_angle_error_deg, log_scale_of_corners
 from ._options import choice_of
+from ._types import Bools, Floats, Ints, Whole
 from .errors import InputError
+from .io.picture import histogram
 from .making.lift import LiftResult
 from .maps.result import MapReport, UniformizeResult
 
@@ -26,7 +30,7 @@ def plot(result: Any, *, field: Any = "checker", ax: Any = None) -> Any:
 
     result  of any map: its circle domain, or its UVs. Of `flatten`: the sheets side by side. Of `lift`: the surface
             with the pattern; of a solid, which has no UVs, the outside, the inside and the walls. Of `family`: the mean
-            surface, and the map of the reference
+            surface, and the map of the reference. Of all others their circles, points, triangles, or bars of numbers
     field   'checker': squares of the map, 24 across, brought to the surface; a conformal map keeps their angles;
             'log_scale'; 'angle_error', degrees; or values (V,) at the vertices, (F,) at the triangles, in any unit
     ax      your own axes: plane ones for the map, 3D ones for the surface, or a pair of both. None: a new figure
@@ -40,12 +44,17 @@ def plot(result: Any, *, field: Any = "checker", ax: Any = None) -> Any:
     named = isinstance(field, str)
     if named:
         choice_of(field, "field", _FIELDS)
-    if not hasattr(result, "_layout"):
-        raise TypeError(f"plot takes a result of a map, such as uniformize, parts or lift, not {type(result).__name__}")
+    if not isinstance(result, Result):
+        raise TypeError(f"plot takes a result, such as of uniformize, parts or lift, not {type(result).__name__}")
     import matplotlib.pyplot as plt
 
-    vertices, drawn = result.vertices, result._drawn()
-    triangles, (images, side) = result.triangles[drawn], result._layout()
+    if not hasattr(result, "_layout"):
+        if not named or field != "checker":
+            raise InputError(f"a {type(result).__name__} is no map: it takes no field")
+        return _drawn_figure(result, ax, plt)
+    shown: Any = result
+    vertices, drawn = shown.vertices, shown._drawn()
+    triangles, (images, side) = shown.triangles[drawn], shown._layout()
     corners, images = vertices[triangles], images[drawn]
     if not len(triangles):
         raise InputError("the result has no faces to draw")
@@ -77,6 +86,44 @@ def plot(result: Any, *, field: Any = "checker", ax: Any = None) -> Any:
     return figure
 
 
+def _drawn_figure(result: Result, ax: Any, plt: Any) -> Any:
+    """The figure of a result that is no map."""
+    from matplotlib.collections import PolyCollection
+
+    drawing = result._drawing()
+    if not drawing:
+        raise InputError(f"a {type(result).__name__} has nothing to draw")
+    corners = np.asarray(drawing.get("corners", np.zeros((0, 3, 2))), np.float64)
+    if corners.shape[2] == 3:
+        if ax is None:
+            ax = plt.figure(figsize=(6, 6), layout="constrained").add_subplot(projection="3d")
+        figure, space, _ = _axes(ax)
+        if space is None:
+            raise TypeError("ax must be 3D axes for a surface")
+        corners = corners[np.isfinite(corners).all(axis=(1, 2))]
+        view = _in_front_of(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+        _draw_surface(space, corners, np.tile(_PATCHES[0], (len(corners), 1)), view, edges="#1d4e89")
+        return figure
+    if ax is None:
+        ax = plt.figure(figsize=(6, 6), layout="constrained").add_subplot()
+    figure, _, plane = _axes(ax)
+    if plane is None:
+        raise TypeError("ax must be plane axes")
+    if "corners" in drawing:
+        plane.add_collection(PolyCollection(corners, facecolors=[_PATCHES[0]], edgecolors="#1d4e89", linewidths=0.2))
+    for center, radius in zip(*drawing.get("circles", ((), ())), strict=True):
+        plane.add_patch(plt.Circle(center, radius, fill=False, color="#1d4e89", linewidth=1.2))
+    if "points" in drawing:
+        plane.scatter(*np.asarray(drawing["points"]).T, s=2, color="#1d4e89")
+    bars = histogram(drawing["values"]) if "values" in drawing else np.asarray(drawing.get("bars", np.zeros((0, 2))))
+    plane.bar(np.arange(len(bars)), bars[:, 1] - bars[:, 0], bottom=bars[:, 0], color="#1d4e89")
+    plane.autoscale_view()
+    if not len(bars):
+        plane.set(aspect="equal")
+        plane.set_axis_off()
+    return figure
+
+
 def _axes(ax: Any) -> tuple[Any, Any, Any]:
     """The figure, and the 3D axes and the plane ones, or None."""
     given = list(ax) if isinstance(ax, (tuple, list, np.ndarray)) else [ax]
@@ -89,10 +136,11 @@ def _axes(ax: Any) -> tuple[Any, Any, Any]:
     return given[0].figure, next(iter(space), None), next(iter(plane), None)
 
 
-def _draw_surface(space: Any, corners: np.ndarray, colors: np.ndarray, view: tuple[float, float]) -> None:
+def _draw_surface(space: Any, corners: Floats, colors: Floats, view: tuple[float, float], edges: Any = None) -> None:
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-    space.add_collection3d(Poly3DCollection(corners, facecolors=colors, edgecolors=colors, linewidths=0.3))
+    edges = colors if edges is None else edges
+    space.add_collection3d(Poly3DCollection(corners, facecolors=colors, edgecolors=edges, linewidths=0.3))
     space.view_init(*view)
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     for axis, a, b in zip("xyz", low, high, strict=True):
@@ -101,7 +149,7 @@ def _draw_surface(space: Any, corners: np.ndarray, colors: np.ndarray, view: tup
     space.set_axis_off()
 
 
-def _draw_map(plane: Any, images: np.ndarray, colors: np.ndarray, result: MapReport | LiftResult, plt: Any) -> None:
+def _draw_map(plane: Any, images: Floats, colors: Floats, result: MapReport | LiftResult, plt: Any) -> None:
     from matplotlib.collections import PolyCollection
 
     plane.add_collection(PolyCollection(images, facecolors=colors, edgecolors=colors, linewidths=0.3))
@@ -116,7 +164,7 @@ def _draw_map(plane: Any, images: np.ndarray, colors: np.ndarray, result: MapRep
     plane.set_axis_off()
 
 
-def _in_front_of(vertices: np.ndarray, triangles: np.ndarray) -> tuple[float, float]:
+def _in_front_of(vertices: Floats, triangles: Whole) -> tuple[float, float]:
     """Elevation and azimuth, degrees, of a view along the mean normal, with y up if the view is along z."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
@@ -128,7 +176,7 @@ def _in_front_of(vertices: np.ndarray, triangles: np.ndarray) -> tuple[float, fl
     return float(np.degrees(np.arctan2(z, level))), float(np.degrees(np.arctan2(y, x))) if level > 0.5 else -90.0
 
 
-def _in_pieces(corners: np.ndarray, count: int) -> np.ndarray:
+def _in_pieces(corners: Floats, count: int) -> Floats:
     """Triangles (F, 3, d) with each edge cut into so many: (F * count^2, 3, d)."""
     steps = [(i, j) for i in range(count) for j in range(count - i)]
     upright = [((i, j), (i + 1, j), (i, j + 1)) for i, j in steps]
@@ -138,7 +186,7 @@ def _in_pieces(corners: np.ndarray, count: int) -> np.ndarray:
     return np.einsum("pkc,fcd->fpkd", weights, corners).reshape(-1, 3, corners.shape[2])
 
 
-def _values(field: str, vertices: np.ndarray, triangles: np.ndarray, images: np.ndarray) -> np.ndarray:
+def _values(field: str, vertices: Floats, triangles: Ints, images: Floats) -> Floats:
     """(F,) the field's value of each triangle, with images (F, 3, 2)."""
     if field == "log_scale":
         return log_scale_of_corners(vertices, triangles, images)[triangles].mean(axis=1)
@@ -146,9 +194,9 @@ def _values(field: str, vertices: np.ndarray, triangles: np.ndarray, images: np.
     return face_angle_error_deg(vertices[triangles].reshape(-1, 3), own, images.reshape(-1, 2))
 
 
-def _given_values(field: Any, vertices: np.ndarray, triangles: np.ndarray, drawn: np.ndarray) -> np.ndarray:
+def _given_values(field: Any, vertices: Floats, triangles: Ints, drawn: Bools) -> Floats:
     """(F,) values of the drawn triangles, from values at the vertices or at all triangles. Raises InputError."""
-    values = np.asarray(field)
+    values = as_values(field, "the field")
     if values.dtype.kind not in "fiub" or values.shape not in ((len(vertices),), (len(drawn),)):
         raise InputError(
             f"the field must be ({len(vertices)},) numbers at the vertices or ({len(drawn)},) at the triangles, "
@@ -157,7 +205,7 @@ def _given_values(field: Any, vertices: np.ndarray, triangles: np.ndarray, drawn
     return values[triangles].mean(axis=1) if len(values) == len(vertices) else values[drawn].astype(np.float64)
 
 
-def _colors(values: np.ndarray | None, squares: np.ndarray, plt: Any) -> tuple[np.ndarray, Any]:
+def _colors(values: Floats | None, squares: Floats, plt: Any) -> tuple[Floats, Any]:
     """Colours (n, 4) of the drawn triangles, by their values or by the squares that hold their images (n, 3, 2), and
     what a colour bar explains, or None."""
     if values is None:

@@ -1,13 +1,14 @@
 """The progress and the cancel of a call that consists of several native calls."""
 
 from collections.abc import Callable
-from typing import Any, TypedDict
+from typing import Any, Literal, TypeAlias, TypedDict
 
 from ._native import _koebe
 from ._options import callback, token
 from .errors import Cancelled
 
 Progress = Callable[[float, str], Any]
+Shown: TypeAlias = Progress | Literal[False] | None  # None: in a terminal or a notebook; False: never
 
 
 class SurfaceOptions(TypedDict, total=False):
@@ -19,7 +20,7 @@ class SurfaceOptions(TypedDict, total=False):
 class Watched(TypedDict, total=False):
     """Options of each call that takes a while."""
 
-    progress: Progress | None
+    progress: Shown
     cancel: "_koebe.CancelToken | None"
 
 

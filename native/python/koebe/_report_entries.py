@@ -81,6 +81,7 @@ class Loop(np.ndarray):
         """The loop of a report: its vertices, and its other entries."""
         made = np.asarray(entry["vertices"], dtype=np.int32).view(cls)
         made.figures = dict(entry)
+        made.flags.writeable = False
         return made
 
     def __array_finalize__(self, other: Any) -> None:
@@ -93,6 +94,9 @@ class Loop(np.ndarray):
 
     def __contains__(self, key: Any) -> bool:
         return key in self.figures if isinstance(key, str) else key in np.asarray(self)
+
+    def __deepcopy__(self, _: Any) -> "Loop":
+        return self
 
     def __array_wrap__(self, array: Any, *_: Any) -> Any:
         return np.asarray(array)[()]

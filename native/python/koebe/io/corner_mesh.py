@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._fields import face_angle_error_deg, log_scale, log_scale_of_corners
+from .._types import Bools, Floats, Whole
 from ..errors import InputError
 from .meshes import (
     ANGLE_ERROR,
@@ -21,9 +22,7 @@ if TYPE_CHECKING:
     from ..maps.source import Source
 
 
-def mesh_with_corner_uv(
-    source: "Source", uv: np.ndarray, mapped: np.ndarray, more: Mapping[str, np.ndarray] | None = None
-) -> Any:
+def mesh_with_corner_uv(source: "Source", uv: Floats, mapped: Bools, more: Mapping[str, Floats] | None = None) -> Any:
     """A copy of the source's mesh with its faces in order, and fields as in UniformizeResult.to_mesh.
 
     A vertex with several UVs has a copy for each of them: the first in its old place, the others after all old
@@ -62,7 +61,7 @@ def mesh_with_corner_uv(
     return mesh_with_fields(source.mesh, source.polygons, fields)
 
 
-def doubled(triangles: np.ndarray, uv: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def doubled(triangles: Whole, uv: Floats, count: int) -> tuple[Whole, Whole, Floats]:
     """Old numbers (n,) of the new vertices, triangles (F, 3) with new numbers, and UVs (n, 2)."""
     corners = uv.reshape(-1, 2) + 0.0  # minus zero is zero
     table = np.column_stack([triangles.reshape(-1, 1).astype(np.uint64), corners.view(np.uint64)])
@@ -76,7 +75,7 @@ def doubled(triangles: np.ndarray, uv: np.ndarray, count: int) -> tuple[np.ndarr
     return old, place[number.ravel()].reshape(-1, 3), uv_of
 
 
-def _polygon_corners(source: "Source", triangles: np.ndarray) -> np.ndarray:
+def _polygon_corners(source: "Source", triangles: Whole) -> Whole:
     """The new vertex (C,) at each corner of the polygons."""
     polygons, polygon = source.polygons, source.polygon
     assert polygons is not None and polygon is not None

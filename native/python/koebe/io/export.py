@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .._fields import areas
+from .._types import Floats, Ints
 from ..errors import FileError, InputError
 from .files import whole_file
 from .formats import (
@@ -74,7 +75,7 @@ def has_one_place_a_vertex(path: str | os.PathLike[str]) -> bool:
     return surface or is_freesurfer_name(path) or is_patch_name(path)
 
 
-def flat_surface(result: Any) -> tuple[np.ndarray, np.ndarray]:
+def flat_surface(result: Any) -> tuple[Floats, Ints]:
     """The map as a surface, (V, 3) and its triangles: in the plane z = 0 with the area of the surface, or the sphere of
     radius 100; or the surface itself, if the result is no map. Vertices without a face are at 0. Raises InputError for
     a map with cuts."""
@@ -91,7 +92,7 @@ def flat_surface(result: Any) -> tuple[np.ndarray, np.ndarray]:
     return np.nan_to_num(np.sqrt(on_surface / in_disk) * plane), triangles
 
 
-def obj_of(vertices: np.ndarray, triangles: np.ndarray, uv: np.ndarray | None = None) -> str:
+def obj_of(vertices: Floats, triangles: Ints, uv: Floats | None = None) -> str:
     """The text of an OBJ file: the surface, and UVs (F, 3, 2) of corners, each once."""
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()]
     if uv is None:

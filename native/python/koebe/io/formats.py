@@ -17,7 +17,10 @@ from typing import Any
 
 import numpy as np
 
+from .._comparable import Result
 from .._native import _koebe
+from .._options import path_of
+from .._types import Bools, Floats, Ints, Whole
 from ..errors import FileError, InputError, KoebeError
 
 NATIVE: tuple[str, ...] = tuple(_koebe.mesh_formats)
@@ -70,7 +73,7 @@ def is_patch_name(path: str | os.PathLike[str]) -> bool:
 
 def head_of(path: str | os.PathLike[str]) -> bytes:
     """The first four bytes of a file."""
-    with open(path, "rb") as file:
+    with open(path_of(path), "rb") as file:
         return file.read(4)
 
 
@@ -183,7 +186,7 @@ def structure_of(path: str | os.PathLike[str]) -> str:
     return _HEMISPHERE[found[1].lower()] if found else ""
 
 
-def gifti_of(points: np.ndarray, triangles: np.ndarray, meta: dict[str, str], closed: bool = False) -> Any:
+def gifti_of(points: Floats, triangles: Ints, meta: dict[str, str], closed: bool = False) -> Any:
     """A GiftiImage with two arrays, as Workbench wants surfaces."""
     gifti = importlib.import_module("nibabel.gifti")
     said = {name: value for name, value in meta.items() if value}
@@ -193,8 +196,8 @@ def gifti_of(points: np.ndarray, triangles: np.ndarray, meta: dict[str, str], cl
     return gifti.GiftiImage(darrays=[places, faces])
 
 
-@dataclass(frozen=True)
-class Patch:
+@dataclass(frozen=True, eq=False, repr=False)
+class Patch(Result):
     """A patch of FreeSurfer: some vertices of a surface, and their places.
 
     vertices   (n,) int32, ascending
@@ -202,9 +205,12 @@ class Patch:
     border     (n,) bool: at the patch's border
     """
 
-    vertices: np.ndarray
-    points: np.ndarray
-    border: np.ndarray
+    vertices: Ints
+    points: Floats
+    border: Bools
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"points": self.points[:, :2]}
 
     def __repr__(self) -> str:
         return f"<koebe.Patch {len(self.vertices)} vertices, {int(self.border.sum())} at the border>"
@@ -233,7 +239,7 @@ def read_patch(path: str | os.PathLike[str]) -> Patch:
     >>> koebe.read_patch(path)
     <koebe.Patch 2309 vertices, 243 at the border>
     """
-    text = Path(path).read_bytes()
+    text = Path(path_of(path)).read_bytes()
     if text[:4] != PATCH or len(text) < 8:
         raise FileError(f"{os.fspath(path)} is no patch of FreeSurfer")
     count = int.from_bytes(text[4:8], "big", signed=True)
@@ -249,7 +255,7 @@ def read_patch(path: str | os.PathLike[str]) -> Patch:
     return Patch(vertices[order].astype(np.int32), points[order], (number < 0)[order])
 
 
-def patch_bytes(vertices: np.ndarray, points: np.ndarray, border: np.ndarray) -> bytes:
+def patch_bytes(vertices: Whole, points: Floats, border: Bools) -> bytes:
     """The file of a patch; vertices at the border have negative numbers, and all count from 1."""
     rows = np.zeros(len(vertices), _PATCH_ROW)
     rows["vertex"] = np.where(border, -1, 1) * (np.asarray(vertices, np.int64) + 1)

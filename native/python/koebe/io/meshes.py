@@ -8,12 +8,13 @@ Each holds vertices and cells, some of which are faces. Other cells (points, lin
 import copy
 import importlib
 import importlib.util
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from .._types import Floats, Whole
 from ..errors import InputError
 
 UV, LOG_SCALE, ANGLE_ERROR, VERTEX = "koebe_uv", "koebe_log_scale", "koebe_angle_error", "koebe_vertex"
@@ -36,10 +37,10 @@ class Polygons:
     cell_count of all cells
     """
 
-    vertices: np.ndarray
-    corners: np.ndarray
-    begin: np.ndarray
-    cell: np.ndarray
+    vertices: Floats
+    corners: Whole
+    begin: Whole
+    cell: Whole
     cell_count: int
 
 
@@ -95,9 +96,9 @@ class Fields:
     faces    the fields of the faces: name -> (P,) or (P, k)
     """
 
-    uv: np.ndarray
-    points: dict[str, np.ndarray]
-    faces: dict[str, np.ndarray]
+    uv: Floats
+    points: dict[str, Floats]
+    faces: dict[str, Floats]
 
 
 def is_gifti(mesh: Any) -> bool:
@@ -140,7 +141,7 @@ def mesh_with_fields(mesh: Any, polygons: Polygons, fields: Fields) -> Any:
     return result
 
 
-def mesh_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: np.ndarray) -> Any:
+def mesh_with_vertices(mesh: Any, polygons: Polygons, old: Whole, corners: Whole) -> Any:
     """A copy of the mesh, of any kind that does not keep its vertices, with other vertices under its faces, and the
     field koebe_vertex.
 
@@ -183,7 +184,7 @@ def mesh_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: 
     return result
 
 
-def _copy_visual(visual: Any, mesh: Any, old: np.ndarray) -> None:
+def _copy_visual(visual: Any, mesh: Any, old: Whole) -> None:
     """Give a Trimesh the colours or the material of another one, whose vertices `old` it has."""
     kind = getattr(visual, "kind", None)
     if kind == "vertex":
@@ -197,7 +198,7 @@ def _copy_visual(visual: Any, mesh: Any, old: np.ndarray) -> None:
         )
 
 
-def _put_uv(mesh: Any, uv: np.ndarray) -> None:
+def _put_uv(mesh: Any, uv: Floats) -> None:
     """Give a Trimesh UVs. Its material stays, and its colours are where trimesh keeps them beside UVs."""
     old = mesh.visual
     kind = getattr(old, "kind", None)
@@ -211,7 +212,7 @@ def _put_uv(mesh: Any, uv: np.ndarray) -> None:
     mesh.visual = new
 
 
-def _pyvista_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corners: np.ndarray) -> Any:
+def _pyvista_with_vertices(mesh: Any, polygons: Polygons, old: Whole, corners: Whole) -> Any:
     """A PolyData or UnstructuredGrid with these vertices."""
     sizes = np.diff(polygons.begin)
     heads = polygons.begin[:-1]
@@ -237,7 +238,7 @@ def _pyvista_with_vertices(mesh: Any, polygons: Polygons, old: np.ndarray, corne
     return result
 
 
-def _padded(sizes: np.ndarray, corners: np.ndarray) -> np.ndarray:
+def _padded(sizes: Whole, corners: Whole) -> Whole:
     """The cells as in VTK's files: each one's size, then its corners."""
     return np.insert(corners, np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64), sizes)
 
@@ -359,7 +360,7 @@ def _from_gifti(image: Any) -> Polygons:
     return _polygons(points[0], [triangles[0]], [np.arange(len(triangles[0]))], len(triangles[0]))
 
 
-def _polygons(vertices: Any, blocks: list[Any], cells: list[np.ndarray], cell_count: int) -> Polygons:
+def _polygons(vertices: Any, blocks: list[Any], cells: Sequence[Whole], cell_count: int) -> Polygons:
     """Blocks of faces: tables (k, n), or lists of faces of any sizes."""
     sizes, corners = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
     for block in blocks:
@@ -379,7 +380,7 @@ def _is_ragged(block: Any) -> bool:
     return len(block) > 0 and (not isinstance(block, np.ndarray) or block.dtype == object)
 
 
-def _packed(vertices: Any, corners: np.ndarray, sizes: np.ndarray, cell: np.ndarray, cell_count: int) -> Polygons:
+def _packed(vertices: Any, corners: Whole, sizes: Whole, cell: Whole, cell_count: int) -> Polygons:
     points = np.asarray(vertices)
     if points.ndim == 2 and points.shape[1] == 2:  # meshio keeps planar meshes like this
         points = np.column_stack([points, np.zeros(len(points), points.dtype)])
@@ -387,7 +388,7 @@ def _packed(vertices: Any, corners: np.ndarray, sizes: np.ndarray, cell: np.ndar
     return Polygons(points, corners, begin, cell, cell_count)
 
 
-def _unpadded(padded: Any) -> tuple[np.ndarray, np.ndarray]:
+def _unpadded(padded: Any) -> tuple[Whole, Whole]:
     """Sizes (P,) and corners of cells filed one after another, each as its size and its corners."""
     flat = np.array(padded, dtype=np.int64)
     if len(flat) and len(flat) % (flat[0] + 1) == 0:  # all of one size: no loop

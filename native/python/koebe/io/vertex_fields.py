@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from .._options import choice_of, whole
+from .._comparable import Result
+from .._options import choice_of, path_of, whole
+from .._types import Bools, Floats, Values
 from ..errors import FileError, InputError
 from .export import package_of, saved_bytes
 from .files import whole_file
@@ -21,8 +23,8 @@ _MOST_LABELS = 1 << 14  # of an annotation, whose table has a row for each
 Color = tuple[float, float, float, float]
 
 
-@dataclass(frozen=True)
-class VertexField:
+@dataclass(frozen=True, eq=False, repr=False)
+class VertexField(Result):
     """Values at the vertices of a surface.
 
     values   (V,), or (V, k) for k maps: float64, NaN where a file has none; or labels, int32, -1 where it has none
@@ -30,7 +32,7 @@ class VertexField:
     colors   label -> red, green, blue and alpha, from 0 to 1
     """
 
-    values: np.ndarray
+    values: Values
     names: dict[int, str] = field(default_factory=dict)
     colors: dict[int, Color] = field(default_factory=dict)
 
@@ -38,7 +40,10 @@ class VertexField:
         of = f"{len(self.names)} labels" if self.names else "values"
         return f"<koebe.VertexField {self.values.shape} {of}>"
 
-    def __array__(self, dtype: Any = None, copy: Any = None) -> np.ndarray:
+    def _drawing(self) -> dict[str, Any]:
+        return {"values": self.values}
+
+    def __array__(self, dtype: Any = None, copy: Any = None) -> Values:
         return np.array(self.values, dtype=dtype)
 
 
@@ -58,7 +63,7 @@ def read_field(path: str | os.PathLike[str], *, hemisphere: str | None = None) -
     >>> labels.values, labels.names
     (array([ 0,  1,  1, -1], dtype=int32), {0: 'V1', 1: 'V2'})
     """
-    name = Path(path).name.lower()
+    name = Path(path_of(path)).name.lower()
     if hemisphere is not None:
         choice_of(hemisphere, "hemisphere", _CIFTI)
     if name.endswith(".nii"):
@@ -132,7 +137,7 @@ def _from_cifti(image: Any, path: Any, hemisphere: str | None) -> VertexField:
     return VertexField(values.astype(np.int32), names, colors)
 
 
-def read_region(path: str | os.PathLike[str], vertex_count: int) -> np.ndarray:
+def read_region(path: str | os.PathLike[str], vertex_count: int) -> Bools:
     """(V,) bool: the vertices that a file names. `mask=~region` leaves out all others.
 
     path           a label (lh.cortex.label) or a patch of FreeSurfer: the vertices that it lists; or a file as for
@@ -194,7 +199,12 @@ def write_field(
     array = np.asarray(values)
     if array.ndim != 1 or array.dtype.kind not in "fiub" or not len(array):
         raise InputError(f"the values must be (V,) numbers, not {array.shape} {array.dtype}")
-    low = Path(path).name.lower()
+    for name, given in (("names", names), ("colors", colors)):
+        if given is not None and not isinstance(given, Mapping):
+            raise TypeError(f"{name} must be a dict, not {given!r}")
+    if array.dtype.kind == "f" and (np.abs(array[np.isfinite(array)]) > np.finfo(np.float32).max).any():
+        raise InputError("the values are beyond floats of 32 bits, which the files have")
+    low = Path(path_of(path)).name.lower()
     as_labels = low.endswith((".annot", ".label.gii", ".dlabel.nii"))
     if as_labels and (array.dtype.kind == "f" or array.min() < NO_LABEL):
         raise InputError(f"{low} has labels: whole numbers from 0, and -1 for none, not {array.dtype}")
@@ -231,7 +241,7 @@ def _color(key: int, colors: Mapping[int, Color]) -> Color:
     return red, green, blue, 1.0
 
 
-def _save_annot(place: str, labels: np.ndarray, names: dict[int, str], colors: dict[int, Color]) -> None:
+def _save_annot(place: str, labels: Floats, names: dict[int, str], colors: dict[int, Color]) -> None:
     """Labels are distinguished by their colours in this format, so each has a colour of its own, none of them black."""
     keys = range(max(names, default=0) + 1)  # the format numbers labels without gaps
     taken: set[tuple[int, ...]] = {(0, 0, 0)}
@@ -246,7 +256,7 @@ def _save_annot(place: str, labels: np.ndarray, names: dict[int, str], colors: d
     package_of("nibabel.freesurfer").write_annot(place, labels.astype(np.int64), table, words, fill_ctab=True)
 
 
-def _gifti(values: np.ndarray, names: Any, colors: Any, structure: str, labels: bool) -> Any:
+def _gifti(values: Floats, names: Any, colors: Any, structure: str, labels: bool) -> Any:
     gifti = package_of("nibabel.gifti")
     if not labels:
         data, intent, kind = np.float32(values), "NIFTI_INTENT_SHAPE", "NIFTI_TYPE_FLOAT32"
@@ -273,7 +283,7 @@ def _side(path: Any, hemisphere: str | None) -> str:
     return named
 
 
-def _cifti(values: np.ndarray, names: Any, colors: Any, side: str, labels: bool) -> Any:
+def _cifti(values: Floats, names: Any, colors: Any, side: str, labels: bool) -> Any:
     cifti = package_of("nibabel.cifti2")
     inside = values != NO_LABEL if labels else ~np.isnan(values.astype(np.float64))
     if not inside.any():

@@ -6,16 +6,17 @@ from typing import Any
 import numpy as np
 
 from .._arrays import as_indices
-from .._comparable import Comparable
+from .._comparable import Result
 from .._native import _koebe
-from .._options import takes
+from .._options import listed, takes
 from .._report_entries import Warning
 from .._signatures import CertifiedOptions, Unpack
+from .._types import Floats
 from ..errors import InputError
 from ..maps.domain_map import prepared
 
 
-class CertifiedModuli(Comparable):
+class CertifiedModuli(Result):
     """Enclosures of numbers of a polyhedral surface: the exact number is not below the first, nor above the second.
 
     capacities      (N, 2) float64: the least Dirichlet energy of a function on the surface that is 0 on some loops and
@@ -34,26 +35,37 @@ class CertifiedModuli(Comparable):
     face_count, levels    of the finest triangulation; number of triangulations
     """
 
-    def __init__(self, report: dict[str, Any]) -> None:
-        self._report = report
-        entries = report["capacities"]
-        self.capacities = np.array([(one["lower"], one["upper"]) for one in entries], float).reshape(-1, 2)
-        self.capacities.flags.writeable = False
-        self.condensers: list[tuple[list[int], list[int]]] = [(one["low"], one["high"]) for one in entries]
-        self.modulus = self._pair("modulus")
-        self.module_loops: list[int] = report.get("loops", [])
-        names = _koebe.module_names(len(self.module_loops)) if self.module_loops else []
-        self.module = {name: (report[name]["lower"], report[name]["upper"]) for name in names}
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
-        self.rims: str = report["rims"]
-        self.width: float = report["width"]
-        self.converged: bool = report["converged"]
-        self.face_count: int = report["faces"]
-        self.levels: int = report["levels"]
+    _report: dict[str, Any]
+    capacities: Floats
+    condensers: list[tuple[list[int], list[int]]]
+    modulus: tuple[float, float] | None
+    module: dict[str, tuple[float, float]]
+    module_loops: list[int]
+    warnings: list[Warning]
+    rims: str
+    width: float
+    converged: bool
+    face_count: int
+    levels: int
 
-    def _pair(self, name: str) -> tuple[float, float] | None:
-        entry = self._report.get(name)
-        return None if entry is None else (entry["lower"], entry["upper"])
+    def __init__(self, report: dict[str, Any]) -> None:
+        entries, loops = report["capacities"], report.get("loops", [])
+        names = _koebe.module_names(len(loops)) if loops else []
+        bounds = {name: (one["lower"], one["upper"]) for name in ("modulus", *names) if (one := report.get(name))}
+        self._set(
+            _report=report,
+            capacities=np.array([(one["lower"], one["upper"]) for one in entries], float).reshape(-1, 2),
+            condensers=[(one["low"], one["high"]) for one in entries],
+            modulus=bounds.pop("modulus", None),
+            module=bounds,
+            module_loops=loops,
+            warnings=[Warning(warning) for warning in report["warnings"]],
+            face_count=report["faces"],
+            **{name: report[name] for name in ("rims", "width", "converged", "levels")},
+        )
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"bars": self.capacities}
 
     def __repr__(self) -> str:
         count = len(self.capacities)
@@ -96,7 +108,7 @@ def certified_moduli(vertices: Any, triangles: Any = None, **given: "Unpack[Cert
     >>> low < 0.2987 < high and high - low < 0.001
     True
     """
-    between = [_condenser(one) for one in given["between"]] if given["between"] is not None else []
+    between = [_condenser(one) for one in listed(given["between"], "between")] if given["between"] is not None else []
     if given["between"] is not None and not between:
         raise InputError("between must have at least one pair of loops at 0 and loops at 1")
     options, said, source, run = prepared("certified", _koebe.CapacityOptions(), given, (vertices, triangles))

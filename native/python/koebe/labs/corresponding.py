@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from .._comparable import Comparable
+from .._comparable import Result
+from .._options import listed
 from .._progress import Run
+from .._types import Bools, Floats, Ints, Values
 from ..errors import InputError
 from .sphere_alignment import nearest_rotation
 from .sphere_transfer import SphereCorrespondence, vertex_areas
@@ -18,17 +20,17 @@ AnyCorrespondence = Correspondence | SphereCorrespondence
 
 
 @dataclass(frozen=True, eq=False)
-class LaidShapes(Comparable):
+class LaidShapes(Result):
     """Shapes with a point of each for every vertex of a reference, as PointFamily says."""
 
-    points: np.ndarray
-    triangles: np.ndarray
-    weights: np.ndarray
+    points: Floats
+    triangles: Ints
+    weights: Floats
     correspondences: list[AnyCorrespondence | None]
     maps: list[Any]
 
 
-class PointFamily(Comparable):
+class PointFamily(Result):
     """Shapes with a point of each for every vertex of a reference, moved and turned over their mean.
 
     labels    of the shapes
@@ -38,30 +40,30 @@ class PointFamily(Comparable):
     laid: LaidShapes
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> Floats:
         """(N, V, 3) the corresponding points, moved and turned to lie as near to the mean as they can, in the shapes'
         unit. Sizes are kept. NaN at vertices of the reference without a face."""
         return self.laid.points
 
     @property
-    def mean(self) -> np.ndarray:
+    def mean(self) -> Floats:
         """(V, 3) the mean of the points: with the reference's triangles, the mean surface."""
         return self.points.mean(axis=0)
 
     @property
-    def spread(self) -> np.ndarray:
+    def spread(self) -> Floats:
         """(V,) root mean square distance of the points from their mean, in the shapes' unit."""
         away = np.linalg.norm(self.points - self.mean, axis=2)
         size = _size(away)
         return size * np.sqrt(((away / size) ** 2).mean(axis=0))
 
     @property
-    def triangles(self) -> np.ndarray:
+    def triangles(self) -> Ints:
         """(F, 3) int32: the reference's triangles."""
         return self.laid.triangles
 
     @property
-    def weights(self) -> np.ndarray:
+    def weights(self) -> Floats:
         """(V,) area around each of the reference's vertices, sum 1; 0 without a face."""
         return self.laid.weights
 
@@ -76,7 +78,7 @@ class PointFamily(Comparable):
         return self.laid.maps
 
     @property
-    def vertices(self) -> np.ndarray:
+    def vertices(self) -> Floats:
         """(V, 3) the mean: the family is a surface, and koebe.plot draws it."""
         return self.mean
 
@@ -85,16 +87,20 @@ class PointFamily(Comparable):
         """The reference's map."""
         return next(one for one, found in zip(self.maps, self.correspondences, strict=True) if found is None)
 
-    def _drawn(self) -> np.ndarray:
-        drawn: np.ndarray = self._base._drawn()
+    def _drawn(self) -> Bools:
+        drawn: Bools = self._base._drawn()
         return drawn
 
-    def _layout(self) -> tuple[np.ndarray, float]:
-        layout: tuple[np.ndarray, float] = self._base._layout()
+    def _picture(self) -> str:
+        picture: str = self._base._picture()
+        return picture
+
+    def _layout(self) -> tuple[Floats, float]:
+        layout: tuple[Floats, float] = self._base._layout()
         return layout
 
     @property
-    def point_distances(self) -> np.ndarray:
+    def point_distances(self) -> Floats:
         """(N, N) root mean square distances of corresponding points by area, each two turned over each other: in the
         shapes' unit."""
         used, found = self.weights > 0.0, np.zeros((len(self.points),) * 2)
@@ -106,6 +112,15 @@ class PointFamily(Comparable):
                 found[i, j] = found[j, i] = np.sqrt(weights @ (away**2).sum(axis=1))
         return size * found
 
+    def to_dataframe(self) -> Any:
+        """A row and a column per shape, named by its label: the point_distances, as a pandas DataFrame."""
+        return library("pandas").DataFrame(self.point_distances, index=self.labels, columns=self.labels)
+
+    def to_xarray(self) -> Any:
+        """The points as an xarray DataArray with the dimensions shape (by label), vertex and axis (x, y, z)."""
+        coords = {"shape": self.labels, "axis": ["x", "y", "z"], "weight": ("vertex", self.weights)}
+        return library("xarray").DataArray(self.points, coords, ("shape", "vertex", "axis"), "points")
+
     def adjacency(self) -> Any:
         """(V, V) scipy.sparse matrix: 1 for the ends of each edge of the reference. Tests of clusters take it, such as
         MNE's. Needs SciPy."""
@@ -114,8 +129,8 @@ class PointFamily(Comparable):
         count = len(self.weights)
         return import_module("scipy.sparse").csr_matrix((np.ones(len(both)), both.T), (count, count))
 
-    def matrix(self, fields: Sequence[Any], *, labels: bool | None = None) -> np.ndarray:
-        """Fields of all shapes at corresponding points: (N, V) subjects x points, or (N, V, k).
+    def matrix(self, fields: Sequence[Any], *, labels: bool | None = None) -> Values:
+        """Gather fields of all shapes at corresponding points: (N, V) subjects x points, or (N, V, k).
 
         fields    of each shape its values (V_i,) or (V_i, k) at its vertices, in any unit
         labels    as in Correspondence.carry. None: as labels, unless a field has floats
@@ -125,7 +140,7 @@ class PointFamily(Comparable):
         if len(given) != len(self.labels):
             raise InputError(f"there are fields of {len(given)} shapes, not of {len(self.labels)}")
         first = next(number for number, found in enumerate(self.correspondences) if found is None)
-        rows: list[np.ndarray] = []
+        rows: list[Floats] = []
         for number, (field, found) in enumerate(zip(given, self.correspondences, strict=True)):
             if found is None and len(field) != len(self.weights):
                 raise InputError(f"the field of shape {number} has {len(field)} values, not {len(self.weights)}")
@@ -163,9 +178,10 @@ def laid_over_mean(
 
 def checked_labels(labels: Sequence[Any] | None, count: int) -> list[str]:
     """The labels of so many shapes: as given, or their numbers. Raises InputError."""
-    if labels is not None and len(labels) != count:
-        raise InputError(f"there are {len(labels)} labels for {count} shapes")
-    return [str(label) for label in (labels if labels is not None else range(count))]
+    given = list(range(count)) if labels is None else listed(labels, "labels")
+    if len(given) != count:
+        raise InputError(f"there are {len(given)} labels for {count} shapes")
+    return [str(label) for label in given]
 
 
 def landmark_pairs_of(landmarks: Sequence[Sequence[Any]] | None, number: int, reference: int) -> list[Any] | None:
@@ -177,12 +193,12 @@ def landmark_pairs_of(landmarks: Sequence[Sequence[Any]] | None, number: int, re
     return list(zip(landmarks[number], landmarks[reference], strict=True))
 
 
-def _size(values: np.ndarray) -> float:
+def _size(values: Floats) -> float:
     """The largest value's size, by which squares are kept in range; 1 for none."""
     return float(np.nanmax(np.abs(values), initial=0.0)) or 1.0
 
 
-def _over_their_mean(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def _over_their_mean(points: Floats, weights: Floats) -> Floats:
     """Shapes (N, n, 3) moved and turned over their mean, and that in turn, until it stays [Gower 1975]."""
     mean = points[0] - weights @ points[0]
     for _ in range(100):
@@ -193,8 +209,17 @@ def _over_their_mean(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return points
 
 
-def _laid_over(shape: np.ndarray, other: np.ndarray, weights: np.ndarray) -> np.ndarray:
+def _laid_over(shape: Floats, other: Floats, weights: Floats) -> Floats:
     """The shape (n, 3), moved and turned to lie nearest to the other."""
     middle, there = weights @ shape, weights @ other
     turn = nearest_rotation((other - there).T @ ((shape - middle) * weights[:, None]))
     return (shape - middle) @ turn.T + there
+
+
+def library(name: str, package: str = "", extra: str = "statistics") -> Any:
+    """A module of an extra. Raises ImportError with what to install."""
+    try:
+        return import_module(name)
+    except ImportError:
+        needed = package or name.partition(".")[0]
+        raise ImportError(f'this needs {needed}: pip install "koebe[{extra}]"') from None

@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from .._comparable import Comparable
+from .._comparable import Result
 from .._fields import areas
 from .._native import _koebe
 from .._option_table import rows
 from .._options import callback, number, token
-from .._progress import Progress
+from .._progress import Shown
+from .._types import Bools, Floats, Whole
+from .._watched import watched
 from ..errors import FileError, InputError
 from ..io.export import FIELDS, export
 from ..io.files import whole_file
@@ -40,7 +42,7 @@ PathLike = str | os.PathLike[str]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FlatCortex(Comparable):
+class FlatCortex(Result):
     """The result of `cortex`.
 
     map       of the hemisphere without the wall and the cuts, with figures, `warnings`, save and plot: a PartsResult,
@@ -53,10 +55,13 @@ class FlatCortex(Comparable):
     """
 
     map: MapReport
-    places: np.ndarray
-    wall: np.ndarray
-    cuts: np.ndarray
+    places: Floats
+    wall: Bools
+    cuts: Bools
     left_out: float
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"corners": self.places[self.map.triangles]}
 
     def __repr__(self) -> str:
         return f"<koebe.FlatCortex {self.figures}>"
@@ -89,10 +94,11 @@ class FlatCortex(Comparable):
         else:
             export(self.map, path)
 
-    def _with(self, places: np.ndarray) -> Any:
+    def _with(self, places: Floats) -> Any:
         return SimpleNamespace(**{**vars(self.map), "uv": places})
 
 
+@watched()
 def cortex(
     subject: PathLike,
     hemisphere: str,
@@ -100,9 +106,9 @@ def cortex(
     surface: str | None = None,
     region: Any = None,
     cuts: PathLike | None = None,
-    even: float = 0.825,
-    darts: float = 0.005,
-    progress: Progress | None = None,
+    even: float = 0.7,
+    darts: float = 0.01,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> FlatCortex:
     """Lay a hemisphere of the cortex flat: the medial wall is left out, cuts are found, and no face turns over.
@@ -157,9 +163,7 @@ def cortex(
     return FlatCortex(flat, _upright(flat, uv, files.words["side"]), wall, mask & ~wall, float(1.0 - kept / whole))
 
 
-def _flat(
-    given: Any, mask: np.ndarray, even: float, progress: Progress | None, stop: Any
-) -> tuple[MapReport, np.ndarray]:
+def _flat(given: Any, mask: Bools, even: float, progress: Shown, stop: Any) -> tuple[MapReport, Floats]:
     """The map, and (V, 2) its places, NaN where no face is left.
 
     A part is relaxed from a map that is even already: in a disk, tongues between cuts can be thinner than its unit. But
@@ -178,12 +182,12 @@ def _flat(
 class _Template:
     """A flat map: its sphere (V', 3), or None if it is the subject's own; the faces, and which of them are flat."""
 
-    sphere: np.ndarray | None
-    faces: np.ndarray
-    kept: np.ndarray
+    sphere: Floats | None
+    faces: Whole
+    kept: Bools
 
 
-def _template(path: PathLike, files: Hemisphere, count: int, triangles: np.ndarray) -> _Template:
+def _template(path: PathLike, files: Hemisphere, count: int, triangles: Whole) -> _Template:
     words = set(re.split("[._-]", Path(path).name))
     if others := words & files.others:
         raise InputError(f"{os.fspath(path)} is of the other hemisphere: {min(others)}")
@@ -211,7 +215,7 @@ def _template(path: PathLike, files: Hemisphere, count: int, triangles: np.ndarr
             raise FileError(f"{os.fspath(path)} has faces that {what} does not have")
     if not kept.any():
         raise FileError(f"{os.fspath(path)} has no face of {what}")
-    return _Template(sphere, triangles, kept)
+    return _Template(sphere, triangles, np.asarray(kept))
 
 
 def _sphere_beside(path: Path) -> Path:
@@ -222,7 +226,7 @@ def _sphere_beside(path: Path) -> Path:
     raise FileError(f"{path} is of another subject, and no sphere lies beside it: sought {', '.join(names)}")
 
 
-def _unit(path: Path, triangles: np.ndarray) -> np.ndarray:
+def _unit(path: Path, triangles: Whole) -> Floats:
     """The sphere's vertices as unit vectors. Raises FileError for other triangles, or for no sphere."""
     sphere = surface_of(path)
     if not np.array_equal(sphere.triangles, triangles):
@@ -233,7 +237,7 @@ def _unit(path: Path, triangles: np.ndarray) -> np.ndarray:
     return sphere.vertices / length[:, None]
 
 
-def _at_border(triangles: np.ndarray) -> np.ndarray:
+def _at_border(triangles: Whole) -> Bools:
     edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     ends, times = np.unique(edges, axis=0, return_counts=True)
     found = np.zeros(triangles.max() + 1, bool)
@@ -241,11 +245,11 @@ def _at_border(triangles: np.ndarray) -> np.ndarray:
     return found
 
 
-def _area(points: np.ndarray, triangles: np.ndarray, out: np.ndarray) -> float:
+def _area(points: Floats, triangles: Whole, out: Bools) -> float:
     return float(np.abs(areas(points[triangles[~out[triangles].any(axis=1)]])).sum())
 
 
-def _upright(flat: MapReport, uv: np.ndarray, side: str) -> np.ndarray:
+def _upright(flat: MapReport, uv: Floats, side: str) -> Floats:
     """(V, 2) the map in the surface's size, turned so that front and top lie as in a view from outside."""
     inside = np.isfinite(uv[:, 0])
     z = uv @ [1.0, 1.0j]

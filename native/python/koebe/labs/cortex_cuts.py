@@ -11,6 +11,7 @@ import numpy as np
 
 from .._fields import areas
 from .._native import _koebe
+from .._types import Bools, Floats, Whole
 from ..errors import InputError
 from ..maps.parts import parts
 
@@ -22,24 +23,24 @@ _THICK = 2  # rings of vertices: what is thicker is a wall, no cut
 class Graph:
     """The edges of a surface."""
 
-    def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None:
+    def __init__(self, points: Floats, triangles: Whole) -> None:
         edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
         ends = np.concatenate([edges, edges[:, ::-1]])
         self.points, self.ends = points, ends[np.argsort(ends[:, 0], kind="stable")]
         self.begin = np.searchsorted(self.ends[:, 0], np.arange(len(points) + 1))
 
-    def around(self, inside: np.ndarray, rings: int = 1) -> np.ndarray:
+    def around(self, inside: Bools, rings: int = 1) -> Bools:
         """(V,) bool: these vertices and those within so many edges."""
         for _ in range(rings):
             inside = inside.copy()
             inside[self.ends[inside[self.ends[:, 0]], 1]] = True
         return inside
 
-    def core(self, inside: np.ndarray, rings: int) -> np.ndarray:
+    def core(self, inside: Bools, rings: int) -> Bools:
         """(V,) bool: the vertices all of whose neighbours within so many edges are inside."""
         return ~self.around(~inside, rings)
 
-    def path(self, start: int, goal: np.ndarray, target: np.ndarray | None = None) -> list[int]:
+    def path(self, start: int, goal: Bools, target: Floats | None = None) -> list[int]:
         """The shortest path of edges from a vertex to the nearest with goal[vertex]; target is the place of one goal.
         Empty if there is none."""
         best, before, queue = {start: 0.0}, {start: start}, [(0.0, start)]
@@ -60,7 +61,7 @@ class Graph:
                     heapq.heappush(queue, (length + rest, there))
         return []
 
-    def paths(self, links: Iterable[tuple[int, int]]) -> np.ndarray:
+    def paths(self, links: Iterable[tuple[int, int]]) -> Bools:
         """(V,) bool: the vertices on shortest paths between pairs."""
         found, goal = np.zeros(len(self.points), bool), np.zeros(len(self.points), bool)
         for a, b in links:
@@ -70,7 +71,7 @@ class Graph:
         return found
 
 
-def cheapest_cuts(points: np.ndarray, triangles: np.ndarray, wall: np.ndarray, darts: float, cancel: Any) -> np.ndarray:
+def cheapest_cuts(points: Floats, triangles: Whole, wall: Bools, darts: float, cancel: Any) -> Bools:
     """(V,) bool: cuts from the rims into the cortex, where they lower the distortion most [the darts of `parts`]. They
     are sought on a coarse surface, whose vertices are the fine one's, and carried along shortest paths."""
     kept = triangles[~wall[triangles].any(axis=1)]
@@ -83,7 +84,7 @@ def cheapest_cuts(points: np.ndarray, triangles: np.ndarray, wall: np.ndarray, d
     return Graph(points, triangles).paths(fine[_opened_edges(faces, made.uv)].tolist())
 
 
-def _opened_edges(triangles: np.ndarray, uv: np.ndarray) -> np.ndarray:
+def _opened_edges(triangles: Whole, uv: Floats) -> Whole:
     """(E, 2) inner edges whose two faces lie apart in the map."""
     ends = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     turned = triangles[:, [0, 1, 2]] > triangles[:, [1, 2, 0]]
@@ -92,14 +93,14 @@ def _opened_edges(triangles: np.ndarray, uv: np.ndarray) -> np.ndarray:
     order = np.lexsort(ends.T)
     pair = order[:-1][(ends[order[:-1]] == ends[order[1:]]).all(axis=1)]
     other = order[1:][(ends[order[:-1]] == ends[order[1:]]).all(axis=1)]
-    opened: np.ndarray = ends[pair[(places[pair] != places[other]).any(axis=(1, 2))]]
+    opened: Whole = ends[pair[(places[pair] != places[other]).any(axis=(1, 2))]]
     return opened
 
 
 def template_cuts(
-    sphere: np.ndarray, triangles: np.ndarray, wall: np.ndarray, template: np.ndarray, faces: np.ndarray,
-    kept: np.ndarray,
-) -> np.ndarray:  # fmt: skip
+    sphere: Floats, triangles: Whole, wall: Bools, template: Floats, faces: Whole,
+    kept: Bools,
+) -> Bools:  # fmt: skip
     """(V,) bool: the cuts of a template's flat map on this surface, through spheres that are registered to one another.
 
     sphere, triangles   (V, 3) and (F, 3) of this surface
@@ -135,7 +136,7 @@ def template_cuts(
     return cuts & ~wall
 
 
-def _strips(faces: np.ndarray, kept: np.ndarray, out: np.ndarray) -> tuple[np.ndarray, list[tuple[int, int]]]:
+def _strips(faces: Whole, kept: Bools, out: Bools) -> tuple[Whole, list[tuple[int, int]]]:
     """Faces that are cut out between vertices that stay, and their links: pairs of faces, or of a face and ~vertex."""
     strips = np.flatnonzero(~kept & ~out[faces].any(axis=1))
     inside = np.zeros(len(faces), bool)
@@ -154,14 +155,14 @@ def _strips(faces: np.ndarray, kept: np.ndarray, out: np.ndarray) -> tuple[np.nd
     return strips, joints
 
 
-def _nearest(points: np.ndarray, places: np.ndarray) -> np.ndarray:
+def _nearest(points: Floats, places: Floats) -> Whole:
     """(N,) of unit vectors: the vertex with the least angle."""
     single = points.astype(np.float32).T
     blocks = np.array_split(places.astype(np.float32), len(places) // 256 + 1)
     return np.concatenate([(block @ single).argmax(axis=1) for block in blocks])
 
 
-def largest_piece(points: np.ndarray, triangles: np.ndarray, out: np.ndarray) -> np.ndarray:
+def largest_piece(points: Floats, triangles: Whole, out: Bools) -> Bools:
     """(V,) bool: what is left out so that the rest is one piece, in which no two fans of faces share only a vertex."""
     while True:
         faces = triangles[~out[triangles].any(axis=1)]
@@ -178,7 +179,7 @@ def largest_piece(points: np.ndarray, triangles: np.ndarray, out: np.ndarray) ->
         out = left | pinched
 
 
-def _pieces(faces: np.ndarray, count: int) -> np.ndarray:
+def _pieces(faces: Whole, count: int) -> Whole:
     """(F,) numbers of pieces that are connected across edges."""
     keys = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1) @ [count, 1]
     order = np.argsort(keys, kind="stable")
@@ -195,9 +196,9 @@ def _pieces(faces: np.ndarray, count: int) -> np.ndarray:
             return np.unique(label, return_inverse=True)[1]
 
 
-def _pinched(faces: np.ndarray, count: int) -> np.ndarray:
+def _pinched(faces: Whole, count: int) -> Bools:
     """(V,) bool: vertices with more than two border edges."""
     edges = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     ends, times = np.unique(edges, axis=0, return_counts=True)
-    found: np.ndarray = np.bincount(ends[times == 1].ravel(), minlength=count) > 2
+    found: Bools = np.bincount(ends[times == 1].ravel(), minlength=count) > 2
     return found

@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .._options import choice_of
-from ..errors import FileError, InputError
+from .._arrays import as_flags
+from .._options import choice_of, path_of
+from .._types import Bools
+from ..errors import FileError
 from ..io.vertex_fields import NO_LABEL, read_field, read_region
 
 _SIDES = {side: (f"{side[0]}h", side, side[0].upper()) for side in ("left", "right")}
@@ -31,7 +33,7 @@ class Hemisphere:
     """The files of one hemisphere of a subject. Raises FileError for a folder without them."""
 
     def __init__(self, folder: str | os.PathLike[str], hemisphere: str) -> None:
-        self.folder = Path(folder)
+        self.folder = Path(path_of(folder, "subject"))
         self.words = dict(zip(("h", "side", "H"), choice_of(hemisphere, "hemisphere", _NAMES), strict=True))
         self.others = {word for words in _SIDES.values() if self.words["h"] not in words for word in words}
         if not self.folder.is_dir():
@@ -55,13 +57,10 @@ class Hemisphere:
         raise FileError(f"{self.folder} has no {what} of the {self.words['side']} hemisphere: sought {wanted}")
 
 
-def cortex_of(region: object, count: int) -> np.ndarray:
+def cortex_of(region: object, count: int) -> Bools:
     """(V,) bool, from a file or an array: the vertices of the cortex. Of an atlas the areas that are no wall."""
     if not isinstance(region, (str, os.PathLike)):
-        given = np.asarray(region)
-        if given.shape != (count,) or given.dtype != bool:
-            raise InputError(f"the region must be ({count},) bool, not {given.shape} {given.dtype}")
-        return given
+        return as_flags(region, "the region", count)
     name = Path(region).name
     if not name.endswith((".annot", ".label.gii")):
         return read_region(region, count)
@@ -70,5 +69,5 @@ def cortex_of(region: object, count: int) -> np.ndarray:
         raise FileError(f"{region} has {field.values.shape} labels, not one for each of {count} vertices")
     walls = [label for label, text in field.names.items() if text.lower() in _WALL]
     out = [NO_LABEL, *walls] if name.endswith(".annot") else [NO_LABEL, 0, *walls]
-    inside: np.ndarray = ~np.isin(field.values, out)
+    inside: Bools = ~np.isin(field.values, out)
     return inside

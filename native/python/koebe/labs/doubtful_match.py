@@ -12,6 +12,7 @@ from .._native import _koebe
 from .._progress import Run
 from .._report_entries import Warning
 from .._signatures import Rims
+from .._types import Ints
 from ..errors import SolverError
 from ..maps.result import UniformizeResult
 from .shapes import LoopMatch, conformal_module, match_loops
@@ -22,7 +23,7 @@ _MOST_TRIED = 6
 _LEAST_AREA = 1e-4  # of a face, in median areas
 
 
-def sure_match(reference: Any, shape: Any, rims: Rims, run: Run) -> tuple[np.ndarray, float]:
+def sure_match(reference: Any, shape: Any, rims: Rims, run: Run) -> tuple[Ints, float]:
     """The shape's loop for each of the reference's, and the margin of this match (LoopMatch).
 
     Circles do not tell the ends of a nearly symmetric surface apart. Of the matches that they leave, the one is taken
@@ -44,7 +45,7 @@ def sure_match(reference: Any, shape: Any, rims: Rims, run: Run) -> tuple[np.nda
     return matches[first], margin
 
 
-def _candidates(reference: Any, shape: Any, found: LoopMatch, rims: Rims) -> list[np.ndarray]:
+def _candidates(reference: Any, shape: Any, found: LoopMatch, rims: Rims) -> list[Ints]:
     """The matches whose modules are nearly as near as the best one's, nearest first."""
     order = found.order_a
     module = conformal_module(reference, order=order.tolist(), rims=rims)
@@ -59,7 +60,7 @@ def _candidates(reference: Any, shape: Any, found: LoopMatch, rims: Rims) -> lis
     return [found.match, *(match for _, match in near[: _MOST_TRIED - 1])]
 
 
-def _unevenness(reference: UniformizeResult, shape: UniformizeResult, match: np.ndarray, run: Run) -> float:
+def _unevenness(reference: UniformizeResult, shape: UniformizeResult, match: Ints, run: Run) -> float:
     """Standard deviation, by area, of the log of the areas' ratios of corresponding faces; infinite without a map."""
     try:
         with warnings.catch_warnings():

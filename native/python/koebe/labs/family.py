@@ -15,10 +15,12 @@ import numpy as np
 
 from .._arrays import as_indices
 from .._native import _koebe
-from .._options import flag, whole
-from .._progress import Progress, Run, Watched
+from .._options import flag, listed, whole
+from .._progress import Run, Shown, Watched
 from .._report_entries import Warning
 from .._signatures import Rims, Unpack
+from .._types import Floats, Ints, Values
+from .._watched import watched
 from ..errors import InputError, TopologyError
 from ..io.files import whole_file
 from ..maps.image import to_image
@@ -53,13 +55,13 @@ class Family(PointFamily):
     reference, template, landmarks    as given to `family`
     """
 
-    modules: np.ndarray
+    modules: Floats
     columns: list[str]
-    orders: np.ndarray
+    orders: Ints
     labels: list[str]
-    errors: np.ndarray | None = None
+    errors: Floats | None = None
     rims: str = "smooth"
-    margins: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    margins: Floats = field(default_factory=lambda: np.zeros(0))
     shapes: tuple[Any, ...] = ()
     reference: int = 0
     template: Any = None
@@ -77,7 +79,7 @@ class Family(PointFamily):
         orders = list(self.orders)
         return over_template(self.shapes, orders, self.reference, self.template, self.landmarks, run)
 
-    def images(self, fields: Sequence[Any], pixels: int = 256, *, labels: bool | None = None) -> np.ndarray:
+    def images(self, fields: Sequence[Any], pixels: int = 256, *, labels: bool | None = None) -> Values:
         """(N, n, n) or (N, n, n, k): fields of all shapes as images of the template's disk, as in `to_image`.
 
         fields    of each shape its values (V_i,) or (V_i, k) at its vertices
@@ -90,12 +92,12 @@ class Family(PointFamily):
     def __repr__(self) -> str:
         return f"<koebe.Family {len(self.labels)} shapes, {self.orders.shape[1]} loops>"
 
-    def match(self, a: int, b: int) -> np.ndarray:
+    def match(self, a: int, b: int) -> Ints:
         """(n + 1,) int32: shape b's loop for each of shape a's: the form of `match` in all functions."""
         return self.orders[b][np.argsort(self.orders[a])]
 
     @property
-    def distance_errors(self) -> np.ndarray | None:
+    def distance_errors(self) -> Floats | None:
         """(N, N) error bars of the distances: root of the sum of both modules' squared bars; None without bars."""
         if self.errors is None:
             return None
@@ -103,7 +105,7 @@ class Family(PointFamily):
         return np.where(np.eye(len(size), dtype=bool), 0.0, np.hypot(size[:, None], size[None]))
 
     @property
-    def distances(self) -> np.ndarray:
+    def distances(self) -> Floats:
         """(N, N) L2 distances of the modules: a metric, as all use one order of the loops."""
         return np.linalg.norm(self.modules[:, None] - self.modules[None], axis=2)
 
@@ -150,6 +152,7 @@ class _OfDisks(Watched, total=False):
 def family(results: Sequence[SphereMap], **how: "Unpack[_OfSpheres]") -> SphereFamily: ...
 @overload
 def family(results: Sequence[Any], **how: "Unpack[_OfDisks]") -> Family: ...
+@watched()
 def family(
     results: Sequence[Any],
     *,
@@ -165,7 +168,7 @@ def family(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> Family | SphereFamily:
     """Take one order of the loops for all shapes, and compute their modules in it; lay shapes over one of them.
@@ -206,7 +209,7 @@ def family(
     (2, 2309, 3)
     """
     run = Run(progress, cancel)
-    given = list(results)
+    given = listed(results, "results")
     if not given:
         raise InputError("there are no shapes")
     share = sum(not _is_result(shape) for shape in given) / (2.0 * len(given))  # of the time, for maps
@@ -225,7 +228,7 @@ def family(
             raise InputError("order, orders, rims, error and template are for surfaces with holes")
         how: dict[str, Any] = {"moebius": moebius, "bend": bend, "stiffness": stiffness}
         return sphere_family(shapes, reference, labels, landmarks, fields, run, **how)
-    if fields is not None or moebius or bend:
+    if fields is not None or flag(moebius, "moebius") or flag(bend, "bend"):
         raise InputError("fields, moebius and bend are for results of sphere_map")
     count = len(shapes[0].radii)
     for number, shape in enumerate(shapes):
@@ -236,7 +239,7 @@ def family(
                 "shapes",
             )
     names = checked_labels(labels, len(shapes))
-    if landmarks is not None and len(landmarks) != len(shapes):
+    if landmarks is not None and len(listed(landmarks, "landmarks")) != len(shapes):
         raise InputError(f"there are landmarks of {len(landmarks)} shapes, not of {len(shapes)}")
     first = whole(reference, "reference", least=0, most=len(shapes) - 1)
     margins = np.full(len(shapes), np.nan)
@@ -244,7 +247,7 @@ def family(
     if orders is None:
         wanted = np.arange(count, dtype=np.int32) if order is None else as_indices(order, "order", count, "loops")
         part = run.part(0.0, 0.3 * later if error else later)
-        chosen: list[np.ndarray] = []
+        chosen: list[Ints] = []
         for number, shape in enumerate(shapes):
             part.at(number / len(shapes), "match")
             own = part.part(number / len(shapes), (number + 1) / len(shapes))
@@ -261,7 +264,7 @@ def family(
     modules = [
         conformal_module(shape, order=each.tolist(), rims=rims) for shape, each in zip(shapes, chosen, strict=True)
     ]
-    bars: list[np.ndarray] = []
+    bars: list[Floats] = []
     for shape, each in zip(shapes, chosen, strict=True) if flag(error, "error") else ():
         part = run.part(*(later * (0.3 + 0.7 * (len(bars) + k) / len(shapes)) for k in (0, 1)))
         bars.append(module_error(shape, order=each.tolist(), rims=rims, progress=part.progress, cancel=part.cancel))
@@ -299,7 +302,7 @@ def _mapped(shapes: list[Any], run: Run) -> list[Any]:
     return found
 
 
-def _match(reference: Any, shape: Any, rims: Rims, pairs: list[Any] | None, run: Run) -> tuple[np.ndarray, float]:
+def _match(reference: Any, shape: Any, rims: Rims, pairs: list[Any] | None, run: Run) -> tuple[Ints, float]:
     """The shape's loop for each of the reference's, and the margin of this match; NaN if it was not searched."""
     if shape is reference or on_one_template(reference, shape):
         return np.arange(len(reference.radii), dtype=np.int32), math.nan
@@ -310,7 +313,7 @@ def _match(reference: Any, shape: Any, rims: Rims, pairs: list[Any] | None, run:
     return sure_match(reference, shape, rims, run)
 
 
-def _tell_of_doubt(margins: np.ndarray, names: list[str]) -> None:
+def _tell_of_doubt(margins: Floats, names: list[str]) -> None:
     """Warn of shapes whose loops may be matched wrongly."""
     unsure = np.flatnonzero(margins < _koebe.ambiguous_margin)
     if len(unsure):
@@ -319,4 +322,4 @@ def _tell_of_doubt(margins: np.ndarray, names: list[str]) -> None:
             f"the loops of {len(unsure)} of {len(names)} shapes may be matched wrongly: of shape {names[worst]} "
             f"another match fits nearly as well (margin {margins[worst]:.2g}). Give orders, or landmarks"
         )
-        warnings.warn(Warning(kind="ambiguous_match", elements=[], text=text), stacklevel=3)
+        warnings.warn(Warning(kind="ambiguous_match", elements=[], text=text), stacklevel=4)

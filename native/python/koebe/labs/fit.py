@@ -9,8 +9,9 @@ import numpy as np
 
 from .._arrays import as_indices, as_numbers, as_points
 from .._native import _koebe
-from .._options import callback, flag, takes, token, vertex
+from .._options import callback, flag, listed, takes, token, vertex
 from .._signatures import ShapesOptions, Unpack
+from .._types import Floats, Ints
 from ..errors import InputError
 from ..maps.input import polygons_of, surface_of
 from ..maps.result import UniformizeResult
@@ -69,15 +70,15 @@ class FitResult(UniformizeResult):
     """
 
     fit: Fit
-    mu: np.ndarray
+    mu: Floats
     names: list[str]
-    ranks: np.ndarray
+    ranks: Ints
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
-        self._set_arrays(mu=native.mu)
+        self._set(mu=native.mu)
         self._set(names=[loop["name"] for loop in report["loops"][1:] if "name" in loop])
-        self.ranks = np.array([loop["rank"] for loop in report["loops"]], dtype=np.int32)
+        self._set(ranks=np.array([loop["rank"] for loop in report["loops"]], dtype=np.int32))
 
     def _arrays(self) -> dict[str, Any]:
         return {**super()._arrays(), "mu": self.mu}
@@ -90,9 +91,18 @@ class FitResult(UniformizeResult):
         )
 
 
-@takes("shapes", names=None, pins=None, fixed=(), extremal=False, progress=None, cancel=None)
+@takes(
+    "shapes",
+    old_names={"vertices": "mesh"},
+    names=None,
+    pins=None,
+    fixed=(),
+    extremal=False,
+    progress=None,
+    cancel=None,
+)
 def fit_circles(
-    mesh: Any,
+    vertices: Any = None,
     triangles: Any = None,
     centers: Any = None,
     radii: Any = None,
@@ -104,7 +114,7 @@ def fit_circles(
     Of all such maps, those of least angle distortion: it minimizes the sum of a_f 4 |mu_f|^2 / (1 - |mu_f|^2), a_f a
     face's area on the surface, mu_f its Beltrami coefficient from the conformal circle domain. It starts there, and the
     circles move to their places without meeting.
-    mesh, triangles    vertices and triangles as for `uniformize`; or a mesh alone, without `triangles`: a pair
+    vertices, triangles    as for `uniformize`; or a mesh alone in place of both, without `triangles`: a pair
                 (vertices, triangles), a file, a mesh of another package
     centers     (H, 2) of the H holes' circles, in the unit disk
     radii       (H,) their radii. The unit circle may come first in both, as in a result's `centers` and `radii`
@@ -138,7 +148,7 @@ def fit_circles(
         triangles = None
     if centers is None or radii is None:
         raise TypeError("fit_circles needs the centers and the radii of the circles: fit_circles(mesh, centers, radii)")
-    source = surface_of(mesh, triangles, mask=given.pop("mask"), weld=said["weld"])
+    source = surface_of(vertices, triangles, mask=given.pop("mask"), weld=said["weld"])
     places, sizes = holes_of(centers, radii)
     count = len(sizes)
     ranks = [] if loops is None else as_indices(loops, "loops", max(len(source.triangles), 1), "loops").tolist()
@@ -159,7 +169,7 @@ def _are_triangles(given: Any) -> bool:
     return array.ndim == 2 and array.shape[1] == 3 and array.dtype.kind in "iu"
 
 
-def holes_of(centers: Any, radii: Any) -> tuple[np.ndarray, np.ndarray]:
+def holes_of(centers: Any, radii: Any) -> tuple[Floats, Floats]:
     """The circles without the unit circle."""
     sizes = as_numbers(radii, "radii")
     if not len(sizes):
@@ -170,7 +180,7 @@ def holes_of(centers: Any, radii: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _words(names: Sequence[str] | None, count: int) -> list[str]:
-    words = [] if names is None else list(names)
+    words = [] if names is None else listed(names, "names")
     if any(not isinstance(word, str) for word in words):
         raise TypeError("names must be text")
     if words and len(words) != count:
@@ -184,9 +194,11 @@ def _rims(
     """For each rim, the outer one first, whether it rotates, its pinned vertex or -1, and that vertex's angle in
     radians."""
     rotates, vertices, angles = [True] * (count + 1), [-1] * (count + 1), [0.0] * (count + 1)
-    for circle in fixed:
+    for circle in listed(fixed, "fixed"):
         rotates[_place(circle, count)] = False
-    for circle, pin in (pins or {}).items():
+    if pins is not None and not isinstance(pins, Mapping):
+        raise TypeError(f"pins must be a dict, not {pins!r}")
+    for circle, pin in ({} if pins is None else pins).items():
         place = _place(circle, count)
         if isinstance(pin, (str, bytes)) or not hasattr(pin, "__len__") or len(pin) != 2:
             raise InputError(f"the pin of circle {circle} is no pair: a vertex and an angle", [int(circle)], "loops")

@@ -2,13 +2,16 @@
 
 import math
 from collections.abc import Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
 
 from .._native import _koebe
 from .._options import whole
-from .._progress import Progress, Run
+from .._progress import Run, Shown
+from .._types import Floats
+from .._watched import watched
 from ..errors import InputError, KoebeError, OptionError, SolverError
 from ..maps.input import surface_of
 from ..maps.result import UniformizeResult
@@ -48,7 +51,7 @@ def _noise_of(source: Source) -> float:
     ends = np.concatenate([edges, edges[:, ::-1]])
     degree = np.maximum(np.bincount(ends[:, 0], minlength=count), 1)
 
-    def filtered(values: np.ndarray) -> np.ndarray:
+    def filtered(values: Floats) -> Floats:
         sums = np.stack([np.bincount(ends[:, 0], column[ends[:, 1]], minlength=count) for column in values.T], axis=1)
         return values - sums / degree[:, None]
 
@@ -70,6 +73,7 @@ def _noise_of(source: Source) -> float:
     return float(np.median(np.abs(rest[known]) / (length[known] * rows[known])) / _MEDIAN)
 
 
+@watched()
 def noise_error(
     result: UniformizeResult,
     *,
@@ -77,9 +81,9 @@ def noise_error(
     order: Sequence[int] | str | None = None,
     samples: int = 24,
     seed: int = 0,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
-) -> np.ndarray:
+) -> Floats:
     """Error bars of conformal_module(result, order=order), lengths in the unit disk: the effect of noise in a scan.
 
     noise     standard deviation of each coordinate of a vertex, in the surface's unit; None: vertex_noise of it
@@ -102,6 +106,8 @@ def noise_error(
         raise TypeError(f"noise_error takes a result of uniformize, not {type(result).__name__}")
     count, chosen = whole(samples, "samples", least=2), chosen_order(result, order)
     module = conformal_module(result, order=chosen.tolist())
+    if noise is not None and (not isinstance(noise, Real) or isinstance(noise, (bool, np.bool_))):
+        raise TypeError(f"noise must be a number, not {noise!r}")
     sigma = vertex_noise(*result.surface) if noise is None else float(noise)
     if not (math.isfinite(sigma) and sigma >= 0.0):
         raise OptionError(f"noise must be a finite number from 0, not {noise!r}")

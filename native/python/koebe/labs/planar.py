@@ -2,22 +2,26 @@
 
 import json
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .._comparable import Comparable
+from .._arrays import as_values
+from .._comparable import Result
 from .._native import _koebe
 from .._option_table import rows
 from .._options import callback, filled, token
+from .._progress import Shown
+from .._types import Floats, Ints
+from .._watched import watched
 from ..errors import FileError, InputError
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PlanarMap(Comparable):
+class PlanarMap(Result):
     """A conformal map of a planar domain to a circle domain. Call it with (N, 2) places to get their images.
 
     centers       (L, 2) float64: circles in the position of conformal_module, the unit circle first
@@ -33,36 +37,46 @@ class PlanarMap(Comparable):
     sweeps, levels, unknowns    of the iteration at the finest resolution; resolutions; size of the largest system
     """
 
-    centers: np.ndarray
-    radii: np.ndarray
-    rims: np.ndarray
-    module: np.ndarray
-    module_errors: np.ndarray
+    centers: Floats
+    radii: Floats
+    rims: Ints
+    module: Floats
+    module_errors: Floats
     error: float
-    residuals: np.ndarray
+    residuals: Floats
     converged: bool
     sweeps: int
     levels: int
     unknowns: int
-    slits: np.ndarray | None
+    slits: Floats | None
     slit_error: float
     _native: Any
     _given: tuple[str, bool, dict[str, Any]]
 
-    def __call__(self, points: Any) -> np.ndarray:
+    def __call__(self, points: Any) -> Floats:
         """(N, 2) images of places of the domain, rims included. Raises InputError for places off it."""
         return self._native.image(_places(points))
 
-    def slit_images(self, points: Any) -> np.ndarray:
+    def slit_images(self, points: Any) -> Floats:
         """(N, 2) images of places in the slit domain. Raises InputError for places off the domain, or without slits."""
         return self._native.slit_image(_places(points))
 
-    def inverse(self, points: Any) -> np.ndarray:
+    def inverse(self, points: Any) -> Floats:
         """(N, 2) places whose images these are. Raises InputError for points off the circle domain, SolverError."""
         return self._native.preimage(_places(points))
 
     def __repr__(self) -> str:
         return f"<koebe.PlanarMap {len(self.radii)} rims, error {self.error:.2g}, {self.sweeps} sweeps>"
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"circles": (self.centers, self.radii)}
+
+    def _state(self) -> dict[str, Any]:
+        return dict(zip(("text", "is_svg", "given"), self._given, strict=True))
+
+    @classmethod
+    def _made(cls, state: Mapping[str, Any]) -> "PlanarMap":
+        return _mapped(**state)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _mapped, self._given  # the same again: formulas of thousands of poles are longer than their rims
@@ -72,8 +86,8 @@ class PlanarMap(Comparable):
         return self._native.report()
 
 
-def _places(points: Any) -> np.ndarray:
-    array = np.asarray(points)
+def _places(points: Any) -> Floats:
+    array = as_values(points, "points")
     if array.dtype.kind == "c":
         array = np.stack([array.real, array.imag], axis=-1)
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "fiu":
@@ -115,21 +129,32 @@ def _mapped(text: str, is_svg: bool, given: dict[str, Any], progress: Any = None
     pole = given["pole"]
     options, _ = filled("planar", _koebe.PlanarOptions(), given)
     if pole is not None:
-        options.pole = complex(*_places([pole] if np.ndim(pole) else np.array([pole], complex))[0])
+        place = as_values(pole, "pole")
+        is_number = not place.ndim and place.dtype.kind in "fiuc"
+        options.pole = complex(*_places(place.reshape(1).astype(complex) if is_number else place[None])[0])
     native = _koebe.planar_map(text, is_svg, options, progress, token(cancel, "cancel"))
     centers, radii = native.circles
     order, residuals = np.array(native.order, np.int32), np.array(native.residuals)
     module, errors = native.module, native.module_errors
     slits = np.array(native.slits) if native.slits else None
-    for array in (centers, radii, order, module, errors, residuals, *([] if slits is None else [slits])):
-        array.flags.writeable = False
     counts = native.converged, native.sweeps, native.levels, native.unknowns
     return PlanarMap(
-        centers, radii, order, module, errors, native.error, residuals, *counts, slits, native.slit_error, native,
+        centers,
+        radii,
+        order,
+        module,
+        errors,
+        native.error,
+        residuals,
+        *counts,
+        slits,
+        native.slit_error,
+        native,
         (text, is_svg, given),
     )
 
 
+@watched()
 def planar(
     rims: Any,
     *,
@@ -138,7 +163,7 @@ def planar(
     slits: str = rows("planar")["slits"].default,
     slit_angle: float = rows("planar")["slit_angle"].default,
     pole: Any = None,
-    progress: Callable[[float, str], Any] | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> PlanarMap:
     """Map a planar domain with holes to a circle domain, to ten digits, corners included.

@@ -12,13 +12,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._arrays import as_circles, as_indices, as_numbers, as_points
-from .._comparable import Comparable
+from .._comparable import Result, TupleResult
 from .._native import _koebe
 from .._option_table import rows
 from .._options import choice_of, filled, flag, whole
-from .._progress import Progress, Run
+from .._progress import Run, Shown
 from .._report_entries import Warning
 from .._signatures import Rims
+from .._types import Floats, Ints
+from .._watched import watched
 from ..errors import InputError, OptionError
 from ..maps.result import UniformizeResult
 
@@ -29,7 +31,7 @@ class _OtherRims:
     """The circle domain of a result's polyhedron, or of ever finer meshes, kept with the result."""
 
     def __init__(self, result: UniformizeResult, rims: str, run: Run) -> None:
-        self.refined: tuple[np.ndarray, np.ndarray]
+        self.refined: tuple[Floats, Floats]
         if rims == "polygonal":
             circles, self.refined = _koebe.polygonal_circles(mapped_surface(result), 0, run.progress, run.cancel)
         else:
@@ -43,16 +45,14 @@ def with_rims(domain: Any, rims: Rims, run: Run | None = None) -> Any:
     if choice_of(rims, "rims", _RIMS) == "smooth" or isinstance(domain, _OtherRims):
         return domain
     if not isinstance(domain, UniformizeResult):
-        raise TypeError(
-            f"{rims} rims need a result of uniformize, not {type(domain).__name__}: circles are not enough"
-        )
+        raise TypeError(f"{rims} rims need a result of uniformize, not {type(domain).__name__}: circles are not enough")
     kept = vars(domain)
     if f"_{rims}" not in kept:
         kept[f"_{rims}"] = _OtherRims(domain, rims, run or Run(None, None))
     return kept[f"_{rims}"]
 
 
-def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
+def canonical_order(result: Any, *, any_outer: bool = False) -> Ints:
     """An order of the loops, the outer one first, that does not depend on their numbers.
 
     The loops are sorted by conformal distance from the outer loop. The order jumps where two loops are alike, so
@@ -66,7 +66,7 @@ def canonical_order(result: Any, *, any_outer: bool = False) -> np.ndarray:
     return np.array(_koebe.canonical_order(*as_circles(result), flag(any_outer, "any_outer")), dtype=np.int32)
 
 
-def conformal_module(result: Any, *, order: Sequence[int] | str | None = None, rims: Rims = "smooth") -> np.ndarray:
+def conformal_module(result: Any, *, order: Sequence[int] | str | None = None, rims: Rims = "smooth") -> Floats:
     """The conformal module of a circle domain (paper, Fig. 13): r_1, y_2, r_2, x_3, y_3, r_3, ...
 
     order    the loops in the wanted order, the outer one first, which may be any loop; None: as in the result;
@@ -89,14 +89,15 @@ def conformal_module(result: Any, *, order: Sequence[int] | str | None = None, r
     return _koebe.conformal_module(*as_circles(result), chosen_order(result, order))
 
 
+@watched()
 def module_error(
     result: UniformizeResult,
     *,
     order: Sequence[int] | str | None = None,
     rims: Rims = "smooth",
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
-) -> np.ndarray:
+) -> Floats:
     """Error bars of conformal_module(result, order=order, rims=rims), lengths in the unit disk: the effect of the mesh.
 
     Maps the same surface on a mesh with four times as many faces, whose new vertices lie on the smooth surface and the
@@ -128,7 +129,7 @@ def module_error(
     return bars
 
 
-def _tell_of_polygons(result: UniformizeResult, refined: tuple[np.ndarray, np.ndarray]) -> None:
+def _tell_of_polygons(result: UniformizeResult, refined: tuple[Floats, Floats]) -> None:
     """Warn where polygons in place of smooth rims would change a radius by more than its bar, by a forecast."""
     change = _koebe.polygonal_changes(mapped_surface(result))
     order = np.arange(len(change), dtype=np.int32)
@@ -142,10 +143,10 @@ def _tell_of_polygons(result: UniformizeResult, refined: tuple[np.ndarray, np.nd
             "the mesh is coarse at its rims: as polygons in place of smooth curves they have another module, in which "
             f"the radius of loop {loop} differs by about {100.0 * change[loop]:+.2g} %. The option rims chooses"
         )
-        warnings.warn(Warning(kind="coarse_mesh", elements=[], text=text), stacklevel=3)
+        warnings.warn(Warning(kind="coarse_mesh", elements=[], text=text), stacklevel=4)
 
 
-def _refined(result: UniformizeResult, run: Run) -> tuple[np.ndarray, np.ndarray]:
+def _refined(result: UniformizeResult, run: Run) -> tuple[Floats, Floats]:
     """The circles of the result's loops on a finer mesh, kept with the result."""
     kept = vars(result)
     if "_refined" not in kept:
@@ -156,7 +157,7 @@ def _refined(result: UniformizeResult, run: Run) -> tuple[np.ndarray, np.ndarray
     return kept["_refined"]
 
 
-def chosen_order(result: Any, order: Sequence[int] | str | None) -> np.ndarray:
+def chosen_order(result: Any, order: Sequence[int] | str | None) -> Ints:
     """The loops in the order that the caller wants, the outer one first."""
     count = len(as_circles(result)[1])
     if isinstance(order, str):
@@ -183,12 +184,12 @@ def module_names(loop_count: int) -> list[str]:
 
 
 class _Orders(NamedTuple):
-    order_a: np.ndarray
-    order_b: np.ndarray
+    order_a: Ints
+    order_b: Ints
     distance: float
 
 
-class LoopMatch(_Orders):
+class LoopMatch(TupleResult, _Orders):
     """The correspondence of the loops of a and b with the least distance of their modules.
 
     order_a, order_b    (L,) int32: corresponding loops stand at the same place, the outer ones first
@@ -200,8 +201,14 @@ class LoopMatch(_Orders):
 
     margin: float = 1.0
 
+    def _drawing(self) -> dict[str, Any]:
+        return {"points": np.column_stack([self.order_a, self.order_b])}
+
+    def __repr__(self) -> str:
+        return f"<koebe.LoopMatch {len(self.match)} loops, distance {self.distance:.3g}, margin {self.margin:.2g}>"
+
     @property
-    def match(self) -> np.ndarray:
+    def match(self) -> Ints:
         """(L,) int32: b's loop for each of a's."""
         return self.order_b[np.argsort(self.order_a)]
 
@@ -226,7 +233,7 @@ def match_loops(a: Any, b: Any, *, any_outer: bool = False, rims: Rims = "smooth
     a, b = with_rims(a, rims), with_rims(b, rims)
     found = _koebe.match_loops(*as_circles(a), *as_circles(b), flag(any_outer, "any_outer"))
     match = LoopMatch(np.array(found[0], dtype=np.int32), np.array(found[1], dtype=np.int32), found[2])
-    match.margin = found[3]
+    match._set(margin=found[3])
     return match
 
 
@@ -247,7 +254,7 @@ def module_distance(a: Any, b: Any, *, rims: Rims = "smooth") -> float:
     return math.dist(first, second)
 
 
-def separations(result: Any) -> np.ndarray:
+def separations(result: Any) -> Floats:
     """How far the loops are apart, whatever the Moebius map: (L, L) float64, dimensionless, 0 on the diagonal.
 
     The separation of two loops is log(R / r) of the two concentric circles to which a Moebius map takes their circles.
@@ -291,7 +298,7 @@ def mapped_surface(result: UniformizeResult, shown: bool = False) -> "_koebe.Map
     return _koebe.MappedSurface(*result.surface, np.nan_to_num(domain.uv), loops, off, *circles, [True] * len(loops))
 
 
-class DomainAlignment(Comparable):
+class DomainAlignment(Result):
     """An automorphism of the unit disk that lays one circle domain over another: z -> turn (z - a) / (1 - conj(a) z).
 
     match       the target's loop for each of the source's; of transfer(a, b), b's loop for each of a's
@@ -303,32 +310,42 @@ class DomainAlignment(Comparable):
     margin      of the match, as in LoopMatch; 1 if it was given, or found by landmarks
     """
 
-    def __init__(self, native: "_koebe.DomainAlignment", radii: np.ndarray, match: list[int] | None = None) -> None:
-        self._native = native
-        self.a: complex = native.a
-        self.turn: complex = native.turn
-        self.match: list[int] = native.match if match is None else match
-        self.residual: float = native.residual
-        self.largest: float = native.largest
-        self.worst: int = native.worst
-        self.misses = np.array(native.misses)
-        self.misses_in_radii = self.misses / radii
-        self.converged: bool = native.converged
-        self.margin: float = native.margin
+    a: complex
+    turn: complex
+    match: list[int]
+    residual: float
+    largest: float
+    worst: int
+    misses: Floats
+    misses_in_radii: Floats
+    converged: bool
+    margin: float
+
+    def __init__(self, native: "_koebe.DomainAlignment", radii: Floats, match: list[int] | None = None) -> None:
+        names = ("a", "turn", "match", "residual", "largest", "worst", "converged", "margin")
+        misses = np.array(native.misses)
+        self._set(**{name: getattr(native, name) for name in names}, misses=misses, misses_in_radii=misses / radii)
+        if match is not None:
+            self._set(match=match)
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"bars": np.column_stack([0.0 * self.misses, self.misses])}
 
     def __repr__(self) -> str:
         return f"<koebe.DomainAlignment residual {self.residual:.3g}, holes miss by up to {self.largest:.3g}>"
 
-    def __call__(self, points: Any) -> np.ndarray:
+    def __call__(self, points: Any) -> Floats:
         """The images (n, 2) of points (n, 2) of the target's disk."""
-        return self._native(as_points(points, "points", 2))
+        z = as_points(points, "points", 2) @ [1.0, 1.0j]
+        images = self.turn * (z - self.a) / (1.0 - np.conj(self.a) * z)
+        return np.stack([images.real, images.imag], axis=1)
 
 
-def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = None) -> DomainAlignment:
-    """The automorphism of the unit disk that moves the target's circles as close as possible to the source's circles.
+@watched(a="source", b="target")
+def align_domains(a: Any, b: Any, *, match: Sequence[int] | None = None) -> DomainAlignment:
+    """The automorphism of the unit disk that moves b's circles as close as possible to a's circles.
 
-    match    the target's loop for each of the source's, 0 for 0, such as match_loops(source, target).match, which is
-             the default
+    match    b's loop for each of a's, 0 for 0, such as match_loops(a, b).match, which is the default
     With one hole the circles do not determine the rotation, and it is 0. Without holes they determine nothing, and
     the map is the identity.
     Lengths are in the unit disk.
@@ -340,8 +357,8 @@ def align_domains(source: Any, target: Any, *, match: Sequence[int] | None = Non
     >>> print(laid.shape, f"{alignment.residual:.2f}")
     (2309, 2) 0.03
     """
-    a, b = as_circles(source), as_circles(target)
-    chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(b[1]), "loops")
+    on_a, on_b = as_circles(a), as_circles(b)
+    chosen = np.zeros(0, np.int32) if match is None else as_indices(match, "match", len(on_b[1]), "loops")
     if match is not None and not len(chosen):
-        raise InputError("the match must name each of the target's loops once, the outer one first")
-    return DomainAlignment(_koebe.align_domains(*a, *b, chosen), a[1])
+        raise InputError("the match must name each of b's loops once, the outer one first")
+    return DomainAlignment(_koebe.align_domains(*on_a, *on_b, chosen), on_a[1])

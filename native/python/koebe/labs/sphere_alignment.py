@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from .._types import Floats, Whole
+
 _CELLS = 48  # squares along an edge of the cube on which a field is looked up
 _ROTATIONS = 4000  # tried for fields: 9 degrees apart
 _SAMPLES = 600  # vertices at which fields are compared in the search
@@ -12,7 +14,7 @@ _FINE = 1500  # and in the last steps
 _BEST = 4  # rotations from which the search goes on
 
 
-def _middles() -> np.ndarray:
+def _middles() -> Floats:
     """(6 * _CELLS^2, 3) directions: one through each square of `_cells`."""
     side, u, v = np.meshgrid(np.arange(6), *[(np.arange(_CELLS) + 0.5) * 2.0 / _CELLS - 1.0] * 2, indexing="ij")
     axis, rows, found = side.ravel() // 2, np.arange(side.size), np.empty((side.size, 3))
@@ -21,7 +23,7 @@ def _middles() -> np.ndarray:
     return found / np.linalg.norm(found, axis=1, keepdims=True)
 
 
-def _cells(places: np.ndarray) -> np.ndarray:
+def _cells(places: Floats) -> Whole:
     """The square of a cube round the sphere that each direction goes through."""
     axis = np.abs(places).argmax(axis=1)
     rows = np.arange(len(places))
@@ -31,14 +33,14 @@ def _cells(places: np.ndarray) -> np.ndarray:
     return ((2 * axis + (long < 0.0)) * _CELLS + u) * _CELLS + v
 
 
-def applied(matrix: np.ndarray, places: np.ndarray) -> np.ndarray:
+def applied(matrix: Floats, places: Floats) -> Floats:
     """The images (n, 3), unit vectors."""
     images = matrix[0, 0] + places @ matrix[0, 1:], matrix[1:, 0] + places @ matrix[1:, 1:].T
     moved = images[1] / images[0][:, None]
     return moved / np.linalg.norm(moved, axis=1, keepdims=True)
 
 
-def _near_identity(six: np.ndarray) -> np.ndarray:
+def _near_identity(six: Floats) -> Floats:
     """The Lorentz matrix exp(G): a turn by the vector six[:3] and a boost by six[3:]."""
     generator = np.zeros((4, 4))
     x, y, z = six[:3]
@@ -54,19 +56,19 @@ def _near_identity(six: np.ndarray) -> np.ndarray:
     return total
 
 
-def nearest_rotation(matrix: np.ndarray) -> np.ndarray:
+def nearest_rotation(matrix: Floats) -> Floats:
     """The rotation (3, 3) next to a matrix, by least squares [Kabsch 1976]."""
     u, _, v = np.linalg.svd(matrix)
     return u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v
 
 
-def _turned(rotation: np.ndarray) -> np.ndarray:
+def _turned(rotation: Floats) -> Floats:
     matrix = np.eye(4)
     matrix[1:, 1:] = rotation
     return matrix
 
 
-def by_landmarks(source: np.ndarray, target: np.ndarray, free: bool) -> np.ndarray:
+def by_landmarks(source: Floats, target: Floats, free: bool) -> Floats:
     """The rotation of least squares, or the Moebius map of least squares, by Newton's method."""
     matrix = _turned(nearest_rotation(target.T @ source))
     if not free:
@@ -93,13 +95,13 @@ def by_landmarks(source: np.ndarray, target: np.ndarray, free: bool) -> np.ndarr
 
 
 def by_fields(
-    look_up: Callable[[np.ndarray, np.ndarray], np.ndarray],
-    points: np.ndarray,
-    areas: np.ndarray,
-    fields: tuple[np.ndarray, np.ndarray],
+    look_up: Callable[[Floats, Floats], Floats],
+    points: Floats,
+    areas: Floats,
+    fields: tuple[Floats, Floats],
     free: bool,
     report: Callable[[float], None],
-) -> np.ndarray:
+) -> Floats:
     """The map of greatest correlation of the fields. All rotations are tried, then small steps.
 
     look_up    the values of the first fields (V_a, k) at points of the sphere
@@ -112,7 +114,7 @@ def by_fields(
     there, wanted = points[sample], fields[1][sample]
     table = look_up(fields[0], _middles())
 
-    def similarity(matrix: np.ndarray, count: int) -> float:
+    def similarity(matrix: Floats, count: int) -> float:
         return float(correlation(look_up(fields[0], applied(matrix, there[:count])), wanted[:count]))
 
     rotations = np.concatenate([_rotations(_quaternions(_ROTATIONS)), np.eye(3)[None]])
@@ -123,7 +125,7 @@ def by_fields(
         scores += correlation(looked_up.reshape(len(some), -1, wanted.shape[1]), wanted[:_SAMPLES]).tolist()
     start = [_turned(rotation) for rotation in rotations]
     best = [start[k] for k in np.argsort(scores)[::-1][:_BEST]]
-    climbed: list[np.ndarray] = []
+    climbed: list[Floats] = []
     for matrix in best:
         report(0.5 + 0.3 * len(climbed) / _BEST)
         climbed.append(_climbed(lambda m: similarity(m, _SAMPLES), matrix, 3, 0.1, 0.02))
@@ -132,7 +134,7 @@ def by_fields(
     return _climbed(lambda m: similarity(m, len(there)), matrix, 6 if free else 3, 0.05, 5e-4)
 
 
-def correlation(x: np.ndarray, y: np.ndarray, weights: np.ndarray | None = None) -> Any:
+def correlation(x: Floats, y: Floats, weights: Floats | None = None) -> Any:
     """The mean over k of the correlations of (..., n, k) and (n, k) numbers along n, where both are known; -1: none."""
     known = np.isfinite(x) & np.isfinite(y)
     share = known if weights is None else known * weights[:, None]
@@ -144,9 +146,7 @@ def correlation(x: np.ndarray, y: np.ndarray, weights: np.ndarray | None = None)
     return np.where(enough, (share * x * y).sum(axis=-2) / np.where(enough, size, 1.0), -1.0).mean(axis=-1)
 
 
-def _climbed(
-    score: Callable[[np.ndarray], float], matrix: np.ndarray, directions: int, step: float, least: float
-) -> np.ndarray:
+def _climbed(score: Callable[[Floats], float], matrix: Floats, directions: int, step: float, least: float) -> Floats:
     """From here to where no step of this size makes the score greater: a search by a pattern."""
     best = score(matrix)
     while step > least:
@@ -159,7 +159,7 @@ def _climbed(
     return matrix
 
 
-def _quaternions(count: int) -> np.ndarray:
+def _quaternions(count: int) -> Floats:
     """Rotations that lie evenly [Alexa 2022, Super-Fibonacci spirals]."""
     s = np.arange(count) + 0.5
     phi, psi = np.sqrt(2.0), 1.533751168755204288118041
@@ -168,7 +168,7 @@ def _quaternions(count: int) -> np.ndarray:
     return np.stack([inner * np.sin(a), inner * np.cos(a), outer * np.sin(b), outer * np.cos(b)], axis=1)
 
 
-def _rotations(quaternions: np.ndarray) -> np.ndarray:
+def _rotations(quaternions: Floats) -> Floats:
     """(n, 3, 3) of quaternions (n, 4) x, y, z, w."""
     x, y, z, w = quaternions.T
     return np.array([

@@ -4,10 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from .._options import whole
 from .._progress import Run
+from .._types import Floats
 from ..errors import InputError
 from ..maps.sphere import SphereMap
 from .corresponding import LaidShapes, PointFamily, checked_labels, laid_over_mean, landmark_pairs_of
@@ -30,7 +29,7 @@ class SphereFamily(PointFamily):
         return f"<koebe.SphereFamily {len(self.labels)} shapes, {len(self.mean)} points>"
 
     @property
-    def distances(self) -> np.ndarray:
+    def distances(self) -> Floats:
         """(N, N) the point_distances, in the shapes' unit."""
         return self.point_distances
 

@@ -1,23 +1,27 @@
 """Takes points of one closed surface to another, through their maps to the sphere."""
 
-import json
 import os
 import warnings as python_warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 from typing import Any, TypedDict
 
 import numpy as np
 
-from .._comparable import Comparable
+from .._arrays import as_points
+from .._comparable import Result
 from .._native import _koebe
 from .._options import flag
 from .._progress import Run, Watched
 from .._report_entries import Warning
+from .._types import Floats, Ints, Values, Whole
 from ..errors import InputError, OptionError
-from ..io.files import whole_file
+from ..io.export import export, has_one_place_a_vertex
+from ..io.formats import is_patch_name
 from ..maps.carry import carried, landmark_pairs
 from ..maps.result import Beltrami, MapReport
+from ..maps.source import Source
 from ..maps.sphere import SphereMap
 from .sphere_alignment import applied, by_fields, by_landmarks, correlation, nearest_rotation
 
@@ -52,7 +56,7 @@ class Bending(TypedDict):
 
 
 @dataclass(frozen=True, eq=False)
-class SphereCorrespondence(Comparable):
+class SphereCorrespondence(Result):
     """A point of closed surface a for each vertex of closed surface b.
 
     faces       (V_b,) int32 triangle of a that holds the point
@@ -70,18 +74,18 @@ class SphereCorrespondence(Comparable):
     A vertex of b without a face corresponds to nothing: its face is -1, all else NaN.
     """
 
-    faces: np.ndarray
-    weights: np.ndarray
-    points: np.ndarray
-    sphere: np.ndarray
-    alignment: np.ndarray
-    misses_deg: np.ndarray
+    faces: Ints
+    weights: Floats
+    points: Floats
+    sphere: Floats
+    alignment: Floats
+    misses_deg: Floats
     similarity: float | None
     bending: Bending | None
-    triangles: np.ndarray
+    triangles: Ints
     count: int
-    own_sphere: np.ndarray
-    own_triangles: np.ndarray
+    own_sphere: Floats
+    own_triangles: Ints
     warnings: list[Warning] = field(default_factory=list)
 
     def __repr__(self) -> str:
@@ -93,7 +97,10 @@ class SphereCorrespondence(Comparable):
         like = "" if self.similarity is None else f", fields correlate by {self.similarity:.3g}"
         return f"<koebe.SphereCorrespondence {len(self.points)} points, turned by {angle:.3g} deg{bent}{like}>"
 
-    def __call__(self, directions: Any) -> np.ndarray:
+    def _drawing(self) -> dict[str, Any]:
+        return {"corners": self.points[self.own_triangles]}
+
+    def __call__(self, directions: Any) -> Floats:
         """The points (n, 3) of a's sphere at points (n, 3) of b's sphere."""
         places = np.asarray(directions, np.float64)
         if self.bending is None:
@@ -102,27 +109,39 @@ class SphereCorrespondence(Comparable):
         there = np.einsum("nk,nkc->nc", weights, self.sphere[self.own_triangles[faces]])
         return there / np.linalg.norm(there, axis=1, keepdims=True)
 
-    def carry(self, field: Any, *, labels: bool | None = None) -> np.ndarray:
-        """Values (V_b,) or (V_b, k) at b's vertices of a field at a's vertices, as Correspondence.carry."""
+    def export(self, path: str | os.PathLike[str], *, sphere: Any = None) -> None:
+        """Write b's sphere, registered to a's: b's vertices on the sphere of radius 100.
+
+        The file is complete or absent.
+        path      lh.sphere.reg, rh.NAME (FreeSurfer) or NAME.surf.gii
+        sphere    (V_a, 3) the points of a on another sphere round 0, such as fsaverage's own, to which b is registered
+                  then; None: a's of sphere_map
+        Faces that are turned over there, as stored in 32 bits, give a koebe.Warning. Needs nibabel. Raises InputError,
+        OSError.
+        """
+        if not has_one_place_a_vertex(path) or is_patch_name(path):
+            raise InputError(f"{os.fspath(path)}: a sphere is written as lh.sphere.reg or .surf.gii")
+        places = self.sphere
+        if sphere is not None:
+            given = as_points(sphere, "sphere", 3, self.count)
+            length = np.linalg.norm(given, axis=1, keepdims=True)
+            middle = np.linalg.norm((given / np.maximum(length, 1e-300)).mean(axis=0))
+            if not length.min() > 0.5 * length.max() or middle > 0.5:
+                raise InputError("the sphere must lie round 0")
+            places = self.carry(given / length)
+            places = places / np.linalg.norm(places, axis=1, keepdims=True)
+        corners = (np.float32(points)[self.own_triangles].astype(float) for points in (places, self.own_sphere))
+        here, before = map(np.linalg.det, corners)
+        if len(turned := np.flatnonzero(here * np.sign(before) <= 0.0)):
+            text = f"{len(turned)} faces are turned over on the sphere; the first face is {turned[0]}"
+            entry = Warning(kind="flipped", elements=turned.tolist(), text=text)
+            python_warnings.warn(entry, stacklevel=2)
+        source = Source(self.own_sphere, self.own_triangles)
+        export(SimpleNamespace(_source=source, points=places, loops=[], uv=places), path)
+
+    def carry(self, field: Any, *, labels: bool | None = None) -> Values:
+        """Carry a field at a's vertices to b's vertices, as Correspondence.carry."""
         return carried(field, self.triangles, self.faces, self.weights, self.count, labels)
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the correspondence to a file for `koebe.load`: NumPy's .npz. The file is complete or absent."""
-        parts = dict(vars(self))
-        report = {name: parts.pop(name) for name in ("similarity", "bending", "count")}
-        report["warnings"] = [dict(warning) for warning in parts.pop("warnings")]
-        with whole_file(path) as file:
-            np.savez_compressed(
-                file, kind=np.array("SphereCorrespondence"), report=np.array(json.dumps(report)), **parts
-            )
-
-
-def loaded_correspondence(file: Any) -> SphereCorrespondence:
-    """The correspondence in a file that `save` wrote."""
-    report = json.loads(str(file["report"]))
-    warnings = [Warning(warning) for warning in report.pop("warnings")]
-    arrays = {name: file[name] for name in file if name not in ("kind", "report")}
-    return SphereCorrespondence(**arrays, **report, warnings=warnings)
 
 
 def sphere_transfer(
@@ -179,7 +198,7 @@ def sphere_transfer(
     if bending is not None and not bending["settled"]:
         text = "the bending ended before it settled: a greater stiffness settles sooner"
         warnings.append(Warning(kind="not_converged", elements=[], text=text))
-        python_warnings.warn(warnings[0], stacklevel=3)
+        python_warnings.warn(warnings[0], stacklevel=4)
     run.at(1.0, "finish")
     return SphereCorrespondence(
         faces, weights, points, sphere, matrix, misses, similarity, bending, a.triangles, a.vertex_count, b.points,
@@ -190,13 +209,13 @@ def sphere_transfer(
 def _bent(
     a: SphereMap,
     b: SphereMap,
-    sphere: np.ndarray,
-    fields: tuple[np.ndarray, np.ndarray],
-    on_a: np.ndarray,
-    on_b: np.ndarray,
+    sphere: Floats,
+    fields: tuple[Floats, Floats],
+    on_a: Whole,
+    on_b: Whole,
     stiffness: float,
     run: Run,
-) -> tuple[np.ndarray, Bending]:
+) -> tuple[Floats, Bending]:
     """b's vertices on a's sphere after the bending, and its figures."""
     found = _koebe.register_spheres(
         a.vertices, _upright(a.points, a.triangles), _anywhere(a.points), fields[0],
@@ -206,7 +225,7 @@ def _bent(
     return found.pop("sphere"), found
 
 
-def _checked(fields: Any, a: SphereMap, b: SphereMap) -> tuple[np.ndarray, np.ndarray]:
+def _checked(fields: Any, a: SphereMap, b: SphereMap) -> tuple[Floats, Floats]:
     """The fields of both, (V_a, k) and (V_b, k) float64. Raises InputError."""
     if not isinstance(fields, (tuple, list)) or len(fields) != 2:
         raise InputError("fields must be a pair: values at a's vertices and at b's")
@@ -226,7 +245,7 @@ def _checked(fields: Any, a: SphereMap, b: SphereMap) -> tuple[np.ndarray, np.nd
     return on_a, on_b
 
 
-def _vertices(result: SphereMap, places: list[Any]) -> np.ndarray:
+def _vertices(result: SphereMap, places: list[Any]) -> Whole:
     """(n,) vertices: as named, or nearest to points in space."""
     found = np.zeros(len(places), np.int64)
     numbers = np.flatnonzero(result._source.used)
@@ -243,12 +262,12 @@ def _vertices(result: SphereMap, places: list[Any]) -> np.ndarray:
     return found
 
 
-def _anywhere(points: np.ndarray) -> np.ndarray:
+def _anywhere(points: Floats) -> Floats:
     """The points (V, 3), with vertices that have no face at (0, 0, 1)."""
     return np.where(np.isfinite(points), points, [0.0, 0.0, 1.0])
 
 
-def _upright(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+def _upright(points: Floats, triangles: Ints) -> Ints:
     """The triangles (F, 3), those that were turned to the others' orientation with two corners exchanged."""
     a, b, c = points[triangles].transpose(1, 0, 2)
     turned = np.einsum("fk,fk->f", a, np.cross(b - a, c - a)) < 0.0
@@ -258,31 +277,31 @@ def _upright(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 class _Located:
     """Where points lie among the triangles of a sphere."""
 
-    def __init__(self, points: np.ndarray, triangles: np.ndarray) -> None:
+    def __init__(self, points: Floats, triangles: Ints) -> None:
         self.triangles, upright = triangles, _upright(points, triangles)
         self.turned = (upright != triangles).any(axis=1)
         self.native = _koebe.SpherePlaces(_anywhere(points), upright)
 
-    def at(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def at(self, places: Floats) -> tuple[Ints, Floats]:
         """The triangles (n,) that hold points on the sphere, and the weights (n, 3) of their corners."""
         faces, weights = self.native.at(places)
         return faces, np.where(self.turned[faces, None], weights[:, [0, 2, 1]], weights)
 
-    def values(self, field: np.ndarray, places: np.ndarray) -> np.ndarray:
+    def values(self, field: Floats, places: Floats) -> Floats:
         """Fields (V, k) at points (n, 3) of the sphere: NaN beside a vertex where they are NaN."""
         faces, weights = self.at(places)
         return np.einsum("nc,nck->nk", weights, field[self.triangles[faces]])
 
 
-def _similarity(located: _Located, sphere: np.ndarray, b: SphereMap, fields: tuple[np.ndarray, np.ndarray]) -> float:
+def _similarity(located: _Located, sphere: Floats, b: SphereMap, fields: tuple[Floats, Floats]) -> float:
     """Mean correlation of the fields by area on b, with b's vertices at places (V, 3) on a's sphere."""
     used = b._source.used
     return float(correlation(located.values(fields[0], sphere[used]), fields[1][used], vertex_areas(b)[used]))
 
 
-def vertex_areas(result: MapReport) -> np.ndarray:
+def vertex_areas(result: MapReport) -> Floats:
     """(V,) areas of the faces around each vertex, relative to each other."""
     points = result.vertices / np.abs(result.vertices).max(initial=np.finfo(float).tiny)
     a, b, c = points[result.triangles].transpose(1, 0, 2)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    return np.bincount(result.triangles.ravel(), np.repeat(area, 3), minlength=result.vertex_count)
+    return np.asarray(np.bincount(result.triangles.ravel(), np.repeat(area, 3), minlength=result.vertex_count), float)

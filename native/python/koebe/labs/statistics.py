@@ -1,6 +1,5 @@
 """Whether groups of shapes differ: by their distances, in their spread, and point by point."""
 
-import importlib
 import itertools
 import math
 from collections.abc import Iterator
@@ -9,18 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import as_points
-from .._comparable import Comparable
+from .._arrays import as_points, as_values
+from .._comparable import Result
 from .._options import flag, whole
+from .._types import Floats, Values, Whole
 from ..errors import InputError
+from .corresponding import library
 from .family import Family
 from .sphere_family import SphereFamily
 
 _AT_ONCE = 4_000_000  # numbers of a piece of the permuted designs
 
 
-@dataclass(frozen=True)
-class PermutationTest:
+@dataclass(frozen=True, eq=False, repr=False)
+class PermutationTest(Result):
     """Whether groups of shapes differ.
 
     p            the probability of a difference like this or a greater one if the groups were drawn from one population
@@ -47,13 +48,16 @@ class PermutationTest:
             f"<koebe.PermutationTest p {self.p:.3g}, F {self.statistic:.3g}, {self.permutations} {kind} permutations>"
         )
 
+    def _drawing(self) -> dict[str, Any]:
+        return {"bars": [(0.0, self.explained), (0.0, 1.0 - self.explained)]}
+
     def to_dataframe(self) -> Any:
         """A row with the figures, as a pandas DataFrame (the extra `statistics`)."""
         return library("pandas").DataFrame([{**vars(self), "degrees": f"{self.degrees[0]}, {self.degrees[1]}"}])
 
 
 @dataclass(frozen=True, eq=False)
-class PointTest(Comparable):
+class PointTest(Result):
     """Where groups differ: figures of each point, NaN where a value is missing or all are equal.
 
     statistic    (V,) F of the linear model with the groups over the one without
@@ -64,10 +68,10 @@ class PointTest(Comparable):
     degrees      of freedom: of the groups, and of the rest
     """
 
-    statistic: np.ndarray
-    explained: np.ndarray
-    p: np.ndarray
-    p_family: np.ndarray
+    statistic: Floats
+    explained: Floats
+    p: Floats
+    p_family: Floats
     permutations: int
     degrees: tuple[int, int]
 
@@ -77,8 +81,11 @@ class PointTest(Comparable):
             f"{self.permutations} permutations>"
         )
 
+    def _drawing(self) -> dict[str, Any]:
+        return {"values": self.p}
+
     @property
-    def q(self) -> np.ndarray:
+    def q(self) -> Floats:
         """(V,) p corrected to control the false discovery rate [Benjamini & Hochberg 1995], by SciPy."""
         known = np.isfinite(self.p)
         found = np.full(len(self.p), np.nan)
@@ -133,12 +140,12 @@ def permutation_test(
     if total <= 1e-12 * whole_sum or whole_sum == 0.0:
         raise InputError("all shapes are equal" if whole_sum == 0.0 else "the covariates explain all distances")
 
-    def shares(basis: np.ndarray) -> np.ndarray:
+    def shares(basis: Floats) -> Floats:
         """Of bases (n, N, k) the sums of squares in them."""
         flat = basis.transpose(1, 0, 2).reshape(count, -1)
         return np.einsum("is,is->s", flat, rest @ flat).reshape(len(basis), -1).sum(axis=1)
 
-    def share(order: np.ndarray) -> np.ndarray:
+    def share(order: Whole) -> Floats:
         """What the groups explain of what the covariates do not, for permutations (n, N)."""
         of_covariates = shares(design.before[order]) if design.before.shape[1] > 1 else 0.0
         return shares(design.effect[order]) / (total - of_covariates)
@@ -207,18 +214,22 @@ def point_test(
     >>> np.flatnonzero(found.p_family <= 0.05).tolist()
     [7]
     """
-    values = np.array(matrix, np.float64)
+    values = as_values(matrix, "the matrix")
+    if values.dtype.kind not in "fiub":
+        raise InputError(f"the matrix must have numbers, not {values.dtype}")
+    values = values.astype(np.float64)
     if values.ndim != 2 or not len(values):
         raise InputError(f"the matrix must be (N, V), subjects x points, not {values.shape}")
     design = _Design(len(values), groups, covariates, strata, numeric)
     known = np.asarray(np.isfinite(values).all(axis=0))
+    values = values / np.where(known, _sizes(values), 1.0)  # no figure depends on the unit
     rest = design.without_covariates(values[:, known])
     total = (rest**2).sum(axis=0)
     varies = total > 1e-12 * (values[:, known] ** 2).sum(axis=0)
     known[known], rest, total = varies, rest[:, varies], total[varies]
     ratio = design.degrees[1] / design.degrees[0]
 
-    def statistics(order: np.ndarray) -> np.ndarray:
+    def statistics(order: Whole) -> Floats:
         """(points,) F for a permutation (N,)."""
         between = ((design.effect[order].T @ rest) ** 2).sum(axis=0)
         of_covariates = ((design.before[order].T @ rest) ** 2).sum(axis=0)
@@ -236,7 +247,7 @@ def point_test(
             as_far_anywhere += found.max(initial=0.0) >= least
     explained = given / (given + ratio)
 
-    def placed(column: np.ndarray) -> np.ndarray:
+    def placed(column: Floats) -> Floats:
         """(V,) with NaN where there is no test."""
         row = np.full(len(known), np.nan)
         row[known] = column
@@ -255,7 +266,7 @@ class _Design:
     """
 
     def __init__(self, count: int, groups: Any, covariates: Any, strata: Any, numeric: bool) -> None:
-        self.member: np.ndarray | None = None
+        self.member: Whole | None = None
         if flag(numeric, "numeric"):
             columns = _columns(groups, "groups", count)
         else:
@@ -277,11 +288,11 @@ class _Design:
         if self.degrees[1] < 1:
             raise InputError(f"there are too few shapes ({count}) for so many groups and covariates")
 
-    def without_covariates(self, values: np.ndarray) -> np.ndarray:
+    def without_covariates(self, values: Floats) -> Floats:
         """Columns (N, k) without their part in `before`."""
         return values - self.before @ (self.before.T @ values)
 
-    def tries(self, permutations: int, seed: int, every: bool = True) -> tuple[Iterator[np.ndarray], bool]:
+    def tries(self, permutations: int, seed: int, every: bool = True) -> tuple[Iterator[Whole], bool]:
         """Permutations (n, N): all different ones of two groups if there are few, or random ones within the strata."""
         count = len(self.strata)
         if every and self.plain and self.member is not None and self.degrees[0] == 1:
@@ -293,7 +304,7 @@ class _Design:
         if all(len(block) == 1 for block in blocks):
             raise InputError("each stratum has one shape: nothing can be permuted")
 
-        def random_ones(size: int) -> np.ndarray:
+        def random_ones(size: int) -> Whole:
             order = np.tile(np.arange(count), (size, 1))
             for block in blocks:
                 order[:, block] = random.permuted(order[:, block], axis=1)
@@ -304,7 +315,7 @@ class _Design:
         return map(random_ones, sizes), False
 
 
-def _all_of_two(member: np.ndarray, first: np.ndarray) -> Iterator[np.ndarray]:
+def _all_of_two(member: Whole, first: Whole) -> Iterator[Whole]:
     """For each choice of the first group's members one permutation that makes it, (n, N) in pieces."""
     count, second = len(member), np.flatnonzero(member == 1)
     choices = itertools.combinations(range(count), len(first))
@@ -317,23 +328,24 @@ def _all_of_two(member: np.ndarray, first: np.ndarray) -> Iterator[np.ndarray]:
         yield order
 
 
-def _distances(given: Any) -> np.ndarray:
-    """(N, N) of a family, or as given. Raises InputError."""
+def _distances(given: Any) -> Floats:
+    """(N, N) of a family, or as given; the largest is 1, as no figure depends on the unit. Raises InputError."""
     matrix = given.distances if isinstance(given, (Family, SphereFamily)) else given
-    matrix = as_points(matrix, "distances", len(np.asarray(matrix)))
+    matrix = as_values(matrix, "distances")
+    matrix = as_points(matrix, "distances", len(matrix) if matrix.ndim else 0)
     if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0) or matrix.diagonal().any() or (matrix < 0.0).any():
         raise InputError("the distances must be a symmetric matrix without negative numbers, 0 on the diagonal")
-    return matrix
+    return matrix / (matrix.max(initial=0.0) or 1.0)
 
 
-def _labels(given: Any, name: str, count: int) -> np.ndarray:
-    labels = np.asarray(given)
+def _labels(given: Any, name: str, count: int) -> Values:
+    labels = as_values(given, f"the {name}")
     if labels.shape != (count,):
         raise InputError(f"the {name} must be ({count},) labels, one for each shape, not {labels.shape}")
     return labels
 
 
-def _columns(given: Any, name: str, count: int) -> np.ndarray:
+def _columns(given: Any, name: str, count: int) -> Floats:
     """(N, k) finite numbers. Raises InputError."""
     try:
         table = np.array(given, np.float64)
@@ -345,22 +357,20 @@ def _columns(given: Any, name: str, count: int) -> np.ndarray:
     return table
 
 
-def _scaled(columns: np.ndarray) -> np.ndarray:
+def _sizes(columns: Floats) -> Floats:
+    """(k,) the largest sizes in columns, 1 for none."""
+    sizes = np.abs(columns).max(axis=0, initial=0.0)
+    return np.where(sizes > 0.0, sizes, 1.0)
+
+
+def _scaled(columns: Floats) -> Floats:
     """Columns (N, k) of length 1, or 0."""
+    columns = columns / _sizes(columns)
     lengths = np.linalg.norm(columns, axis=0)
     return columns / np.where(lengths > 0.0, lengths, 1.0)
 
 
-def _basis(columns: np.ndarray) -> np.ndarray:
+def _basis(columns: Floats) -> Floats:
     """(N, k) orthonormal basis of the span of columns whose length was 1."""
     u, values, _ = np.linalg.svd(columns, full_matrices=False)
     return u[:, values > 1e-10]
-
-
-def library(name: str, package: str = "") -> Any:
-    """A module of the extra `statistics`. Raises ImportError with what to install."""
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        needed = package or name.partition(".")[0]
-        raise ImportError(f'this needs {needed}: pip install "koebe[statistics]"') from None

@@ -1,16 +1,19 @@
 """The extremal quasiconformal map of one domain to another, and the Teichmueller distance."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
 from .._arrays import as_circles, as_indices
-from .._comparable import Comparable
+from .._comparable import Result
 from .._native import _koebe
 from .._options import callback, token
+from .._progress import Shown
+from .._types import Floats, Ints
+from .._watched import watched
 from ..errors import InputError
 from ..maps.carry import landmark_pairs
 from ..maps.result import UniformizeResult
@@ -20,7 +23,7 @@ from .transfer import places
 
 
 @dataclass(frozen=True, eq=False)
-class TeichmuellerMap(Comparable):
+class TeichmuellerMap(Result):
     """The extremal map of a to b: of all one-to-one maps the one whose largest |mu| is least.
 
     K           its dilatation, at least 1. 1: a conformal map takes a to b. Without landmarks it depends on the two
@@ -42,24 +45,28 @@ class TeichmuellerMap(Comparable):
     distance: float
     lower: float
     largest: float
-    mu: np.ndarray
-    uv: np.ndarray | None
-    match: np.ndarray
+    mu: Floats
+    uv: Floats | None
+    match: Ints
     path: str
     flipped: int
     refused: int = 0
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"values": self.mu} if self.uv is None else {"points": self.uv}
 
     def __repr__(self) -> str:
         return f"<koebe.TeichmuellerMap K {self.K:.5g}, distance {self.distance:.4g}, {self.flipped} flipped>"
 
 
+@watched()
 def teichmueller(
     a: Any,
     b: Any,
     *,
     match: Sequence[int] | Literal["least"] | None = None,
     landmarks: Sequence[tuple[Any, Any]] | None = None,
-    progress: Callable[[float, str], Any] | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> TeichmuellerMap:
     """The extremal quasiconformal map of circle domain a to circle domain b, and the Teichmueller distance.

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from .._progress import Run
+from .._types import Floats, Ints
 from ..errors import InputError, SolverError
 from ..maps.result import UniformizeResult
 from ..maps.uniformize import boundary_loops, uniformize
@@ -18,7 +19,7 @@ _EVEN = 0.5  # of the default template: circles wide enough for images, and poin
 
 def over_template(
     shapes: Sequence[Any],
-    orders: Sequence[np.ndarray],
+    orders: Sequence[Ints],
     reference: int,
     template: Any,
     landmarks: Sequence[Sequence[Any]] | None,
@@ -51,7 +52,7 @@ def over_template(
     return laid_over_mean(fits, reference, correspond, run.part(0.6, 1.0))
 
 
-def _fitted(number: int, shape: Any, order: np.ndarray, circles: tuple[Any, Any], run: Run) -> FitResult:
+def _fitted(number: int, shape: Any, order: Ints, circles: tuple[Any, Any], run: Run) -> FitResult:
     """The shape's fit to the circles. Raises SolverError with the shape's number."""
     vertices, triangles = shape.surface
     rims = [np.sort(loop) for loop in boundary_loops(triangles)]
@@ -62,7 +63,7 @@ def _fitted(number: int, shape: Any, order: np.ndarray, circles: tuple[Any, Any]
         raise SolverError(f"shape {number} cannot be fitted to the template: {error}", [number], "shapes") from error
 
 
-def _own_template(base: UniformizeResult, order: np.ndarray, run: Run) -> tuple[np.ndarray, np.ndarray]:
+def _own_template(base: UniformizeResult, order: Ints, run: Run) -> tuple[Floats, Floats]:
     """The holes' circles of the reference's map that is half even, in the order."""
     rims = [base.loops[one] for one in order]
     even = uniformize(
@@ -72,7 +73,7 @@ def _own_template(base: UniformizeResult, order: np.ndarray, run: Run) -> tuple[
     return even.centers[place], even.radii[place]
 
 
-def _circles(template: Any) -> tuple[np.ndarray, np.ndarray]:
+def _circles(template: Any) -> tuple[Floats, Floats]:
     """The holes' circles of a template as given."""
     if hasattr(template, "centers") and hasattr(template, "radii"):
         return holes_of(template.centers, template.radii)

@@ -10,12 +10,14 @@ from typing import Any, overload
 import numpy as np
 
 from .._arrays import as_indices, as_numbers
-from .._comparable import Comparable
+from .._comparable import Result
 from .._native import _koebe
 from .._options import callback, flag, token, vertex
-from .._progress import Progress, Run, Watched
+from .._progress import Run, Shown, Watched
 from .._report_entries import Warning
 from .._signatures import Unpack
+from .._types import Bools, Floats, Ints, Values
+from .._watched import watched
 from ..errors import InputError
 from ..maps.carry import carried, landmark_pairs
 from ..maps.result import Beltrami, UniformizeResult
@@ -26,7 +28,7 @@ from .sphere_transfer import STIFFNESS, SphereCorrespondence, SphereOptions, sph
 
 
 @dataclass(frozen=True, eq=False)
-class Correspondence(Comparable):
+class Correspondence(Result):
     """A point of surface a for each vertex of surface b.
 
     faces       (V_b,) int32 triangle of a that holds the point
@@ -44,17 +46,20 @@ class Correspondence(Comparable):
                 if fit=True and the holes could not be bent onto each other
     """
 
-    faces: np.ndarray
-    weights: np.ndarray
-    points: np.ndarray
-    distances: np.ndarray
+    faces: Ints
+    weights: Floats
+    points: Floats
+    distances: Floats
     alignment: DomainAlignment
     fitted: bool
-    uv: np.ndarray
+    uv: Floats
     beltrami: Beltrami
     flipped: int
-    triangles: np.ndarray
+    triangles: Ints
     warnings: list[Warning] = dataclasses.field(default_factory=list)
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"corners": self.uv[self.triangles]}
 
     @property
     def match(self) -> list[int]:
@@ -68,8 +73,8 @@ class Correspondence(Comparable):
             f"|mu| {self.beltrami['mean']:.3g} in the mean, {self.beltrami['max']:.3g} at most>"
         )
 
-    def carry(self, field: Any, *, labels: bool | None = None) -> np.ndarray:
-        """Values (V_b,) or (V_b, k) at b's vertices of a field (V_a,) or (V_a, k) at a's.
+    def carry(self, field: Any, *, labels: bool | None = None) -> Values:
+        """Carry to b's vertices, as (V_b,) or (V_b, k) values, a field (V_a,) or (V_a, k) at a's.
 
         labels   True: each vertex takes one of the labels at its triangle's corners: the label of greatest weight.
                  False: values are linear in each face. None: as labels, unless the field has floats
@@ -98,9 +103,10 @@ def transfer(
 @overload
 def transfer(a: SphereMap, b: SphereMap, field: None = None, **how: "Unpack[_OnSpheres]") -> SphereCorrespondence: ...
 @overload
-def transfer(a: UniformizeResult, b: UniformizeResult, field: Any, **how: "Unpack[_OnDisks]") -> np.ndarray: ...
+def transfer(a: UniformizeResult, b: UniformizeResult, field: Any, **how: "Unpack[_OnDisks]") -> Values: ...
 @overload
-def transfer(a: SphereMap, b: SphereMap, field: Any, **how: "Unpack[_OnSpheres]") -> np.ndarray: ...
+def transfer(a: SphereMap, b: SphereMap, field: Any, **how: "Unpack[_OnSpheres]") -> Values: ...
+@watched()
 def transfer(
     a: UniformizeResult | SphereMap,
     b: UniformizeResult | SphereMap,
@@ -114,9 +120,9 @@ def transfer(
     moebius: bool = False,
     bend: bool = False,
     stiffness: float = STIFFNESS,
-    progress: Progress | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
-) -> Correspondence | SphereCorrespondence | np.ndarray:
+) -> Correspondence | SphereCorrespondence | Values:
     """Carry a field of surface a to the vertices of surface b, with equally many loops, by corresponding points.
 
     The automorphism of the disk that brings the holes nearest lays a's circle domain over b's (align_domains). fit=True
@@ -162,7 +168,7 @@ def transfer(
             raise InputError("match, fit and extremal are for surfaces with holes")
         found_on_sphere = sphere_transfer(a, b, landmarks, fields, moebius, bend, stiffness, Run(progress, cancel))
         return found_on_sphere if field is None else found_on_sphere.carry(field)
-    if fields is not None or moebius or bend:
+    if fields is not None or flag(moebius, "moebius") or flag(bend, "bend"):
         raise InputError("fields, moebius and bend are for two results of sphere_map")
     if not (isinstance(a, UniformizeResult) and isinstance(b, UniformizeResult)):
         other = next(type(one).__name__ for one in (a, b) if not isinstance(one, UniformizeResult))
@@ -186,12 +192,12 @@ def transfer(
     found["alignment"] = DomainAlignment(found["alignment"], radii, np.argsort(found["alignment"].match).tolist())
     found["warnings"] = [Warning(warning) for warning in found["warnings"]]
     for warning in found["warnings"]:
-        warnings.warn(warning, stacklevel=2)
+        warnings.warn(warning, stacklevel=3)
     correspondence = Correspondence(**found, triangles=a.surface[1])
     return correspondence if field is None else correspondence.carry(field)
 
 
-def _forget(found: dict[str, Any], vertices: np.ndarray) -> None:
+def _forget(found: dict[str, Any], vertices: Bools) -> None:
     """Vertices of b without a face correspond to nothing."""
     for name, nothing in (("faces", -1), ("weights", np.nan), ("points", np.nan), ("distances", np.nan)):
         found[name] = np.array(found[name])

@@ -7,6 +7,7 @@ import numpy as np
 from .._native import _koebe
 from .._options import takes
 from .._signatures import FlattenOptions, Unpack
+from .._types import Bools, Floats, Ints
 from ..maps.domain_map import DomainMap, domain_map
 from ..maps.source import Source
 
@@ -33,7 +34,7 @@ class FlattenResult(DomainMap):
                      pieces that were left out is lost
     """
 
-    part: np.ndarray
+    part: Ints
     pieces: list[dict[str, Any]]
     seams: list[dict[str, Any]]
     stretch_percent: dict[str, float]
@@ -47,16 +48,16 @@ class FlattenResult(DomainMap):
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
-        self._set_arrays(part=native.part)
-        self.svg, self.dxf = [str(page) for page in native.svg], str(native.dxf)
+        self._set(part=native.part)
+        self._set(svg=[str(page) for page in native.svg], dxf=str(native.dxf))
 
     def _arrays(self) -> dict[str, Any]:
         return {**super()._arrays(), "part": self.part, "svg": np.array(self.svg, str), "dxf": np.array(self.dxf)}
 
-    def _drawn(self) -> np.ndarray:
+    def _drawn(self) -> Bools:
         return self.part >= 0
 
-    def _layout(self) -> tuple[np.ndarray, float]:
+    def _layout(self) -> tuple[Floats, float]:
         """The sheets side by side."""
         widths = [sheet["size_mm"][0] for sheet in self.sheets]
         begin = np.cumsum([0.0, *widths])

@@ -2,20 +2,21 @@
 
 import copy
 import os
-from html import escape
 from typing import Any
 
 import numpy as np
 
+from .._comparable import Result
 from .._native import _koebe
 from .._options import takes, vertex_weights
 from .._report_entries import Warning
 from .._signatures import LiftOptions, Unpack
+from .._types import Bools, Floats, Ints
 from ..io.picture import outline_svg
 from ..maps.domain_map import prepared
 
 
-class LiftResult:
+class LiftResult(Result):
     """A surface with a pattern on it, and its report.
 
     vertices     (V, 3) float64; of a perforated sheet the surface's own come first, in their order
@@ -53,37 +54,36 @@ class LiftResult:
     closed: bool
     converged: bool
 
+    _report: dict[str, Any]
+    vertices: Floats
+    triangles: Ints
+    uv: Floats
+    original: Ints
+    patch: Ints
+    face: Ints
+    weights: Floats
+    warnings: list[Warning]
+
     def __init__(self, report: dict[str, Any], native: Any) -> None:
-        self._report = report
         hidden = ("input", "vertices", "faces")
-        vars(self).update({name: value for name, value in report.items() if name not in hidden})
-        self.vertices: np.ndarray = native.vertices
-        self.triangles: np.ndarray = native.triangles
-        self.uv: np.ndarray = native.uv.reshape(-1, 3, 2)
-        self.original: np.ndarray = native.original
-        self.patch: np.ndarray = native.patch
-        self.face: np.ndarray = native.face
-        self.weights: np.ndarray = native.weights.reshape(-1, 3, 3)
-        for array in (self.vertices, self.triangles, self.uv, self.original, self.patch, self.face, self.weights):
-            array.flags.writeable = False
-        self.warnings = [Warning(warning) for warning in report["warnings"]]
+        self._set(_report=report, **{name: value for name, value in report.items() if name not in hidden})
+        self._set(**{name: getattr(native, name) for name in ("vertices", "triangles", "original", "patch", "face")})
+        self._set(uv=native.uv.reshape(-1, 3, 2), weights=native.weights.reshape(-1, 3, 3))
+        self._set(warnings=[Warning(warning) for warning in report["warnings"]])
 
     @property
-    def corner_uv(self) -> np.ndarray:
+    def corner_uv(self) -> Floats:
         """(F, 3, 2): `uv`, under the name that it has in all results."""
         return self.uv
 
-    def _drawn(self) -> np.ndarray:
+    def _drawn(self) -> Bools:
         return np.ones(len(self.triangles), bool)
 
-    def _layout(self) -> tuple[np.ndarray, float]:
+    def _layout(self) -> tuple[Floats, float]:
         return (self.uv if len(self.uv) else np.zeros((len(self.triangles), 3, 2))), 1.0
 
-    def _repr_html_(self) -> str:
-        """The outlines in the map and the figures, as a notebook shows them."""
-        picture = outline_svg(self.triangles, *self._layout(), self._drawn()) if len(self.uv) else ""
-        lines = [escape(repr(self).strip("<>")), *(escape(str(warning)) for warning in self.warnings)]
-        return f'<div style="display:flex;gap:1em">{picture}<div>{"<br/>".join(lines)}</div></div>'
+    def _picture(self) -> str:
+        return outline_svg(self.triangles, *self._layout(), self._drawn()) if len(self.uv) else ""
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""

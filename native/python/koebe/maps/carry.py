@@ -4,13 +4,12 @@ from typing import Any
 
 import numpy as np
 
-from .._options import flag
+from .._options import flag, listed
+from .._types import Floats, Values, Whole
 from ..errors import InputError
 
 
-def carried(
-    field: Any, triangles: np.ndarray, faces: np.ndarray, weights: np.ndarray, count: int, labels: bool | None
-) -> np.ndarray:
+def carried(field: Any, triangles: Whole, faces: Whole, weights: Floats, count: int, labels: bool | None) -> Values:
     """A field at points of triangles, from the field at the vertices."""
     values = np.asarray(field)
     if values.ndim not in (1, 2) or len(values) != count:
@@ -36,8 +35,13 @@ def carried(
 
 def landmark_pairs(landmarks: Any) -> list[Any]:
     """The landmarks as a list. Raises InputError for one that is no pair."""
-    pairs = [] if landmarks is None else list(landmarks)
+    pairs = [] if landmarks is None else listed(landmarks, "landmarks")
     for number, pair in enumerate(pairs):
-        if isinstance(pair, (str, bytes)) or not hasattr(pair, "__len__") or len(pair) != 2:
+        if (
+            isinstance(pair, (str, bytes))
+            or np.ma.isMaskedArray(pair)
+            or not hasattr(pair, "__len__")
+            or len(pair) != 2
+        ):
             raise InputError(f"landmark {number} is no pair: a point on a and one on b", [number], "landmarks")
     return pairs

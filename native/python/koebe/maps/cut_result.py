@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from .._types import Bools, Ints
 from .domain_map import DomainMap
 from .result import Seconds
 from .source import Source
@@ -31,7 +32,7 @@ class CutResult(DomainMap):
     """
 
     input_sha256: str
-    piece: np.ndarray
+    piece: Ints
     pieces: list[dict[str, Any]]
     cuts: list[dict[str, Any]]
     handles_cut: int
@@ -42,11 +43,12 @@ class CutResult(DomainMap):
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
-        self.piece = np.full(len(self.uv), -1, np.int32)
+        place = np.full(len(self.uv), -1, np.int32)
         for number, piece in enumerate(self.pieces):
-            self.piece[piece["faces"]] = number
+            place[piece["faces"]] = number
+        self._set(piece=place)
 
-    def _drawn(self) -> np.ndarray:
+    def _drawn(self) -> Bools:
         return self.piece >= 0
 
     def _counts(self) -> list[str]:

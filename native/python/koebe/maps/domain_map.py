@@ -3,9 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
-import numpy as np
-
 from .._options import callback, filled, token, vertex_weights
+from .._types import Floats
 from ..errors import OptionError
 from ..io.corner_mesh import mesh_with_corner_uv
 from .input import polygons_of, surface_of
@@ -22,7 +21,7 @@ class DomainMap(MapReport):
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
-        self._set_arrays(uv=native.uv.reshape(-1, 3, 2))
+        self._set(uv=native.uv.reshape(-1, 3, 2))
 
     def _counts(self) -> list[str]:
         """The parts of the result, in words."""
@@ -41,7 +40,7 @@ class DomainMap(MapReport):
         koebe_corner_uv has the six numbers of each face. Raises InputError if the input was arrays."""
         return mesh_with_corner_uv(self._source, self.uv, self._drawn(), self._point_fields())
 
-    def _point_fields(self) -> dict[str, np.ndarray]:
+    def _point_fields(self) -> dict[str, Floats]:
         """Further fields of the vertices."""
         return {}
 

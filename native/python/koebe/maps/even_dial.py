@@ -10,6 +10,7 @@ from .._arrays import as_indices, as_points
 from .._native import _koebe
 from .._option_table import rows
 from .._options import flag, number, token, whole
+from .._types import Floats
 from ..errors import InputError, KoebeError
 from .input import points_at_vertices, surface_of
 
@@ -42,7 +43,7 @@ class EvenDial:
         self._count = len(source.vertices), len(source.triangles)
         self.moved = False
 
-    def move(self, even: float, *, steps: int = 2, cancel: "_koebe.CancelToken | None" = None) -> np.ndarray:
+    def move(self, even: float, *, steps: int = 2, cancel: "_koebe.CancelToken | None" = None) -> Floats:
         """The map (V, 2) after at most so many Newton steps towards E; also `uv`. Calls add up to the map at E.
 
         even    E as for `uniformize`; near 0 the map becomes conformal again
@@ -55,7 +56,7 @@ class EvenDial:
 
     def pin(
         self, pins: Mapping[int, Sequence[float]], *, even: float = 0.5, cancel: "_koebe.CancelToken | None" = None
-    ) -> np.ndarray:
+    ) -> Floats:
         """The map (V, 2), one to one, with these vertices exactly at their places; also `uv`.
 
         pins    vertex: (u, v). Later calls of `move` keep them there; a new call replaces them
@@ -82,7 +83,7 @@ class EvenDial:
         self.uv = self._everywhere(uv)
         return self.uv
 
-    def _everywhere(self, uv: np.ndarray) -> np.ndarray:
+    def _everywhere(self, uv: Floats) -> Floats:
         """(V, 2), with NaN at vertices without a face."""
         whole_map = np.full((len(self._used), 2), np.nan)
         whole_map[self._used] = uv

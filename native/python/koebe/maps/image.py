@@ -4,8 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_values
 from .._native import _koebe
 from .._options import flag, whole
+from .._types import Bools, Floats, Values, Whole
 from ..errors import InputError
 from .carry import carried
 from .result import UniformizeResult
@@ -17,7 +19,7 @@ _NEAR = 1e-9  # of the first difference: read back exactly
 
 def to_image(
     result: UniformizeResult, field: Any, pixels: int = 512, *, exact: bool = True, labels: bool | None = None
-) -> tuple[np.ndarray, float]:
+) -> tuple[Values, float]:
     """An image of a field over the unit disk, and the error with which from_image reads it back at the vertices.
 
     All maps to one template have images whose pixels correspond: images can be averaged and compared.
@@ -42,7 +44,7 @@ def to_image(
     (256, 256) True True
     """
     _require_disk(result)
-    side = whole(pixels, "pixels", 2, _MOST_PIXELS)
+    side, exact = whole(pixels, "pixels", 2, _MOST_PIXELS), flag(exact, "exact")
     covered, faces, weights = _pixels(result, side)
     triangles, count = result.surface[1], result.vertex_count
     values = carried(field, triangles, faces, weights, count, labels)
@@ -60,7 +62,7 @@ def to_image(
     return columns.T.reshape(image.shape), max(errors, default=0.0)
 
 
-def from_image(image: Any, result: UniformizeResult, *, labels: bool | None = None) -> np.ndarray:
+def from_image(image: Any, result: UniformizeResult, *, labels: bool | None = None) -> Values:
     """The values (V,) or (V, k) at the vertices of an image (n, n) or (n, n, k) over the unit disk, as of to_image.
 
     Values are bilinear between the centres of pixels, NaN beside a pixel that is NaN, and NaN for a vertex without a
@@ -77,7 +79,7 @@ def from_image(image: Any, result: UniformizeResult, *, labels: bool | None = No
     (2309,)
     """
     _require_disk(result)
-    values = np.asarray(image)
+    values = as_values(image, "the image")
     if values.ndim not in (2, 3) or values.shape[0] != values.shape[1] or len(values) < 2:
         raise InputError(f"the image has the shape {values.shape}, not (n, n) or (n, n, k)")
     if values.dtype.kind not in "fiubU" or values.dtype.kind == "U" and labels is False:
@@ -100,21 +102,20 @@ def _require_disk(result: Any) -> None:
         raise TypeError(f"images are of results of uniformize and fit_circles, not of {type(result).__name__}")
 
 
-def _as_labels(values: np.ndarray, labels: bool | None) -> bool:
+def _as_labels(values: Floats, labels: bool | None) -> bool:
     return values.dtype.kind != "f" if labels is None else flag(labels, "labels")
 
 
-def _used(result: UniformizeResult) -> np.ndarray:
-    used: np.ndarray = np.isfinite(result.uv).all(axis=1)
-    return used
+def _used(result: UniformizeResult) -> Bools:
+    return np.asarray(np.isfinite(result.uv).all(axis=1))
 
 
-def _places(uv: np.ndarray, side: int) -> np.ndarray:
+def _places(uv: Floats, side: int) -> Floats:
     """(2, n) column and row of points of the disk, in pixels: whole numbers at the pixels' centres."""
     return 0.5 * side * (1.0 + uv.T * np.array([[1.0], [-1.0]])) - 0.5
 
 
-def _pixels(result: UniformizeResult, side: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _pixels(result: UniformizeResult, side: int) -> tuple[Whole, Whole, Floats]:
     """The pixels (n,) in the circle domain, on faces, and in a strip around both, with their faces and weights."""
     steps = (np.arange(side) + 0.5) * (2.0 / side) - 1.0
     x, y = np.tile(steps, side), np.repeat(-steps, side)
@@ -135,7 +136,7 @@ def _pixels(result: UniformizeResult, side: int) -> tuple[np.ndarray, np.ndarray
     return pixels[kept], faces[kept], weights[kept]
 
 
-def _stencil(result: UniformizeResult, side: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _stencil(result: UniformizeResult, side: int) -> tuple[Whole, Whole, Floats]:
     """The vertices (n,) that have a place, the four pixels (n, 4) beside each, and their weights."""
     vertices = np.flatnonzero(_used(result))
     places = np.clip(_places(result.uv[vertices], side), 0.0, side - 1.0)
@@ -146,9 +147,7 @@ def _stencil(result: UniformizeResult, side: int) -> tuple[np.ndarray, np.ndarra
     return vertices, numbers, np.stack([up * left, up * right, down * left, down * right], axis=1)
 
 
-def _fitted(
-    image: np.ndarray, vertices: np.ndarray, numbers: np.ndarray, weights: np.ndarray, wanted: np.ndarray, exact: bool
-) -> float:
+def _fitted(image: Floats, vertices: Whole, numbers: Whole, weights: Floats, wanted: Floats, exact: bool) -> float:
     """Moves pixels by the least squares that give the wanted values at the vertices, by conjugate gradients.
 
     image    (n n,), changed    wanted    (V,)    Returns the largest error that is left.
@@ -159,8 +158,8 @@ def _fitted(
     if not len(missing):
         return 0.0
 
-    def spread(values: np.ndarray) -> np.ndarray:
-        return np.bincount(numbers.ravel(), (weights * values[:, None]).ravel(), len(image))
+    def spread(values: Floats) -> Floats:
+        return np.asarray(np.bincount(numbers.ravel(), (weights * values[:, None]).ravel(), len(image)), np.float64)
 
     goal = _NEAR * np.abs(missing).max()
     slope = spread(missing)

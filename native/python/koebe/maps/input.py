@@ -7,8 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import as_points, as_surface
+from .._arrays import as_flags, as_points, as_surface, as_values
 from .._native import _koebe
+from .._options import path_of
+from .._types import Floats, Ints
 from ..errors import InputError
 from ..io.formats import is_foreign_surface, read_surface
 from ..io.meshes import Polygons, can_give_back, is_mesh, plain, read_mesh
@@ -41,10 +43,10 @@ def _welded(source: Source, distance: float, degenerate: bool) -> Source:
     return welded if degenerate or len(kept) == len(a) else _restricted(welded, kept)
 
 
-def _restricted(source: Source, kept: np.ndarray) -> Source:
+def _restricted(source: Source, kept: Ints) -> Source:
     """The surface with only these of its triangles."""
 
-    def rows(array: np.ndarray | None) -> np.ndarray | None:
+    def rows(array: Ints | None) -> Ints | None:
         return None if array is None else array[kept]
 
     return replace(
@@ -54,27 +56,16 @@ def _restricted(source: Source, kept: np.ndarray) -> Source:
 
 
 def _masked(source: Source, mask: Any) -> Source:
-    out = as_mask(mask, len(source.vertices))
+    out = as_flags(mask, "the mask", len(source.vertices), "True (left out) and False")
     dropped = out[source.given_triangles].any(axis=1)
     if source.polygon is not None:  # a polygon is one face
         dropped = np.isin(source.polygon, source.polygon[dropped])
     if dropped.all():
         raise InputError("the mask leaves out all faces")
-    return replace(_restricted(source, np.flatnonzero(~dropped)), mask=out)
+    return replace(_restricted(source, np.flatnonzero(~dropped).astype(np.int32)), mask=out)
 
 
-def as_mask(mask: Any, count: int) -> np.ndarray:
-    """(V,) bool. Raises InputError for any other array: numbers of vertices would look like 0 and 1."""
-    out = np.array(mask)
-    if out.shape != (count,) or out.dtype != bool:
-        raise InputError(
-            f"the mask must be ({count},) of True (left out) and False, not {out.shape} {out.dtype}: koebe.read_region "
-            "reads one from a file"
-        )
-    return out
-
-
-def points_at_vertices(points: Any, name: str, source: Source) -> np.ndarray:
+def points_at_vertices(points: Any, name: str, source: Source) -> Floats:
     """(V, 2) float64, finite. Where a vertex has no face, its point is not looked at, and becomes 0."""
     given = np.array(points)
     if given.shape == (len(source.vertices), 2) and given.dtype.kind == "f":
@@ -83,6 +74,8 @@ def points_at_vertices(points: Any, name: str, source: Source) -> np.ndarray:
 
 
 def _whole_surface(vertices: Any, triangles: Any, degenerate: bool) -> Source:
+    if _is_path(vertices):
+        path_of(vertices, "vertices")
     if _is_path(vertices) and is_foreign_surface(vertices):
         vertices = read_surface(vertices)
     if is_mesh(vertices):
@@ -141,12 +134,12 @@ def _is_table(thing: Any) -> bool:
     )
 
 
-def polygons_of(given: Any, source: Source) -> np.ndarray:
+def polygons_of(given: Any, source: Source) -> Ints:
     """(F,) int32: the polygons' numbers as given, or as in the mesh; empty if each triangle is by itself."""
     if given is None:
         return np.zeros(0, np.int32) if source.polygon is None else source.polygon
-    numbers, count = np.asarray(given), len(source.triangles)
-    if source.kept is not None and len(numbers) > source.kept[-1]:  # of all faces
+    numbers, count = as_values(given, "polygon"), len(source.triangles)
+    if source.kept is not None and numbers.ndim and len(numbers) > source.kept[-1]:  # of all faces
         numbers = numbers[source.kept]
     if numbers.shape != (count,) or numbers.dtype.kind not in "iu":
         raise InputError(f"polygon must be ({count},) integers, not {numbers.shape} {numbers.dtype}")

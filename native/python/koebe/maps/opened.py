@@ -1,20 +1,22 @@
 """Cuts any mesh, in its connectivity only, into surfaces that can be mapped."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from .._comparable import Comparable
+from .._comparable import Result
 from .._native import _koebe
 from .._options import callback, token
+from .._progress import Shown
+from .._types import Bools, Floats, Ints
+from .._watched import watched
 from .input import polygons_of, surface_of
 from .source import Source
 
 
-@dataclass(frozen=True, eq=False)
-class SurfacePiece(Comparable):
+@dataclass(frozen=True, eq=False, repr=False)
+class SurfacePiece(Result):
     """A connected, oriented, manifold surface of genus 0 with at least one boundary loop, as `uniformize` needs it.
 
     vertices        (V', 3) float64, the input's positions
@@ -24,15 +26,21 @@ class SurfacePiece(Comparable):
     turned          (F',) bool, where the second and third corner are exchanged
     """
 
-    vertices: np.ndarray
-    triangles: np.ndarray
-    source_vertex: np.ndarray
-    source_face: np.ndarray
-    turned: np.ndarray
+    vertices: Floats
+    triangles: Ints
+    source_vertex: Ints
+    source_face: Ints
+    turned: Bools
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"corners": self.vertices[self.triangles]}
+
+    def __repr__(self) -> str:
+        return f"<koebe.SurfacePiece {len(self.vertices)} vertices, {len(self.triangles)} faces>"
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceCut(Comparable):
+class SurfaceCut(Result):
     """A cut.
 
     kind       'crowded_edge', 'orientation', 'bow_tie', 'handle' or 'opening', as in CutResult
@@ -42,12 +50,12 @@ class SurfaceCut(Comparable):
     """
 
     kind: str
-    vertices: np.ndarray
+    vertices: Ints
     text: str
 
 
-@dataclass(frozen=True)
-class LeftOutFace:
+@dataclass(frozen=True, eq=False)
+class LeftOutFace(Result):
     """A face in no piece: `degenerate`, it names a vertex twice, or else it duplicates another face. `like` is the face
     that it can be drawn like, or None."""
 
@@ -56,8 +64,8 @@ class LeftOutFace:
     degenerate: bool
 
 
-@dataclass(frozen=True, eq=False)
-class OpenedSurface(Comparable):
+@dataclass(frozen=True, eq=False, repr=False)
+class OpenedSurface(Result):
     """The result of `open_surface`: pieces by lowest face, cuts, faces left out (ascending), the number of handles."""
 
     pieces: list[SurfacePiece]
@@ -65,14 +73,21 @@ class OpenedSurface(Comparable):
     left_out: list[LeftOutFace]
     handles_cut: int
 
+    def _drawing(self) -> dict[str, Any]:
+        return {"corners": np.concatenate([piece.vertices[piece.triangles] for piece in self.pieces])}
 
+    def __repr__(self) -> str:
+        return f"<koebe.OpenedSurface {len(self.pieces)} pieces, {len(self.cuts)} cuts, {self.handles_cut} handles cut>"
+
+
+@watched()
 def open_surface(
     vertices: Any,
     triangles: Any = None,
     *,
     polygon: Any = None,
     mask: Any = None,
-    progress: Callable[[float, str], Any] | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> OpenedSurface:
     """Open, cut and split any mesh until each piece can be mapped, as `uniformize(..., cut=True)` does first.

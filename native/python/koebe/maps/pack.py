@@ -4,9 +4,11 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_flags
 from .._native import _koebe
 from .._options import takes, token
 from .._signatures import PackOptions, Unpack
+from .._types import Floats, Ints
 from ..errors import InputError
 from .domain_map import DomainMap, prepared
 from .input import polygons_of
@@ -34,7 +36,7 @@ class PackResult(DomainMap):
                      triangles that are turned over within their island, or have no area, too
     """
 
-    island: np.ndarray
+    island: Ints
     islands: list[dict[str, Any]]
     overlaps: int
     tiles: int
@@ -44,7 +46,7 @@ class PackResult(DomainMap):
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
-        self._set_arrays(island=np.array(native.island))
+        self._set(island=np.array(native.island))
 
     def _arrays(self) -> dict[str, Any]:
         return {**super()._arrays(), "island": self.island}
@@ -87,19 +89,17 @@ def pack(vertices: Any, triangles: Any = None, **given: "Unpack[PackOptions]") -
     return PackResult({**native.report(), "options": said}, native, source)
 
 
-def _locks(given: Any, source: Source) -> np.ndarray:
+def _locks(given: Any, source: Source) -> Floats:
     """(F,) 1 for triangles whose island keeps its place, or empty."""
     if given is None:
         return np.zeros(0)
     locked = np.asarray(given)
     if source.kept is not None and len(locked) > source.kept[-1]:  # of all triangles
         locked = locked[source.kept]
-    if locked.shape != (len(source.triangles),) or locked.dtype != bool:
-        raise InputError(f"locked must be ({len(source.triangles)},) bool, not {locked.shape} {locked.dtype}")
-    return locked.astype(np.float64)
+    return as_flags(locked, "locked", len(source.triangles)).astype(np.float64)
 
 
-def corner_uv(given: Any, source: Source) -> np.ndarray:
+def corner_uv(given: Any, source: Source) -> Floats:
     """(F, 3, 2) float64 of the source's triangles."""
     uv = np.asarray([] if given is None else given)
     if uv.dtype.kind in "fiu" and uv.shape == source.vertices.shape[:1] + (2,):

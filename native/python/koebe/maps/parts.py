@@ -7,6 +7,7 @@ import numpy as np
 from .._native import _koebe
 from .._options import flag, takes, vertex_weights
 from .._signatures import PartsOptions, Unpack
+from .._types import Bools, Ints
 from ..errors import InputError
 from .domain_map import DomainMap, prepared
 from .input import polygons_of
@@ -41,7 +42,7 @@ class PartsResult(DomainMap):
                      part count in lost_area only, and only if they have no area at all
     """
 
-    part: np.ndarray
+    part: Ints
     parts: list[dict[str, Any]]
     stacked: list[dict[str, Any]]
     tiles: int
@@ -61,9 +62,9 @@ class PartsResult(DomainMap):
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
-        self.part = np.array(native.part)
+        self._set(part=np.array(native.part))
 
-    def _drawn(self) -> np.ndarray:
+    def _drawn(self) -> Bools:
         return self.part >= 0
 
     def _counts(self) -> list[str]:
@@ -118,7 +119,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
     return PartsResult({**native.report(), "options": said}, native, source)
 
 
-def _edges(name: str, edges: Any, count: int) -> np.ndarray:
+def _edges(name: str, edges: Any, count: int) -> Ints:
     """Vertices of edges as int32."""
     given = np.asarray(edges)
     if given.size == 0:

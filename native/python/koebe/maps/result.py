@@ -1,25 +1,25 @@
 """The result of a uniformization."""
 
 import copy
+import json
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from html import escape
 from importlib import import_module
 from typing import Any, TypedDict
 
 import numpy as np
 
 from .._arrays import as_loops
-from .._comparable import Comparable
+from .._comparable import Result, fixed
 from .._fields import face_angle_error_deg, log_scale
 from .._native import _koebe
 from .._report_entries import Loop, Warning
+from .._types import Bools, Complex, Floats, Ints
 from ..errors import InputError
-from ..io.files import Saved
 from ..io.meshes import ANGLE_ERROR, LOG_SCALE, Fields, mesh_with_fields
-from ..io.picture import outline_svg
+from ..io.picture import drawing_svg, outline_svg
 from .source import Source
 
 # UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs.
@@ -108,7 +108,7 @@ def figures_of(report: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in report.items() if name not in ("input", "vertices", "faces", "cut")}
 
 
-class MapReport(Saved, Comparable):
+class MapReport(Result):
     """The report of every map, for any domain. It does not change, and is equal to another one of the same surface, map
     and report; times and memory do not count.
 
@@ -128,9 +128,11 @@ class MapReport(Saved, Comparable):
     uv               as each result says. corner_uv is the same thing of all results
     """
 
+    _report: dict[str, Any]
+    _source: Source
     version: str
     options: dict[str, Any]
-    uv: np.ndarray
+    uv: Floats
     converged: bool
     angle_error_deg: AngleError
     angle_error_stored_deg: AngleError
@@ -140,7 +142,7 @@ class MapReport(Saved, Comparable):
     conformal_energy: float
     flipped: int
     below_resolution: int
-    flipped_faces: np.ndarray
+    flipped_faces: Ints
     even: float = 0.0
     overlaps: int = 0
     concave_polygons: int = 0
@@ -151,22 +153,13 @@ class MapReport(Saved, Comparable):
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         """@param native has the arrays: the library's result, or the content of a file"""
-        self._report = report = source.with_input_warnings(report)
-        self._source = source
-        self._set(**figures_of(report))
+        report = source.with_input_warnings(report)
+        self._set(_report=report, _source=source, **figures_of(report))
         self._set(
             loops=[Loop(loop) for loop in report.get("loops", ())],
             warnings=[Warning(warning) for warning in report["warnings"]],
             flipped_faces=np.array(native.flipped_faces, dtype=np.int32),
         )
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name in vars(self):
-            raise AttributeError(f"{name} of a {type(self).__name__} cannot change")
-        super().__setattr__(name, value)
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"{name} of a {type(self).__name__} cannot change")
 
     def __hash__(self) -> int:
         return hash((type(self), self._report.get("input_sha256")))
@@ -174,30 +167,28 @@ class MapReport(Saved, Comparable):
     def _compared(self) -> dict[str, Any]:
         return {**self._report, **self._arrays(), "of_vertices": self.vertices, "of_triangles": self.triangles}
 
-    def _set(self, **values: Any) -> None:
-        """Take values as attributes while the result is made, in the place of earlier ones."""
-        vars(self).update(values)
-
-    def _set_arrays(self, **arrays: np.ndarray) -> None:
-        """Take read-only arrays as attributes."""
-        for name, array in arrays.items():
-            array.flags.writeable = False
-            self._set(**{name: array})
-
     def _arrays(self) -> dict[str, Any]:
+        """Its arrays in a file, under the library's names."""
         return {"uv": self.uv, "flipped_faces": self.flipped_faces}
+
+    def _entries(self) -> dict[str, Any]:
+        """All of its file."""
+        source = {name: getattr(self._source, name) for name in ("vertices", "triangles", "kept", "first", "filed")}
+        known = {name: array for name, array in source.items() if array is not None}
+        report = np.array(json.dumps(self._report))
+        return {"kind": np.array(type(self).__name__), "report": report, **known, **self._arrays()}
 
     def to_dict(self) -> dict[str, Any]:
         """The command's JSON report as a new dict, with options."""
         return copy.deepcopy(self._report)
 
     @property
-    def vertices(self) -> np.ndarray:
+    def vertices(self) -> Floats:
         """(V, 3) float64: the positions of the surface's vertices."""
         return self._source.vertices
 
     @property
-    def triangles(self) -> np.ndarray:
+    def triangles(self) -> Ints:
         """(F, 3) int32: the mapped triangles, without those that a mask left out."""
         return self._source.triangles
 
@@ -212,26 +203,26 @@ class MapReport(Saved, Comparable):
         return len(self._source.triangles)
 
     @property
-    def corner_uv(self) -> np.ndarray:
+    def corner_uv(self) -> Floats:
         """(F, 3, 2) float64, texture coordinates of each triangle's corners: of every kind of result, as its files have
         them. For UniformizeResult and FitResult they lie in [0, 1]^2 and are (1 + uv) / 2, for others they are `uv`."""
         return self.uv if self.uv.ndim == 3 else 0.5 * (1.0 + self.uv[self._source.triangles])
 
     @property
-    def surface(self) -> tuple[np.ndarray, np.ndarray]:
+    def surface(self) -> tuple[Floats, Ints]:
         """Vertices (V, 3) float64 and triangles (F, 3) int32 of the mapped surface, without what a mask left out."""
         return self._source.vertices, self._source.triangles
 
     @property
-    def source_face(self) -> np.ndarray:
+    def source_face(self) -> Ints:
         """(F,) int32: the number in the input of each mapped triangle; 0, 1, 2, ... without a mask."""
         return self._source.source_face
 
-    def _drawn(self) -> np.ndarray:
+    def _drawn(self) -> Bools:
         """(F,) triangles that have a place of their own in the map."""
         return np.ones(self.face_count, bool)
 
-    def _layout(self) -> tuple[np.ndarray, float]:
+    def _layout(self) -> tuple[Floats, float]:
         """(F, 3, 2) places of the corners in a picture of the map, and the length of a side of its square."""
         return self.corner_uv, 1.0
 
@@ -243,16 +234,13 @@ class MapReport(Saved, Comparable):
         """The map as SVG."""
         return outline_svg(self.triangles, *self._layout(), self._drawn())
 
-    def _repr_html_(self) -> str:
-        """The map and its figures, as a notebook shows them."""
+    def _lines(self) -> list[str]:
         sweeps = getattr(self, "sweeps", None)
-        lines = [
+        return [
             ", ".join([f"{self.vertex_count:,} vertices", f"{self.face_count:,} faces", *self._counts()]),
             ("converged" if self.converged else "not converged") + (f" in {sweeps} sweeps" if sweeps else ""),
             f"angle error {self.angle_error_deg['mean']:.3g}°, {self.flipped} flipped",
-            *(escape(str(warning)) for warning in self.warnings),
         ]
-        return f'<div style="display:flex;gap:1em">{self._picture()}<div>{"<br/>".join(lines)}</div></div>'
 
     def export(self, path: str | os.PathLike[str]) -> None:
         """Write the map in the format that the file's name says. The file is complete or absent.
@@ -268,8 +256,8 @@ class MapReport(Saved, Comparable):
         import_module("..io.export", __package__).export(self, path)
 
 
-@dataclass(frozen=True, eq=False)
-class ConformalDomain(Comparable):
+@dataclass(frozen=True, eq=False, repr=False)
+class ConformalDomain(Result):
     """The circle domain of the surface itself. Shapes are compared by it, whatever map the result shows.
 
     centers, radii   (L, 2) and (L,) circles in the unit disk, in the order of the result's loops
@@ -279,12 +267,18 @@ class ConformalDomain(Comparable):
     off_circle       int32 arrays: vertices of each loop that are not on its circle
     """
 
-    centers: np.ndarray
-    radii: np.ndarray
-    own: np.ndarray
+    centers: Floats
+    radii: Floats
+    own: Bools
     converged: bool
-    uv: np.ndarray
-    off_circle: list[np.ndarray]
+    uv: Floats
+    off_circle: list[Ints]
+
+    def _drawing(self) -> dict[str, Any]:
+        return {"circles": (self.centers, self.radii)}
+
+    def __repr__(self) -> str:
+        return f"<koebe.ConformalDomain {len(self.radii)} loops, {len(self.uv)} vertices>"
 
 
 class UniformizeResult(MapReport):
@@ -316,15 +310,16 @@ class UniformizeResult(MapReport):
     below_resolution, flipped_faces, seconds, peak_memory_mb, warnings    as in MapReport
     """
 
+    _conformal_uv: Floats | None
     input_sha256: str = ""
-    uv: np.ndarray
-    centers: np.ndarray
-    radii: np.ndarray
-    roundness: np.ndarray
-    roundness_least_squares: np.ndarray
+    uv: Floats
+    centers: Floats
+    radii: Floats
+    roundness: Floats
+    roundness_least_squares: Floats
     mean_roundness: MeanRoundness
-    off_circle: list[np.ndarray]
-    own_circle: np.ndarray
+    off_circle: list[Ints]
+    own_circle: Bools
     rims: str = "smooth"
     method: str
     engine: str
@@ -334,30 +329,29 @@ class UniformizeResult(MapReport):
     sweeps: int
     steps: int
     history: list[Step]
-    step_maps: list[np.ndarray]
+    step_maps: list[Floats]
     seconds: Seconds
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         loops, conformal_uv = report["loops"], getattr(native, "conformal_uv", None)
         self._set(options=report.get("options", {}))
-        self._set_arrays(uv=source.outside_nan(native.uv))
-        self.centers = np.array([loop["center"] for loop in loops])
-        self.radii = np.array([loop["radius"] for loop in loops])
-        self.roundness = np.array([loop["roundness"] for loop in loops])
-        self.roundness_least_squares = np.array([loop["roundness_least_squares"] for loop in loops])
-        self.off_circle = as_loops([loop["off_circle"] for loop in loops])
-        self.own_circle = np.array([loop["own_circle"] for loop in loops])
-        self._conformal_uv = None if conformal_uv is None else source.outside_nan(conformal_uv)
-        self.step_maps = list(getattr(native, "step_maps", ()))
+        self._set(uv=source.outside_nan(native.uv))
+        columns = {"centers": "center", "radii": "radius"}
+        names = ("centers", "radii", "roundness", "roundness_least_squares", "own_circle")
+        self._set(
+            **{name: np.array([loop[columns.get(name, name)] for loop in loops]) for name in names},
+            off_circle=as_loops([loop["off_circle"] for loop in loops]),
+            step_maps=list(getattr(native, "step_maps", ())),
+            _conformal_uv=None if conformal_uv is None else source.outside_nan(conformal_uv),
+        )
 
     @cached_property
     def conformal(self) -> ConformalDomain:
         """The circle domain of the surface itself, by which shapes are compared."""
         loops = [loop.get("conformal", loop) for loop in self._report["loops"]]
         kept = self.even == 0.0 or "conformal" in self._report["loops"][0]  # early files have only the moved circles
-        uv = self.uv.view() if self._conformal_uv is None else self._conformal_uv
-        uv.flags.writeable = False
+        uv = self.uv if self._conformal_uv is None else self._conformal_uv
         return ConformalDomain(
             np.array([loop["center"] for loop in loops]),
             np.array([loop["radius"] for loop in loops]),
@@ -367,15 +361,21 @@ class UniformizeResult(MapReport):
             as_loops([loop["off_circle"] for loop in loops]),
         )
 
-    @cached_property
-    def log_scale(self) -> np.ndarray:
-        """(V,) log of the map's scale at each vertex, disk lengths per surface length; NaN where there is no scale."""
-        return self._source.outside_nan(log_scale(self._source.vertices, self._source.triangles, self.uv))
+    @property
+    def z(self) -> Complex:
+        """(V,) complex128: `uv` as points x + iy of the unit disk."""
+        return np.asarray(self.uv @ [1.0, 1.0j], np.complex128)
 
     @cached_property
-    def face_angle_error_deg(self) -> np.ndarray:
+    def log_scale(self) -> Floats:
+        """(V,) log of the map's scale at each vertex, disk lengths per surface length; NaN where there is no scale."""
+        scale = log_scale(self._source.vertices, self._source.triangles, self.uv)
+        return fixed(self._source.outside_nan(scale))
+
+    @cached_property
+    def face_angle_error_deg(self) -> Floats:
         """(F,) mean angle error of each triangle's corners, degrees; NaN for triangles without area."""
-        return face_angle_error_deg(self._source.vertices, self._source.triangles, self.uv)
+        return fixed(face_angle_error_deg(self._source.vertices, self._source.triangles, self.uv))
 
     def to_mesh(self) -> Any:
         """The mesh of the input, of the same kind, with UVs in [0, 1]^2, koebe_log_scale at the vertices and
@@ -403,7 +403,7 @@ class UniformizeResult(MapReport):
             f"{self.sweeps} sweeps, angle error {self.angle_error_deg['mean']:.3g} deg, {self.flipped} flipped>"
         )
 
-    def _layout(self) -> tuple[np.ndarray, float]:
+    def _layout(self) -> tuple[Floats, float]:
         return self.uv[self.triangles], 2.0
 
     def _counts(self) -> list[str]:
@@ -411,11 +411,4 @@ class UniformizeResult(MapReport):
 
     def _picture(self) -> str:
         """The circle domain."""
-        circles = "".join(
-            f'<circle cx="{x:.6g}" cy="{-y:.6g}" r="{radius:.6g}" fill="{"#e8eef7" if k == 0 else "#fff"}"/>'
-            for k, ((x, y), radius) in enumerate(zip(self.centers, self.radii, strict=True))
-        )
-        return (
-            '<svg width="160" height="160" viewBox="-1.02 -1.02 2.04 2.04" '
-            f'stroke="#1d4e89" stroke-width="0.012">{circles}</svg>'
-        )
+        return drawing_svg({"circles": (self.centers, self.radii)})

@@ -7,6 +7,7 @@ import numpy as np
 from .._native import _koebe
 from .._options import takes
 from .._signatures import SchottkyOptions, Unpack
+from .._types import Complex, Floats
 from .domain_map import DomainMap, domain_map
 from .result import Seconds
 from .source import Source
@@ -41,9 +42,9 @@ class SchottkyMap(DomainMap):
     below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version    as in MapReport
     """
 
-    generators: np.ndarray
-    multipliers: np.ndarray
-    circles: np.ndarray
+    generators: Complex
+    multipliers: Complex
+    circles: Floats
     by_circles: bool
     handles: list[dict[str, Any]]
     seconds: Seconds
@@ -51,7 +52,7 @@ class SchottkyMap(DomainMap):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         matrices = np.array([handle["generator"] for handle in self.handles], float)
-        self._set_arrays(
+        self._set(
             generators=matrices[..., 0] + 1j * matrices[..., 1],
             multipliers=np.array([complex(*handle["multiplier"]) for handle in self.handles]),
             circles=np.array(

@@ -1,19 +1,30 @@
 """Joins islands of a UV layer along cuts."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from .._comparable import TupleResult
 from .._native import _koebe
 from .._option_table import rows
 from .._options import callback, number, token
+from .._progress import Shown
+from .._types import Floats, Ints, Whole
+from .._watched import watched
 from ..errors import InputError
 from .input import polygons_of, surface_of
 from .pack import corner_uv
 
 
-class SewnUV(NamedTuple):
+class _Sewn(NamedTuple):
+    uv: Floats
+    island: Ints
+    joined: int
+    sewn: int
+
+
+class SewnUV(TupleResult, _Sewn):
     """The result of `sew`.
 
     uv       (F, 3, 2) float64: triangles of other islands keep their UVs
@@ -22,22 +33,24 @@ class SewnUV(NamedTuple):
     sewn     number of edges that are no cuts any more
     """
 
-    uv: np.ndarray
-    island: np.ndarray
-    joined: int
-    sewn: int
+    def _drawing(self) -> dict[str, Any]:
+        return {"corners": self.uv}
+
+    def __repr__(self) -> str:
+        return f"<koebe.SewnUV {len(self.uv)} faces, {self.joined} islands joined, {self.sewn} edges sewn>"
 
 
+@watched()
 def sew(
     vertices: Any,
     triangles: Any = None,
     *,
     uv: Any,
-    edges: Sequence[tuple[int, int]] | np.ndarray,
+    edges: Sequence[tuple[int, int]] | Whole,
     polygon: Any = None,
     even: float | None = None,
     mask: Any = None,
-    progress: Callable[[float, str], Any] | None = None,
+    progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> SewnUV:
     """Join the two sides of cuts of UVs: two islands become one, or a cut inside one is closed.

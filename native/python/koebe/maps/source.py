@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from .._comparable import fixed
 from .._native import _koebe
+from .._types import Bools, Floats, Ints
 from ..errors import KoebeError
 from ..io.meshes import Polygons
 
@@ -17,23 +19,29 @@ class Source:
     """The mapped surface: its arrays, the polygons they were cut from, and the mesh of another package that they come
     from, if any."""
 
-    vertices: np.ndarray
-    triangles: np.ndarray
+    vertices: Floats
+    triangles: Ints
     mesh: Any = None
     polygons: Polygons | None = None
-    polygon: np.ndarray | None = None  # (F,) of each triangle
-    kept: np.ndarray | None = None  # (F,) the numbers of these triangles in the input, if others are left out
-    mask: np.ndarray | None = None  # (V,) bool, as given
-    first: np.ndarray | None = None  # (V,) the vertex that each one is joined to, with `weld`
-    filed: np.ndarray | None = None  # (F, 3) the triangles with the vertices that they had before
+    polygon: Ints | None = None  # (F,) of each triangle
+    kept: Ints | None = None  # (F,) the numbers of these triangles in the input, if others are left out
+    mask: Bools | None = None  # (V,) bool, as given
+    first: Ints | None = None  # (V,) the vertex that each one is joined to, with `weld`
+    filed: Ints | None = None  # (F, 3) the triangles with the vertices that they had before
+
+    def __post_init__(self) -> None:
+        self.__setstate__(vars(self))
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update({name: fixed(value) for name, value in state.items()})
 
     @property
-    def given_triangles(self) -> np.ndarray:
+    def given_triangles(self) -> Ints:
         """(F, 3) int32: the triangles with all vertices of the input, also those that `weld` joined."""
         return self.triangles if self.filed is None else self.filed
 
     @property
-    def source_face(self) -> np.ndarray:
+    def source_face(self) -> Ints:
         """(F,) int32: the number of each triangle in the input."""
         return np.arange(len(self.triangles), dtype=np.int32) if self.kept is None else self.kept
 
@@ -79,13 +87,13 @@ class Source:
             raise
 
     @property
-    def used(self) -> np.ndarray:
+    def used(self) -> Bools:
         """(V,) bool: vertices with a triangle."""
         found = np.zeros(len(self.vertices), bool)
         found[self.given_triangles] = True
         return found
 
-    def outside_nan(self, values: np.ndarray) -> np.ndarray:
+    def outside_nan(self, values: Floats) -> Floats:
         """The values (V, k) of the vertices, with NaN at those that are left without a triangle. Joined vertices have
         one value."""
         if self.first is not None:

@@ -7,6 +7,7 @@ import numpy as np
 from .._native import _koebe
 from .._options import takes
 from .._signatures import SphereOptions, Unpack
+from .._types import Bools, Floats
 from ..io.meshes import SPHERE
 from .domain_map import DomainMap, domain_map
 from .result import Seconds
@@ -41,8 +42,8 @@ class SphereMap(DomainMap):
     seconds, peak_memory_mb, warnings, version    as in MapReport
     """
 
-    points: np.ndarray
-    caps: np.ndarray
+    points: Floats
+    caps: Floats
     layout: dict[str, Any]
     on_sphere: dict[str, int]
     mean_point: float
@@ -51,15 +52,15 @@ class SphereMap(DomainMap):
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         caps = np.array([[*loop["center"], loop["radius"]] for loop in self.loops], float).reshape(-1, 4)
-        self._set_arrays(points=source.outside_nan(native.points), caps=caps)
+        self._set(points=source.outside_nan(native.points), caps=caps)
 
-    def _point_fields(self) -> dict[str, np.ndarray]:
+    def _point_fields(self) -> dict[str, Floats]:
         return {SPHERE: self.points}
 
     def _arrays(self) -> dict[str, Any]:
         return {**super()._arrays(), "points": self.points}
 
-    def _drawn(self) -> np.ndarray:
+    def _drawn(self) -> Bools:
         drawn = super()._drawn()
         drawn[self.layout["torn"]] = False
         return drawn

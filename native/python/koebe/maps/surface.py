@@ -8,8 +8,9 @@ import numpy as np
 from .._arrays import as_points
 from .._native import _koebe
 from .._options import callback, takes, token
-from .._progress import Progress
+from .._progress import Shown
 from .._signatures import SequenceOptions, Unpack
+from .._types import Values, Whole
 from ..errors import InputError
 from .input import is_surface, polygons_of, surface_of
 from .result import UniformizeResult
@@ -26,8 +27,10 @@ class Surface:
     resolution (docs/labs.md has figures). The freedom that the options leave is used to lay the loops over those of the
     first map, so that a texture stays in its place.
 
-    vertices, triangles, or a mesh of another package, and the options: as for uniformize. With outer='auto' or
-    'longest' the first positions choose the outer loop, with balance='area' the first map does.
+    vertices, triangles    as for `uniformize`, or a mesh of another package in place of both
+    method, outer, center, point, tolerance, max_sweeps, balance, importance, polish, threads, most_lost, weld, mask,
+    polygon    as for `uniformize`
+    With outer='auto' or 'longest' the first positions choose the outer loop, with balance='area' the first map does.
     Raises InputError, TopologyError, SolverError, MemoryError.
 
     >>> import koebe
@@ -49,7 +52,7 @@ class Surface:
         self._native = self._source.call(_koebe.Surface, options)
 
     def uniformize(
-        self, vertices: Any = None, *, progress: Progress | None = None, cancel: "_koebe.CancelToken | None" = None
+        self, vertices: Any = None, *, progress: Shown = None, cancel: "_koebe.CancelToken | None" = None
     ) -> UniformizeResult:
         """Map the surface with its vertices at new positions.
 
@@ -84,7 +87,7 @@ class Surface:
         return f"<koebe.Surface {len(self._source.vertices)} vertices, {len(self._source.triangles)} faces>"
 
 
-def _faces(source: Source) -> tuple[np.ndarray, np.ndarray]:
+def _faces(source: Source) -> tuple[Values, Whole]:
     """Vertices at the corners of the polygons, and the first corner of each polygon."""
     if source.polygons is not None:
         return source.polygons.corners, source.polygons.begin

@@ -7,6 +7,7 @@ import numpy as np
 from .._native import _koebe
 from .._options import takes
 from .._signatures import RingOptions, TorusOptions, Unpack
+from .._types import Floats
 from .domain_map import DomainMap, domain_map
 from .result import Seconds
 from .source import Source
@@ -30,14 +31,14 @@ class TileMap(DomainMap):
     below_resolution, flipped_faces, seconds, peak_memory_mb, warnings, version    as in MapReport
     """
 
-    periods: np.ndarray
+    periods: Floats
     modulus: complex
     cut_length: float
     seconds: Seconds
 
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
-        self._set_arrays(periods=np.array(report["periods"]))
+        self._set(periods=np.array(report["periods"]))
         self._set(modulus=complex(*report["modulus"]))
 
     def _counts(self) -> list[str]:

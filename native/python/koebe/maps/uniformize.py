@@ -12,6 +12,7 @@ from .._option_table import rows
 from .._options import callback, filled, flag, number, number_of, takes, token, vertex_weights, whole
 from .._report_entries import Warning
 from .._signatures import UniformizeOptions, Unpack
+from .._types import Floats, Ints
 from ..errors import InputError, OptionError, SolverError, TopologyError
 from .cut_result import CutResult
 from .input import is_surface, points_at_vertices, polygons_of, surface_of
@@ -72,7 +73,8 @@ def uniformize(
     polygon      (F,) integers: triangles of one number are one polygon. If it is convex on the surface, it is convex in
                  the UVs, or the warning concave_polygons has one of its triangles. Cuts do not part it. None: the
                  polygons of the file or mesh
-    progress     called as progress(fraction, stage) on the calling thread; fraction never falls
+    progress     called as progress(fraction, stage) on the calling thread; fraction never falls. None: a bar in a
+                 terminal or a notebook after a second. False: nothing
     cancel       a CancelToken; raising it from any thread ends the call with Cancelled
 
     With cut=True the result is a CutResult, whose uv belong to corners: (F, 3, 2) in [0, 1]^2. A vertex named by outer,
@@ -120,17 +122,19 @@ def uniformize(
     return UniformizeResult(with_origin(native.report(), source, chosen), native, source)
 
 
-def importance_of(values: Any, chosen: Mapping[str, Any], count: int) -> np.ndarray:
+def importance_of(values: Any, chosen: Mapping[str, Any], count: int) -> Floats:
     """(V,) importance of the vertices, or empty."""
     if values is not None and chosen.get("balance") != "area" and not chosen.get("even"):
         raise OptionError("importance needs even above 0, or balance='area': it weighs them")
     return vertex_weights("importance", values, count)
 
 
-def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any = None) -> list[np.ndarray]:
+def boundary_loops(
+    vertices: Any = None, triangles: Any = None, *, vertex_count: int | None = None, mask: Any = None
+) -> list[Ints]:
     """Boundary loops as int32 arrays of vertices, in order with the surface on the left; lowest vertex first.
 
-    triangles       (F, 3), or a whole surface as for `uniformize`
+    vertices, triangles    as for `uniformize`, or triangles (F, 3) alone
     vertex_count    of the mesh; without it any number is a vertex
     mask            (V,) bool: faces with a vertex where it is True are left out
     Faces that do not have the orientation of the others give a koebe.Warning.
@@ -141,7 +145,11 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any
     [172, 29, 21, 21]
     """
     count = None if vertex_count is None else whole(vertex_count, "vertex_count", least=1)
-    if is_surface(triangles):
+    if triangles is None:
+        vertices, triangles = None, vertices
+    if vertices is not None:
+        source = surface_of(vertices, triangles, mask=mask)
+    elif is_surface(triangles):
         source = surface_of(triangles, mask=mask)
     elif mask is None:
         source = Source(np.zeros((0, 3)), as_triangles(triangles, count))
@@ -151,9 +159,9 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any
     if faces.max() < faces.size:
         return as_loops(source.call(_loops_of, faces, int(faces.max()) + 1))
     # Few of the numbers are used: memory must depend on their count, not on the greatest number.
-    used, faces = np.unique(faces, return_inverse=True)
+    used, numbers = np.unique(faces, return_inverse=True)
     try:
-        loops = source.call(_loops_of, faces.reshape(-1, 3).astype(np.int32), len(used))
+        loops = source.call(_loops_of, numbers.reshape(-1, 3).astype(np.int32), len(used))
     except TopologyError as error:
         if error.kind != "disconnected":  # this error lists faces
             error.elements = used[list(error.elements)].tolist()
@@ -161,7 +169,7 @@ def boundary_loops(triangles: Any, *, vertex_count: int | None = None, mask: Any
     return [used[loop] for loop in loops]
 
 
-def _loops_of(_: np.ndarray, __: np.ndarray, faces: np.ndarray, count: int) -> Any:
+def _loops_of(_: Floats, __: Floats, faces: Ints, count: int) -> Any:
     loops = _koebe.boundary_loops(faces, count)
     _warn(_koebe.surface_warnings(faces, count), 4)
     return loops
@@ -177,7 +185,7 @@ def _warn_turned(source: Source) -> None:
     _warn(_koebe.surface_warnings(source.triangles, len(source.vertices)), 3)
 
 
-def disk_map(vertices: Any, triangles: Any = None, *, mask: Any = None) -> np.ndarray:
+def disk_map(vertices: Any, triangles: Any = None, *, mask: Any = None) -> Floats:
     """The Riemann map of a surface with one boundary loop by shrinking disks (paper, section 4.3).
 
     Returns (V, 2) float64 points of the closed unit disk.
@@ -197,7 +205,7 @@ def disk_map(vertices: Any, triangles: Any = None, *, mask: Any = None) -> np.nd
 
 def annulus_map(
     vertices: Any, triangles: Any = None, *, backend: str = "harmonic", mask: Any = None
-) -> tuple[np.ndarray, float]:
+) -> tuple[Floats, float]:
     """The map of a surface with two boundary loops to the annulus r < |z| < 1 (paper, section 4.2).
 
     backend   'harmonic': by a holomorphic 1-form. 'yamabe': by the discrete Yamabe flow to a flat cylinder, with
@@ -226,7 +234,7 @@ def fill_holes(
     fair: bool = False,
     mask: Any = None,
     weld: float | None = None,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+) -> tuple[Floats, Ints, Ints]:
     """Fill boundary loops.
 
     loops   indices in the list that boundary_loops returns; None for all loops
@@ -263,7 +271,7 @@ def harmonic_map(
     *,
     uniform: bool = False,
     mask: Any = None,
-) -> np.ndarray:
+) -> Floats:
     """The map into the plane of least Dirichlet energy with given values at some vertices (paper, equation 2).
 
     fixed    (B,) vertices whose values are given
@@ -290,7 +298,7 @@ def harmonic_map(
     return source.outside_nan(source.call(_koebe.harmonic_map, chosen, points, flag(uniform, "uniform")))
 
 
-def weld(vertices: Any, distance: float = 0.0) -> np.ndarray:
+def weld(vertices: Any, distance: float = 0.0) -> Ints:
     """Find vertices that lie close together, as the option `weld` joins them.
 
     distance   in the vertices' unit, at least 0. 0: vertices at the same place
@@ -301,7 +309,8 @@ def weld(vertices: Any, distance: float = 0.0) -> np.ndarray:
     >>> koebe.weld([[0, 0, 0], [1, 0, 0], [0, 0, 0.01]], 0.1).tolist()
     [0, 1, 0]
     """
-    return _koebe.weld(as_points(vertices, "vertices", 3), number(distance, rows("parts")["weld"]))
+    points, limit = as_points(vertices, "vertices", 3), number(distance, rows("parts")["weld"])
+    return _koebe.weld(points, limit) if len(points) else np.zeros(0, np.int32)
 
 
 def distortion(vertices: Any, triangles: Any = None, uv: Any = None, *, mask: Any = None) -> dict[str, Any]:
