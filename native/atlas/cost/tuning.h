@@ -27,6 +27,8 @@ inline constexpr double free_unevenness = 0.5;
 // Bent angles.
 /// degrees | a smaller mean angle error is not seen: no other layout is tried | chosen
 inline constexpr double unseen_error = 1.0;
+/// degrees | the surface is crumpled, and a map without repairs says little | crumpled pieces
+inline constexpr double crumpled_error = 10.0;
 /// degrees | what repairs may add without a price | chosen
 inline constexpr double free_bend = 5.0;
 /// of the angle error at E = 0 | what parts carried from a proxy may have until they are relaxed | chosen
@@ -105,6 +107,8 @@ inline constexpr double rim_spacing = 0.04;
 inline constexpr double refused_reach = 0.06;
 /// length | of the longest dart | chosen
 inline constexpr double longest_dart = 0.5;
+/// length | of the longest through cut | a crumpled body of needles: angles 22 degrees, 43 without
+inline constexpr double longest_through = 1.5;
 /// E | at which darts are opened if no E is given, and maps are compared | chosen
 inline constexpr double dart_even = 0.1;
 /// factor | on cuts of a proxy: coarse parts bend in fewer places, and overrate them | 25 models: parts.md#packing

@@ -244,7 +244,7 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
                                       ExecutionContext& context)
 {
     const double error = angle_error(parts.parts);
-    const bool is_cut = root != nullptr && parts.parts.size() > 1;
+    const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < tuning::crumpled_error;
     if (!parts.flaws.broken() && (error < tuning::unseen_error || (is_cut && hopeless_as_one(*root, error)))) return {};
     std::optional<FlatPart> found;
     try {
@@ -255,7 +255,7 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     FlatPart& one = *found;
     const auto error_of_one = [&] { return summed_angle_error(one.vertices, one.surface.triangles, one.points); };
     const double most = error * static_cast<double>(one.faces.size());
-    if (!parts.flaws.broken() && error_of_one() > most) return {};
+    if (!parts.flaws.broken() && error < tuning::crumpled_error && error_of_one() > most) return {};
     const Flaws flaws = repair(one, whole.areas, context);
     parts.flaws.spoilt = 0.0;
     if (flaws.broken() && !fewer(flaws, parts.flaws)) return {};
