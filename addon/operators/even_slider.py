@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that drags the slider Even, and shows the UVs at once."""
 
-import contextlib
 from typing import Any, ClassVar
 
 import bpy
@@ -18,14 +17,14 @@ from .answers import refused
 from .modal_run import redraw
 from .polls import OnTargets
 from .tooltip import tooltip
+from .uv_drag import ByHand
 
 POLL_SECONDS = 0.01
 KEEP = {"LEFTMOUSE", "RET", "NUMPAD_ENTER"}
-LEAVE = {"ESC", "RIGHTMOUSE"}
 NOT_PARTS = {"DISK", "RING", "TORUS"}  # shapes whose boundaries stay round
 
 
-class UV_OT_koebe_even(OnTargets, bpy.types.Operator):
+class UV_OT_koebe_even(OnTargets, ByHand, bpy.types.Operator):
     """Drag left or right: the UVs of the active object become more or less even at once. Click or Enter unwraps with
     this Even. Esc or right click puts the UVs back. Shift drags slowly"""
 
@@ -58,7 +57,7 @@ class UV_OT_koebe_even(OnTargets, bpy.types.Operator):
         except (NativeError, TransferError, KnownError) as error:
             return refused(self, reason(obj.name, error))
         self._drag = EvenDrag(settings.even, event.mouse_x)
-        self._worker: Worker | None = None
+        self._worker = None
         self._way = 0.0
         self.moves = 0
         UV_OT_koebe_even.dragged = obj.name
@@ -67,22 +66,14 @@ class UV_OT_koebe_even(OnTargets, bpy.types.Operator):
         self._say(context)
         return {"RUNNING_MODAL"}
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        try:
-            if event.type in LEAVE and event.value == "PRESS":
-                self.cancel(context)
-                self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
-                return {"CANCELLED"}
-            if event.type in KEEP and event.value == "PRESS":
-                return self._keep(context)
-            if event.type == "MOUSEMOVE":
-                self._drag.pull(event.mouse_x, event.shift)
-                self._say(context)
-            elif event.type == "TIMER":
-                self._go_on(context)
-        except BaseException:
-            self.cancel(context)
-            raise
+    def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type in KEEP and event.value == "PRESS":
+            return self._keep(context)
+        if event.type == "MOUSEMOVE":
+            self._drag.pull(event.mouse_x, event.shift)
+            self._say(context)
+        elif event.type == "TIMER":
+            self._go_on(context)
         return {"RUNNING_MODAL"}
 
     def _go_on(self, context: bpy.types.Context) -> None:
@@ -119,11 +110,7 @@ class UV_OT_koebe_even(OnTargets, bpy.types.Operator):
 
     def cancel(self, context: bpy.types.Context) -> None:
         """End the computation and restore the UVs: after Esc, or when Blender ends the operator."""
-        self._job.cancel_token.cancel()
-        if self._worker is not None:
-            with contextlib.suppress(Exception):  # it was cancelled, or nobody needs this step any more
-                self._worker.result()
-            self._worker = None
+        self._end_worker()
         context.window_manager.event_timer_remove(self._timer)
         context.workspace.status_text_set(None)
         UV_OT_koebe_even.dragged = ""

@@ -48,6 +48,7 @@ class UV_OT_koebe_moebius(OnTargets, UvDrag, bpy.types.Operator):
     bl_label = "Koebe Move Circles"
     bl_description = tooltip(__doc__)
     needs = "Select a mapped mesh object, in Object Mode or in Edit Mode"
+    shown_errors = TransferError, DomainError, ReferenceError
 
     object_name: StringProperty(
         name="Object",
@@ -164,23 +165,15 @@ class UV_OT_koebe_moebius(OnTargets, UvDrag, bpy.types.Operator):
         self._pressed, self._dragging, self._live = (event.mouse_x, event.mouse_y), False, False
         self._back: Callable[[], None] | None = None
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        try:
-            if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-                self.cancel(context)
-                self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
-                return {"CANCELLED"}
-            if event.type == "MOUSEMOVE":
-                self._drag(context, event)
-            elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
-                return self._end(context)
-        except (TransferError, DomainError, ReferenceError) as error:
-            self.cancel(context)
-            return refused(self, reason(self._job.name, error))
-        except BaseException:
-            self.cancel(context)
-            raise
+    def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "MOUSEMOVE":
+            self._drag(context, event)
+        elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
+            return self._end(context)
         return {"RUNNING_MODAL"}
+
+    def _reason(self, error: Exception) -> str:
+        return reason(self._job.name, error)
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Restore everything: after Esc, after an error, or when Blender ends the operator."""

@@ -35,6 +35,7 @@ class UV_OT_koebe_relax(OnTargets, UvDrag, bpy.types.Operator):
     bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO", "BLOCKING"}
     needs, modes = "Works on the UVs of a mesh object in Edit Mode", ("EDIT_MESH",)
+    shown_errors = (TransferError,)
     shown: ClassVar[tuple[int, int] | None] = None  # pixel of the region under a brush that works
 
     center: FloatVectorProperty(
@@ -98,7 +99,7 @@ class UV_OT_koebe_relax(OnTargets, UvDrag, bpy.types.Operator):
             self._job, self._island = self._job_at(context, tuple(self.center))
         except (NativeError, TransferError) as error:
             return refused(self, str(error))
-        self._worker: Worker | None = None
+        self._worker = None
         self._made: Dab
         self._wanted: tuple[int, int] | None = self._at
         self._is_released = False
@@ -112,26 +113,15 @@ class UV_OT_koebe_relax(OnTargets, UvDrag, bpy.types.Operator):
         (u, v), (right, top) = self._place(0, 0), self._place(100, 100)
         return (right - u) / 100, (top - v) / 100
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        try:
-            if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
-                self.cancel(context)
-                self.report({"INFO"}, "Koebe UV: cancelled, nothing was changed")
-                return {"CANCELLED"}
-            if event.type == "MOUSEMOVE":
-                self._at = event.mouse_x - self._region.x, event.mouse_y - self._region.y
-                self._wanted = None if self._is_released else self._at
-                self._show(context)
-            elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
-                self._is_released = True
-            elif event.type == "TIMER":
-                return self._go_on(context)
-        except TransferError as error:
-            self.cancel(context)
-            return refused(self, str(error))
-        except BaseException:
-            self.cancel(context)
-            raise
+    def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if event.type == "MOUSEMOVE":
+            self._at = event.mouse_x - self._region.x, event.mouse_y - self._region.y
+            self._wanted = None if self._is_released else self._at
+            self._show(context)
+        elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
+            self._is_released = True
+        elif event.type == "TIMER":
+            return self._go_on(context)
         return {"RUNNING_MODAL"}
 
     def _go_on(self, context: bpy.types.Context) -> set[str]:
@@ -160,11 +150,7 @@ class UV_OT_koebe_relax(OnTargets, UvDrag, bpy.types.Operator):
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Put the UVs back: after Esc, after an error, or when Blender ends the operator."""
-        self._job.cancel_token.cancel()
-        if self._worker is not None:
-            with contextlib.suppress(Exception):  # it was cancelled, or nobody needs this dab any more
-                self._worker.result()
-            self._worker = None
+        self._end_worker()
         with contextlib.suppress(TransferError):
             self._job.put_back()
         self._tidy(context)

@@ -16,9 +16,9 @@ class Drag:
         kind = addon("operators.even_slider").UV_OT_koebe_even
         self.said, self.unwrapped = [], []
         self.timer = object()
-        self.operator = types.SimpleNamespace(report=lambda level, text: self.said.append(text))
-        for name in ("modal", "cancel", "_go_on", "_step", "_keep", "_say"):
-            setattr(self.operator, name, types.MethodType(vars(kind)[name], self.operator))
+        self.operator = types.SimpleNamespace(report=lambda level, text: self.said.append(text), shown_errors=())
+        for name in ("modal", "cancel", "_follow", "_go_on", "_step", "_keep", "_say", "_end_worker"):
+            setattr(self.operator, name, types.MethodType(getattr(kind, name), self.operator))
         manager = types.SimpleNamespace(event_timer_add=lambda seconds, window: self.timer,
                                         event_timer_remove=lambda timer: None, modal_handler_add=lambda operator: None)
         self.context = types.SimpleNamespace(

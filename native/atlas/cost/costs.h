@@ -70,10 +70,7 @@ inline double most_uncut(double area, double part_price) { return std::max(part_
 double expected_cost(double cost, double part_price);
 
 /// What parts that are their own mirror image may cost. @param cost of others
-inline double most_cost_of_symmetric(double cost)
-{
-    return std::max(tuning::symmetric_factor * cost, cost + tuning::symmetric_more);
-}
+inline double most_cost_of_symmetric(double cost) { return tuning::symmetric_factor * cost; }
 
 // Exposure: factors on the length of a cut
 

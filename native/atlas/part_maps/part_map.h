@@ -6,7 +6,6 @@
 #include "part_maps/part_mesh.h"
 #include "part_maps/texel_evenness.h"
 
-#include <array>
 #include <vector>
 
 namespace koebe {

@@ -8,8 +8,6 @@
 #include "surface/face_vectors.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -113,10 +111,8 @@ PartMesh some_or_all(const CutSurface& whole, std::vector<Index> faces)
     const bool is_closed = faces.size() == static_cast<std::size_t>(whole.areas.size()) && whole.surface.loops.empty();
     if (!is_closed) return part_mesh(whole, std::move(faces));
     PartMesh all;
-    all.faces = std::move(faces);
-    std::iota(all.faces.begin(), all.faces.end(), 0);
-    all.original.resize(static_cast<std::size_t>(whole.vertices.rows()));
-    std::iota(all.original.begin(), all.original.end(), 0);
+    all.faces = numbers_below(faces.size());
+    all.original = numbers_below(whole.vertices.rows());
     all.vertices = whole.vertices;
     all.surface = whole.surface;
     all.areas = whole.areas;

@@ -3,6 +3,7 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/numbering.h"
+#include "core/sort_unique.h"
 #include "cut/disjoint_sets.h"
 #include "mesh/topology.h"
 #include "parts/congruence.h"
@@ -69,8 +70,7 @@ std::vector<Piece> pieces_in(const FlatMesh& mesh)
         std::ranges::sort(faces);
         for (const auto& [face, corners] : faces)
             whole.original.insert(whole.original.end(), corners.begin(), corners.end());
-        std::ranges::sort(whole.original);
-        whole.original.erase(std::unique(whole.original.begin(), whole.original.end()), whole.original.end());
+        sort_unique(whole.original);
         whole.vertices = mesh.layout.vertices(whole.original, Eigen::all);
         whole.surface.triangles.resize(static_cast<Index>(faces.size()), 3);
         for (std::size_t i = 0; i < faces.size(); ++i) {

@@ -13,10 +13,9 @@
 namespace koebe {
 namespace {
 
-constexpr double far_off = 4.0;         // price of an edge as far from a coarse edge as that is long, beside its length
-constexpr int most_orders = 6;          // of chains, until all have paths that are no darts
-constexpr std::size_t near_fork = 6;    // edges of a path on to which another one may turn
-constexpr double longest_detour = 3.0;  // length of a path over the length of its chain
+constexpr double far_off = 4.0;       // price of an edge as far from a coarse edge as that is long, beside its length
+constexpr int most_orders = 6;        // of chains, until all have paths that are no darts
+constexpr std::size_t near_fork = 6;  // edges of a path on to which another one may turn
 
 class PathFinder {
 public:
@@ -60,7 +59,7 @@ public:
             if (way == 3) path = path_onto_neighbour(reversed(chain, coarse_));
             if (way == 3 && path) path = reversed(*path, fine_.surface);
         }
-        if (!path || (is_dart(chain) && is_detour(*path, chain))) return {};
+        if (!path) return {};
         for (const Index h : *path)
             for (const Index v : {origin(fine_.surface.triangles, h), target(fine_.surface.triangles, h)})
                 taken_[v] = firm_[v] = on_path_[v] = 1;
@@ -78,11 +77,6 @@ public:
 
 private:
     using Joins = std::function<bool(Index)>;
-
-    bool is_detour(const Path& path, const Path& chain) const
-    {
-        return path_length(fine_.vertices, fine_.surface.triangles, path) > longest_detour * chain_length(chain);
-    }
 
     static Path reversed(const Path& path, const Surface& surface)
     {
@@ -167,14 +161,6 @@ private:
 
     Index fine_origin(Index coarse) const { return vertex_[origin(coarse_.triangles, coarse)]; }
     Index fine_target(Index coarse) const { return vertex_[target(coarse_.triangles, coarse)]; }
-
-    double chain_length(const Path& chain) const
-    {
-        double sum = 0.0;
-        for (const Index h : chain)
-            sum += (fine_.vertices.row(fine_origin(h)) - fine_.vertices.row(fine_target(h))).norm();
-        return sum;
-    }
 
     /// A short path near a chain, through its vertices. @param loose it may leave some of them out, and go through
     /// vertices of other chains @param joins whether it may end with a half-edge; empty: only at the chain's end
@@ -322,13 +308,6 @@ std::vector<CarriedPath> straightened(const Proxy& proxy, std::vector<CarriedPat
     straighten(proxy.fine.whole, straight, context);
     for (std::size_t i = 0; i < paths.size(); ++i) paths[i].path = std::move(straight[i]);
     return paths;
-}
-
-double path_length(const Vertices& vertices, const Triangles& triangles, const Path& path)
-{
-    double sum = 0.0;
-    for (const Index h : path) sum += (vertices.row(origin(triangles, h)) - vertices.row(target(triangles, h))).norm();
-    return sum;
 }
 
 }  // namespace koebe

@@ -32,13 +32,11 @@ struct CarriedPath {
 };
 
 /// A short path of fine edges near each chain of the net. Paths do not meet, except at their ends, do not touch the
-/// boundary between them, and spare polygons. A dart or slit has no path if every path would be far longer.
+/// boundary between them, and spare polygons. A dart or slit may have no path.
 std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net, const ExecutionContext& context);
 
 /// The same paths, straightened (straight_paths.h).
 std::vector<CarriedPath> straightened(const Proxy& proxy, std::vector<CarriedPath> paths,
                                       const ExecutionContext& context);
-
-double path_length(const Vertices& vertices, const Triangles& triangles, const Path& path);
 
 }  // namespace koebe

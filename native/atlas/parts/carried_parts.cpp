@@ -2,6 +2,7 @@
 
 #include "core/complex_places.h"
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cost/tuning.h"
 #include "execution/side_by_side.h"
 #include "mesh/connected_pieces.h"
@@ -13,8 +14,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -39,14 +38,19 @@ std::vector<int> parts_of_pieces(const Proxy& proxy, const CoarseNet& net, const
     return std::ranges::adjacent_find(sorted) == sorted.end() ? part_of : std::vector<int>{};
 }
 
+double path_length(const Vertices& vertices, const Triangles& triangles, const Path& path)
+{
+    double sum = 0.0;
+    for (const Index h : path) sum += (vertices.row(origin(triangles, h)) - vertices.row(target(triangles, h))).norm();
+    return sum;
+}
+
 /// The fine surface as one part, without places in the plane.
 FlatPart whole_part(const CutSurface& whole)
 {
     FlatPart flat;
-    flat.faces.resize(static_cast<std::size_t>(whole.areas.size()));
-    flat.original.resize(static_cast<std::size_t>(whole.vertices.rows()));
-    std::iota(flat.faces.begin(), flat.faces.end(), 0);
-    std::iota(flat.original.begin(), flat.original.end(), 0);
+    flat.faces = numbers_below(whole.areas.size());
+    flat.original = numbers_below(whole.vertices.rows());
     flat.vertices = whole.vertices;
     flat.surface = whole.surface;
     flat.points = PlanarPoints::Zero(whole.vertices.rows(), 2);

@@ -10,7 +10,6 @@
 #include "parts/dart_rounds.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
-#include "surface/laplacian.h"
 
 #include <Eigen/Geometry>
 

@@ -14,7 +14,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -155,8 +154,7 @@ std::optional<std::vector<Index>> open_darts(FlatPart& flat, const std::vector<D
     // A vertex keeps its number on its first side.
     std::vector<Index> own(static_cast<std::size_t>(mesh.fan_count), -1), source;
     std::vector<char> kept(static_cast<std::size_t>(flat.points.rows()), 0);
-    source.resize(kept.size());
-    std::iota(source.begin(), source.end(), 0);
+    source = numbers_below(kept.size());
     Triangles opened(mesh.corners.rows(), 3);
     for (Eigen::Index c = 0; c < opened.size(); ++c) {
         const Index v = mesh.corners.data()[c];

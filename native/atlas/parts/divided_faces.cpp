@@ -1,10 +1,10 @@
 #include "parts/divided_faces.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
 #include "cut/edge_runs.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <span>
 #include <utility>
@@ -25,8 +25,7 @@ public:
         for (const auto& edge : kept) kept_.insert(std::minmax(edge[0], edge[1]));
         for (Eigen::Index f = 0; f < triangles.rows(); ++f)
             triangles_.push_back({triangles(f, 0), triangles(f, 1), triangles(f, 2)});
-        face_.resize(triangles_.size());
-        std::iota(face_.begin(), face_.end(), 0);
+        face_ = numbers_below(triangles_.size());
         for_each_edge(triangles, static_cast<Index>(vertices.rows()), [&](std::span<const Index> halfedges) {
             if (halfedges.size() != 1) return;
             const Index h = halfedges.front();

@@ -1,6 +1,7 @@
 #include "parts/even_parts.h"
 
 #include "circles/circle_fit.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "even/even_map.h"
 #include "execution/profile.h"
@@ -177,18 +178,13 @@ public:
     /// with an E at which they may be no worse: angles go about with the third root of E.
     EvenParts relax_carried(double even, AngleBounds bounds)
     {
-        const auto done = [&](std::vector<std::size_t> worse) {
-            return EvenParts{worse.size() < bounds.most.size() ? even : 0.0, left_, std::move(worse)};
-        };
         for (auto next = less_even_with_darts.begin();;) {
             relax_cut(even, look);
             start_stuck_anew(even);
             if (bounds.exact && angles() > tuning::carried_error * bounds.sum()) bounds = bounds.exact();
             if (bounds.most.empty() || angles() <= tuning::carried_error * bounds.sum())
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
-            if (bounds.most.empty()) return {even, left_};
-            std::vector<std::size_t> worse = worst_groups(bounds);
-            if (share_of(worse, bounds) <= tuning::few_worse) return done(std::move(worse));
+            if (bounds.most.empty() || worst_groups(bounds).empty()) return {even, left_};
             const double times = angles() / bounds.sum();
             next = std::find_if(next, less_even_with_darts.end(), [&](double less) {
                 return less < even && less * std::pow(times, 3) < tolerant * even;
@@ -198,7 +194,8 @@ public:
             even = *next;
         }
         relax_cut(even, EvenEffort{.most_far = far_rounds});  // parts that are far from their minimum
-        return done(worst_groups(bounds));
+        std::vector<std::size_t> worse = worst_groups(bounds);
+        return {worse.size() < bounds.most.size() ? even : 0.0, left_, std::move(worse)};
     }
 
 private:
@@ -286,8 +283,7 @@ private:
         for (std::size_t k = 0; k < parts_.size(); ++k) excess[bounds.group[k]] += sum_of_angle_errors(parts_[k].flat);
         std::ranges::transform(excess, bounds.most, excess.begin(), std::minus<>());
         double sum = std::accumulate(excess.begin(), excess.end(), 0.0);
-        std::vector<std::size_t> groups(excess.size()), worse;
-        std::iota(groups.begin(), groups.end(), 0);
+        std::vector<std::size_t> groups = numbers_below<std::size_t>(excess.size()), worse;
         std::ranges::stable_sort(groups, std::ranges::greater(), [&](std::size_t group) { return excess[group]; });
         for (const std::size_t group : groups) {
             if (!(sum > 0.0)) break;
@@ -295,18 +291,6 @@ private:
             worse.push_back(group);
         }
         return worse;
-    }
-
-    /// The share of the faces in some groups.
-    double share_of(const std::vector<std::size_t>& groups, const AngleBounds& bounds) const
-    {
-        double own = 0.0, all = 0.0;
-        for (std::size_t k = 0; k < parts_.size(); ++k) {
-            const auto faces = static_cast<double>(parts_[k].flat.faces.size());
-            all += faces;
-            if (std::ranges::count(groups, bounds.group[k]) > 0) own += faces;
-        }
-        return own / all;
     }
 
     double angles() const

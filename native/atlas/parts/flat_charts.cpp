@@ -1,23 +1,18 @@
 #include "parts/flat_charts.h"
 
-#include "core/errors.h"
+#include "core/grouping.h"
 #include "core/numbering.h"
 #include "cost/tolerances.h"
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
-#include "parts/dart_rounds.h"
-#include "parts/darts.h"
-#include "parts/flat_repair.h"
+#include "mesh/connected_pieces.h"
 #include "parts/regions.h"
 #include "parts/tension.h"
-#include "planar/boundary_crossings.h"
 #include "planar/rigid_fit.h"
-#include "surface/loop_edges.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -29,13 +24,11 @@
 namespace koebe {
 namespace {
 
-constexpr double flat_angle = 1e-3;         // radians by which the angles round a flat vertex may miss a full turn
-constexpr double turned_by_noise = 1.0;     // radians that an edge as short as the noise may add to that
-constexpr double same_place = 1e-5;         // in roots of the surface's area
-constexpr double most_single = 0.75;        // of a chart's area, in faces that are alone in their planes
-constexpr double plate_to_strip = 2.0;      // a plate is so many times larger than its neighbours
-constexpr std::size_t longest_crack = 100;  // vertices round a crack between faces that meet in T-junctions
-constexpr double narrow_gap = 1e-3;         // where a chart touches itself, over the least height of a face there
+constexpr double flat_angle = 1e-3;      // radians by which the angles round a flat vertex may miss a full turn
+constexpr double turned_by_noise = 1.0;  // radians that an edge as short as the noise may add to that
+constexpr double same_place = 1e-5;      // in roots of the surface's area
+constexpr double most_single = 0.75;     // of a chart's area, in faces that are alone in their planes
+constexpr double plate_to_strip = 2.0;   // a plate is so many times larger than its neighbours
 
 class ChartLayer {
 public:
@@ -108,34 +101,17 @@ private:
     }
 
     /// (F) the connected pieces of regions in a chart, numbered from 0 on.
-    std::vector<Index> planar_pieces(const SeamedMesh& chart) const
+    std::vector<Index> planar_pieces(const SeamedMesh& chart, Index& count) const
     {
-        std::vector<Index> piece(chart.face.size(), -1), queue;
-        Index count = 0;
-        for (Index seed = 0; seed < static_cast<Index>(piece.size()); ++seed) {
-            if (piece[seed] >= 0) continue;
-            piece[seed] = count;
-            queue.assign(1, seed);
-            for (std::size_t head = 0; head < queue.size(); ++head)
-                for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h) {
-                    const Index t = chart.twin[h];
-                    if (t == no_twin || piece[face_of(t)] >= 0 ||
-                        regions_.of[chart.face[face_of(t)]] != regions_.of[chart.face[queue[head]]])
-                        continue;
-                    piece[face_of(t)] = count;
-                    queue.push_back(face_of(t));
-                }
-            ++count;
-        }
-        return piece;
+        return connected_pieces(chart.twin, values_at(regions_.of, chart.face), count);
     }
 
     /// Lays the planar pieces of a chart side by side, over a spanning tree of the longest edges between them.
     void lay(const SeamedMesh& chart)
     {
-        const std::vector<Index> piece = planar_pieces(chart);
-        std::vector<std::vector<Index>> faces(static_cast<std::size_t>(std::ranges::max(piece)) + 1);
-        for (std::size_t f = 0; f < piece.size(); ++f) faces[piece[f]].push_back(static_cast<Index>(f));
+        Index count = 0;
+        const std::vector<Index> piece = planar_pieces(chart, count);
+        const std::vector<std::vector<Index>> faces = places_of_numbers(piece, count);
         std::vector<char> laid(faces.size(), 0);
         using Step = std::tuple<double, Index, Index>;  // length, minus its turn, half-edge to the next piece
         std::priority_queue<Step> steps;
@@ -241,10 +217,7 @@ private:
         // Undo this if it overlaps itself.
         std::optional<FlatPart> part = laid_part(surface_, charts_, chart.face);
         if (!part) {
-            for (const Index h : open) {
-                net_.twin[in_net(chart, h)] = in_net(chart, chart.twin[h]);
-                net_.twin[in_net(chart, chart.twin[h])] = in_net(chart, h);
-            }
+            for (const Index h : open) net_.join(in_net(chart, h), in_net(chart, chart.twin[h]));
             charts_.tips = std::move(before);
             return false;
         }
@@ -272,11 +245,11 @@ private:
     /// The plates of a chart that is not flat as a whole, then the rolled faces. The other faces are the rest.
     void settle_mixed(const SeamedMesh& chart)
     {
-        const std::vector<Index> planar = planar_pieces(chart);
+        Index count = 0;
+        const std::vector<Index> planar = planar_pieces(chart, count);
         const std::vector<char> curved = curved_vertices(chart);
         const double small = tuning::small_area * surface_.areas.sum();
-        const std::size_t count = static_cast<std::size_t>(std::ranges::max(planar)) + 1;
-        std::vector<double> area(count), outline(count, 0.0), largest(count, 0.0);
+        std::vector<double> area(static_cast<std::size_t>(count)), outline(area.size(), 0.0), largest(area.size(), 0.0);
         std::map<std::pair<Index, Index>, double> borders;
         for (std::size_t f = 0; f < planar.size(); ++f) {
             area[planar[f]] = plane(chart.face[f]).area;
@@ -292,9 +265,10 @@ private:
         }
         // A plate is much larger than the planar pieces round it. Long thin pieces side by side are rolled.
         const double least = tuning::least_piece * surface_.areas.sum();
-        std::vector<char> is_plate(count);
-        for (std::size_t p = 0; p < count; ++p) is_plate[p] = area[p] >= std::max(least, plate_to_strip * largest[p]);
-        DisjointSets rolled(count);
+        std::vector<char> is_plate(area.size());
+        for (std::size_t p = 0; p < area.size(); ++p)
+            is_plate[p] = area[p] >= std::max(least, plate_to_strip * largest[p]);
+        DisjointSets rolled(area.size());
         for (const auto& [pair, length] : borders)
             if (const auto [p, q] = pair;
                 !is_plate[p] && !is_plate[q] && length > tolerance::rolled_outline * std::max(outline[p], outline[q]))
@@ -382,90 +356,7 @@ private:
     SeamedMesh& net_ = charts_.net;
 };
 
-/// Whether a loop encloses nothing, where faces meet in T-junctions.
-bool is_crack(const FlatPart& part, const VertexLoop& loop, double near)
-{
-    const double length = loop_edges(part.vertices, loop).sum();
-    return loop.size() <= longest_crack && std::abs(enclosed_area(loop, part.points)) < near * length;
-}
-
-/// Whether a vertex of a loop lies on an edge of it elsewhere: a face has it, and the face beside it has not.
-bool lies_on_edge(const FlatPart& part, const VertexLoop& loop, Index v, double near)
-{
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const Index a = loop[i], b = loop[(i + 1) % loop.size()];
-        if (a == v || b == v) continue;
-        const Eigen::RowVector2d edge = part.points.row(b) - part.points.row(a),
-                                 arm = part.points.row(v) - part.points.row(a);
-        const double along = arm.dot(edge), square = edge.squaredNorm();
-        if (along > 0.0 && along < square && (arm - along / square * edge).norm() < near) return true;
-    }
-    return false;
-}
-
-/// (V) 1 for boundary vertices where the surface touches itself: holes may meet at a point, and cracks have no width.
-std::vector<char> touching(const FlatPart& part, double near)
-{
-    std::map<std::array<double, 3>, Index> first;
-    std::vector<char> touches(static_cast<std::size_t>(part.surface.vertex_count), 0);
-    for (const VertexLoop& loop : part.surface.loops) {
-        const bool crack = is_crack(part, loop, near);
-        for (const Index v : loop) {
-            const auto found =
-                first.try_emplace({part.vertices(v, 0), part.vertices(v, 1), part.vertices(v, 2)}, v).first;
-            // The two sides of a cut are one vertex of the surface, and stay where they are.
-            if (part.original[v] != part.original[found->second]) touches[v] = touches[found->second] = 1;
-            if (crack && lies_on_edge(part, loop, v, near)) touches[v] = 1;
-        }
-    }
-    return touches;
-}
-
 }  // namespace
-
-std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& charts, const std::vector<Index>& faces)
-{
-    const auto number = [&](Index f) { return static_cast<Index>(std::ranges::lower_bound(faces, f) - faces.begin()); };
-    SeamedMesh mesh;
-    mesh.corners = charts.net.corners(faces, Eigen::all);
-    for (const Index f : faces)
-        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-            const Index t = charts.net.twin[h];
-            mesh.twin.push_back(t == no_twin ? no_twin : 3 * number(face_of(t)) + t % 3);
-        }
-    number_fans(mesh);
-    FlatPart part;
-    part.faces = faces;
-    part.original.resize(mesh.fan_count);
-    part.points.resize(mesh.fan_count, 2);
-    // Up to tolerances corners of one vertex lie in one place. The largest plane stays exact.
-    std::vector<double> plane(static_cast<std::size_t>(mesh.fan_count), -1.0);
-    for (Index h = 0; h < mesh.halfedge_count(); ++h) {
-        const Index v = origin(mesh.fans, h), f = faces[face_of(h)];
-        if (!(charts.plane[f] > plane[v])) continue;
-        const Complex z = charts.at[3 * f + h % 3];
-        plane[v] = charts.plane[f];
-        part.original[v] = origin(mesh.corners, h);
-        part.points.row(v) << z.real(), z.imag();
-    }
-    part.vertices = surface.vertices(part.original, Eigen::all);
-    try {
-        part.surface = require_bordered_genus_zero(mesh.fans, mesh.fan_count);
-    } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
-        return {};
-    }
-    if (charts.noise > 0.0 && !lies_one_to_one(part, part.points)) mend_noise(part, charts.noise);
-    if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part, charts.near), narrow_gap)) return {};
-    if (!survives_storing(part)) return {};
-    part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
-    part.held.assign(mesh.fan_count, 0);
-    for (const VertexLoop& loop : part.surface.loops) part.loops.push_back(values_at(part.original, loop));
-    for (Index v = 0; v < mesh.fan_count; ++v)
-        if (charts.tips.contains(part.original[v]) && std::ranges::count(part.original, part.original[v]) == 1)
-            part.tips.push_back(v);
-    part.polygon = values_at(surface.polygon, faces);
-    return part;
-}
 
 FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips, double hard_angle)
 {

@@ -3,6 +3,7 @@
 #include "core/all_elements.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/grouping.h"
 #include "core/numbering.h"
 #include "cost/costs.h"
 #include "cut/edge_runs.h"
@@ -20,7 +21,6 @@
 #include <array>
 #include <cstdint>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -218,13 +218,9 @@ std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertice
 
 std::vector<Index> first_in_place(const Vertices& vertices)
 {
-    std::vector<Index> order(static_cast<std::size_t>(vertices.rows())), place(order.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](Index v) { return std::array{vertices(v, 0), vertices(v, 1), vertices(v, 2)}; };
-    std::ranges::stable_sort(order, {}, key);
-    for (std::size_t i = 0; i < order.size(); ++i)
-        place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
-    return place;
+    return lowest_alike(vertices.rows(), [&](Index v) {
+        return std::array{vertices(v, 0), vertices(v, 1), vertices(v, 2)};
+    });
 }
 
 double root_of_area(const Vertices& vertices, const Triangles& triangles)

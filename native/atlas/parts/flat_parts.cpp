@@ -192,7 +192,7 @@ bool hopeless_as_one(const Part& root, double error)
         return true;
     const double own =
         summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, planar_points(map.positions));
-    return own > tuning::repairable * error * static_cast<double>(root.mesh.faces.size());
+    return own > error * static_cast<double>(root.mesh.faces.size());
 }
 
 /// A whole piece in the map by which it was split, if that has no flaws as stored; else as uniformize repairs it, if
@@ -254,19 +254,19 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     if (!found) return {};
     FlatPart& one = *found;
     const auto error_of_one = [&] { return summed_angle_error(one.vertices, one.surface.triangles, one.points); };
-    const double most = tuning::repairable * error * static_cast<double>(one.faces.size());
+    const double most = error * static_cast<double>(one.faces.size());
     if (!parts.flaws.broken() && error < tuning::crumpled_error && error_of_one() > most) return {};
     const Flaws flaws = repair(one, whole.areas, context);
     parts.flaws.spoilt = 0.0;
     if (flaws.broken() && !fewer(flaws, parts.flaws)) return {};
     const double own = error_of_one();
     if (parts.flaws.broken()) return found;
-    if (own >= error * static_cast<double>(one.faces.size())) return {};
+    if (own >= most) return {};
     double cost = 0.0;
     for (const FlatPart& part : parts.parts) cost += cost_of(part, part_price);
     if (cost_of(one, part_price) >= cost) return {};
     for (FlatPart& part : parts.parts) polish(part, context);
-    if (own >= tuning::clearly_less * angle_error(parts.parts) * static_cast<double>(one.faces.size())) return {};
+    if (own >= angle_error(parts.parts) * static_cast<double>(one.faces.size())) return {};
     return found;
 }
 

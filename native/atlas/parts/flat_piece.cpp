@@ -36,7 +36,7 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
     RefusedMerges refused;
     for (int round = 0; round < rounds; ++round) {
         parts = split_parts(whole, eagerly, std::move(parts), context, effort);
-        if (parts.size() > uncut.size() && overflow_of(parts) > tuning::clearly_less * overflow_of(uncut)) return uncut;
+        if (parts.size() > uncut.size() && overflow_of(parts) > overflow_of(uncut)) return uncut;
         if (parts.size() == 1 || !merge_parts(whole, options, parts, refused, context, effort)) break;
     }
     merge_small_parts(whole, options, parts, context, effort);

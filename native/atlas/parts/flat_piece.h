@@ -8,7 +8,6 @@
 #include "parts/flat_parts.h"
 #include "parts/parts.h"
 
-#include <optional>
 #include <vector>
 
 namespace koebe {

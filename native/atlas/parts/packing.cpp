@@ -3,6 +3,7 @@
 #include "cost/tolerances.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "parts/packed_island.h"
 #include "parts/separation.h"
 #include "parts/shelf_packing.h"
@@ -15,7 +16,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -125,8 +125,7 @@ private:
             const double factor = round == 0 ? 1.0 : 0.4 + std::ldexp(static_cast<double>(random()), -31);
             size.push_back(round == static_cast<int>(rules.size()) ? island.extent : factor * island.area);
         }
-        std::vector<std::size_t> order(islands_.size());
-        std::iota(order.begin(), order.end(), 0);
+        std::vector<std::size_t> order = numbers_below<std::size_t>(islands_.size());
         std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return size[k]; });
         return order;
     }

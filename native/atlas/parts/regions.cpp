@@ -10,7 +10,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -62,8 +61,7 @@ public:
     PlanarRegions run()
     {
         regions_.of.assign(static_cast<std::size_t>(faces()), -1);
-        std::vector<Index> seeds(regions_.of.size());
-        std::iota(seeds.begin(), seeds.end(), 0);
+        std::vector<Index> seeds = numbers_below(regions_.of.size());
         std::ranges::stable_sort(seeds, std::ranges::greater(), [&](Index f) { return surface_.areas[f]; });
         for (const Index seed : seeds)
             if (regions_.of[seed] < 0) add_region(seed);

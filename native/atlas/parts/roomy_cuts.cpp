@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/numbering.h"
+#include "core/sort_unique.h"
 #include "cost/costs.h"
 #include "cut/edge_graph.h"
 #include "parts/tension.h"
@@ -68,8 +69,7 @@ public:
         }
         // Then the ends that were asked for.
         if (ends.size() <= most) corners.place.insert(corners.place.end(), ends.begin(), ends.end());
-        std::ranges::sort(corners.place);
-        corners.place.erase(std::unique(corners.place.begin(), corners.place.end()), corners.place.end());
+        sort_unique(corners.place);
         corners.points.resize(static_cast<Eigen::Index>(corners.place.size()), 2);
         for (std::size_t i = 0; i < corners.place.size(); ++i)
             corners.points.row(static_cast<Eigen::Index>(i)) = at_.row(static_cast<Eigen::Index>(corners.place[i]));

@@ -1,5 +1,7 @@
 #include "parts/separation.h"
 
+#include "core/numbering.h"
+
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -148,8 +150,7 @@ bool Separation::separate(int side, std::vector<IslandSpot>& spots, bool is_loca
     for (std::size_t i = 0; i < poses_.size(); ++i) move(i, spots_[i]);
     // Islands that overlap move to where they overlap least, one after the other, by chance. Pairs that still
     // overlap get larger weights.
-    std::vector<std::size_t> order(poses_.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<std::size_t> order = numbers_below<std::size_t>(poses_.size());
     std::int64_t least = total();
     for (int since = 0; least > 0 && since < patience && work_ < most; ++since) {
         for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[random() % k]);

@@ -1,6 +1,7 @@
 #include "parts/sheet_packing.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cost/tolerances.h"
 #include "parts/packed_island.h"
 
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -42,8 +42,8 @@ public:
 
     SheetPacking pack(double margin)
     {
-        std::vector<std::size_t> order(islands_.size());
-        std::iota(order.begin(), order.end(), 0);
+        // The largest island first, each on the first open sheet with room; without one on a new sheet.
+        std::vector<std::size_t> order = numbers_below<std::size_t>(islands_.size());
         std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t k) { return islands_[k].area; });
         SheetPacking packing{std::vector<IslandPlace>(islands_.size()), std::vector<int>(islands_.size(), -1), 0};
         double area = std::numeric_limits<double>::infinity();

@@ -1,6 +1,7 @@
 #include "parts/shelf_packing.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "cost/tolerances.h"
 #include "parts/packed_island.h"
 
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -43,8 +43,7 @@ private:
     template <typename Size>
     std::vector<std::size_t> by_falling(Size&& size) const
     {
-        std::vector<std::size_t> order(islands_.size());
-        std::iota(order.begin(), order.end(), 0);
+        std::vector<std::size_t> order = numbers_below<std::size_t>(islands_.size());
         std::ranges::stable_sort(order, std::greater<>(), size);
         return order;
     }

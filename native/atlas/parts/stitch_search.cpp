@@ -16,7 +16,6 @@ namespace koebe {
 namespace {
 
 constexpr std::size_t most_places = 32;  // along a border, at which a stretch may begin or end
-constexpr double most_of_ring = 0.8;     // of a closed border
 
 /// A stretch, between two places of a border.
 struct BorderWindow {
@@ -156,7 +155,7 @@ private:
                 j = std::min(count, j + step);
                 const auto window = symmetric({i, j}, mirror);
                 if (!window || sums.refuses(*window)) continue;
-                if (border.is_ring && sums.length_of(*window) > most_of_ring * sums.length.back()) continue;
+                if (border.is_ring && window->to - window->from == count) continue;
                 if (Stitch found = worth_of(border, sums, *window); found.forecast > most.forecast) {
                     most = std::move(found);
                     best = *window;

@@ -1,13 +1,13 @@
 #include "parts/tension.h"
 
 #include "core/complex_places.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "even/even_map.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -24,8 +24,7 @@ SeamedMesh seamed(const Vertices& vertices, const Surface& surface, const std::v
     const Triangles& triangles = surface.triangles;
     SeamedMesh mesh;
     mesh.corners = mesh.fans = triangles;
-    mesh.face.resize(static_cast<std::size_t>(triangles.rows()));
-    std::iota(mesh.face.begin(), mesh.face.end(), 0);
+    mesh.face = numbers_below(triangles.rows());
     mesh.turned.assign(mesh.face.size(), 0);
     mesh.twin = surface.twin;
     mesh.fan_count = surface.vertex_count;

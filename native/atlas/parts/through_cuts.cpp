@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -62,8 +61,7 @@ public:
                 found.emplace_back(surplus, h);
         std::ranges::stable_sort(found, std::ranges::greater(), [](const auto& one) { return one.first; });
         std::vector<ThroughCut> cuts;
-        Taken taken{std::vector<int>(enclosed_.size()), std::vector<char>(strain_.size(), 0)};
-        std::iota(taken.joined.begin(), taken.joined.end(), 0);
+        Taken taken{numbers_below<int>(enclosed_.size()), std::vector<char>(strain_.size(), 0)};
         for (const auto& [surplus, h] : found) {
             ThroughCut cut = path(h);
             cut.forecast = surplus + cut.cost;

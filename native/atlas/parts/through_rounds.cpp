@@ -3,7 +3,6 @@
 #include "core/connectivity.h"
 #include "core/numbering.h"
 #include "cost/costs.h"
-#include "even/even_forces.h"
 #include "execution/profile.h"
 #include "execution/side_by_side.h"
 #include "parts/darts.h"

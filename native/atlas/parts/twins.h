@@ -3,7 +3,6 @@
 
 #include "parts/congruence.h"
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 

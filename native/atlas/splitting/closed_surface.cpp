@@ -2,33 +2,21 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/grouping.h"
 #include "core/numbering.h"
 #include "cost/tuning.h"
 #include "splitting/halving.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace koebe {
-namespace {
-
-/// The lowest vertex of the piece at each vertex's place in the input.
-std::vector<Index> undoubled(const std::vector<Index>& source)
-{
-    std::vector<Index> order(source.size()), lowest(source.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [&](Index v) { return source[v]; });
-    for (std::size_t i = 0; i < order.size(); ++i)
-        lowest[order[i]] = i > 0 && source[order[i]] == source[order[i - 1]] ? lowest[order[i - 1]] : order[i];
-    return lowest;
-}
-
-}  // namespace
-
 std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertices& vertices,
                                          const std::vector<Index>& polygon)
 {
-    const std::vector<Index> lowest = undoubled(piece.source_vertex);
+    // The lowest vertex of the piece at each vertex's place in the input.
+    const std::vector<Index>& source = piece.source_vertex;
+    const std::vector<Index> lowest =
+        lowest_alike(static_cast<Eigen::Index>(source.size()), [&](Index v) { return source[v]; });
     Triangles triangles = piece.triangles;
     bool doubled = false;
     for (Eigen::Index i = 0; i < triangles.size(); ++i) {

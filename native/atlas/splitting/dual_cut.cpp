@@ -15,7 +15,6 @@
 #endif
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_map>
 
 namespace koebe {
@@ -53,9 +52,8 @@ void add_edge(Graph& graph, Index a, Index b, double capacity)
 /// sides there. Gives the faces of a group the same side.
 class Groups {
 public:
-    Groups(const PartMesh& part, std::vector<Side>& sides) : sides_(sides), parent_(sides.size())
+    Groups(const PartMesh& part, std::vector<Side>& sides) : sides_(sides), parent_(numbers_below(sides.size()))
     {
-        std::iota(parent_.begin(), parent_.end(), 0);
         join_polygons(part);
         join_round_loops(part);
         for (std::size_t f = 0; f < sides.size(); ++f) sides[f] = sides[root(static_cast<Index>(f))];

@@ -1,5 +1,4 @@
 #include "core/connectivity.h"
-#include "cost/tuning.h"
 #include "execution/profile.h"
 #include "execution/side_by_side.h"
 #include "splitting/piece_forecast.h"
@@ -186,7 +185,7 @@ void merge_small_parts(const CutSurface& whole, const SplitOptions& options, std
         const int own = static_cast<int>(found - parts.begin());
         PartPointer best;
         int neighbour = -1;
-        double best_gain = -tuning::small_part_worth * options.part_price;
+        double best_gain = -options.part_price;
         for (const auto& [pair, length] : borders(whole, parts)) {
             if (pair.first != own && pair.second != own) continue;
             context.checkpoint();

@@ -1,6 +1,7 @@
 #include "splitting/mirror_symmetry.h"
 
 #include "core/connectivity.h"
+#include "core/grouping.h"
 #include "cost/costs.h"
 #include "execution/profile.h"
 #include "mesh/connected_pieces.h"
@@ -8,12 +9,8 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
-#include <unordered_map>
 
 namespace koebe {
 namespace {
@@ -42,7 +39,6 @@ double cost_of(const CutSurface& whole, const SplitOptions& options, const std::
 std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mirror& mirror,
                                                const std::vector<PartPointer>& parts, double chosen)
 {
-    const std::size_t count = mirror.group.size();
     std::vector<Index> label(mirror.image.size());
     for (std::size_t k = 0; k < parts.size(); ++k)
         for (const Index f : parts[k]->mesh.faces) label[mirror.group[f]] = static_cast<Index>(k);
@@ -55,24 +51,11 @@ std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mi
         const Index here = own(a) ? a : b, there = own(a) ? b : a, image = mirror.image[there];
         return image == here ? label[here] == label[there] : label[here] == label[image];
     };
-    std::vector<std::vector<Index>> pieces;
-    std::vector<char> seen(count, 0);
-    for (Index seed = 0; seed < static_cast<Index>(count); ++seed) {
-        if (seen[seed]) continue;
-        std::vector<Index> queue{seed};
-        seen[seed] = 1;
-        for (std::size_t head = 0; head < queue.size(); ++head)
-            for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h) {
-                const Index t = whole.surface.twin[h];
-                if (t == no_twin || seen[face_of(t)] || !joined(mirror.group[face_of(h)], mirror.group[face_of(t)]))
-                    continue;
-                seen[face_of(t)] = 1;
-                queue.push_back(face_of(t));
-            }
-        std::ranges::sort(queue);
-        pieces.push_back(std::move(queue));
-    }
-    return pieces;
+    Index count = 0;
+    const std::vector<Index>& twin = whole.surface.twin;
+    const std::vector<Index> piece = joined_pieces(
+        twin, count, [&](Index h) { return joined(mirror.group[face_of(h)], mirror.group[face_of(twin[h])]); });
+    return places_of_numbers(piece, count);
 }
 
 }  // namespace
@@ -89,9 +72,7 @@ std::vector<std::vector<Index>> faces_of_sides(const CutSurface& whole, const Mi
     for (const Index group : mirror.group) side.push_back(mirror.side[group] > 0.0);
     Index count = 0;
     const std::vector<Index> piece = connected_pieces(whole.surface.twin, side, count);
-    std::vector<std::vector<Index>> faces(static_cast<std::size_t>(count));
-    for (std::size_t f = 0; f < piece.size(); ++f) faces[piece[f]].push_back(static_cast<Index>(f));
-    return faces;
+    return places_of_numbers(piece, count);
 }
 
 bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,

@@ -14,7 +14,7 @@ namespace koebe {
 bool make_symmetric(const CutSurface& whole, const SplitOptions& options, const Mirror& mirror,
                     std::vector<PartPointer>& parts, ExecutionContext& context, SplitEffort& effort);
 
-/// Whether symmetric parts cost at most a little more than others, or twice as much.
+/// Whether symmetric parts cost at most twice as much as others.
 bool is_worth_symmetry(const CutSurface& whole, const SplitOptions& options, const std::vector<PartPointer>& symmetric,
                        const std::vector<PartPointer>& others);
 

@@ -1,7 +1,6 @@
 #include "splitting/proposals.h"
 
 #include "circles/moebius.h"
-#include "core/connectivity.h"
 #include "cost/tuning.h"
 #include "execution/profile.h"
 #include "execution/side_by_side.h"

@@ -2,6 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/length.h"
+#include "core/numbering.h"
 #include "cost/costs.h"
 #include "execution/side_by_side.h"
 #include "splitting/halving.h"
@@ -9,8 +10,6 @@
 #include "splitting/proposals.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -73,7 +72,7 @@ double gain_of(const Split& split, const Part& part, const SplitOptions& options
     }
     const double before = cost_of(part.map);
     const bool leaves_little = largest > tuning::nearly_all * part.mesh.area;
-    return leaves_little && before - left < tuning::least_return * price ? -price : before - expected - price;
+    return leaves_little && before < left ? -price : before - expected - price;
 }
 
 /// The splits that seem to pay, the best first.
@@ -167,10 +166,7 @@ std::vector<PartPointer> halved(const CutSurface& whole, const PartPointer& part
 std::vector<PartPointer> first_parts(const CutSurface& whole, std::vector<std::vector<Index>> faces,
                                      ExecutionContext& context, SplitEffort& effort)
 {
-    if (faces.empty()) {
-        faces.emplace_back(static_cast<std::size_t>(whole.areas.size()));
-        std::iota(faces.front().begin(), faces.front().end(), 0);
-    }
+    if (faces.empty()) faces.push_back(numbers_below(whole.areas.size()));
     std::vector<PartPointer> parts;
     for (auto& own : faces) {
         parts.push_back(std::make_shared<Part>(Part{part_mesh(whole, std::move(own)), {}, {}}));

@@ -63,7 +63,7 @@ bool merge_parts(const CutSurface& whole, const SplitOptions& options, std::vect
                  RefusedMerges& refused, ExecutionContext& context, SplitEffort& effort);
 
 /// Merges each part of a few faces with a neighbour: the neighbour for which the merged part costs least. It does so
-/// even if the cut pays by up to a few prices of a part: nobody wants to paint on small parts.
+/// even if the cut pays by up to the price of a part: nobody wants to paint on small parts.
 void merge_small_parts(const CutSurface& whole, const SplitOptions& options, std::vector<PartPointer>& parts,
                        ExecutionContext& context, SplitEffort& effort);
 

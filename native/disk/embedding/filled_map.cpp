@@ -3,6 +3,7 @@
 #include "circles/circle_projection.h"
 #include "circles/moebius.h"
 #include "circles/on_circle.h"
+#include "core/numbering.h"
 #include "core/tolerances.h"
 #include "embedding/widened_rim.h"
 #include "planar/planar_predicates.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -25,12 +25,6 @@ constexpr double ample = 1e-4;          // of the mean area: a larger face has r
 constexpr int most_cautions = 4;
 // Relative decreases of the energy. The vertex for 0 gets there only when faces have made room.
 constexpr double settled_without_center = 3e-4, settled_with_center = 1e-5;
-// Limits for the vertex that is to lie at 0.
-constexpr int most_moves = 80, most_stuck = 4;
-constexpr double longest_move = 0.3;                    // disk units: |a| of an automorphism
-constexpr double least_move = 1e-3, poor_move = 0.02;   // shares of the way to 0
-constexpr double with_room = 0.3, hardest_pull = 1e12;  // dimensionless: weight of the holes' fans, and the pull
-
 constexpr int rings_that_move = 8;  // round places that are replaced
 
 /// Whether wrong faces are so few that the rest of the map is worth keeping.
@@ -63,7 +57,7 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
       caution_(filled_.triangles.rows(), 1.0),
       places_(places),
       now_{{}, std::vector(filled_.vertex_count, Mobility::free), std::vector<Circle>(loops.size())},
-      faces_(surface.triangles.rows())
+      faces_(numbers_below(surface.triangles.rows()))
 {
     for (std::size_t k = 0; k < loops.size(); ++k)
         for (const Index v : loops[k]) {
@@ -75,7 +69,6 @@ FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std
         for (const Index v : ear.rim) pulled_[v] = 0;
     for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
         for (const Index v : filled_.triangles.row(f)) around_[v].push_back(static_cast<Index>(f));
-    std::iota(faces_.begin(), faces_.end(), 0);
 }
 
 FilledMap::FilledMap(const Vertices& vertices, const Surface& surface, const std::vector<VertexLoop>& loops,
@@ -157,80 +150,6 @@ VectorXcd FilledMap::placed_rim(VectorXcd rim) const
     rim *= std::conj(rim[place]) / std::abs(rim[place]);
     rim[place] = 1.0;
     return rim;
-}
-
-/// Moves each vertex by an automorphism of the disk that leaves the vertex at 1.
-/// @return false, without a change, if a face would turn over
-bool FilledMap::move_by(Moebius moebius)
-{
-    const std::vector<char> was_right = right_faces();
-    const PlanarPoints before = now_.points;
-    if (places_.point >= 0) {
-        const Complex image = moebius(at(places_.point));
-        moebius.turn = std::conj(image) / std::abs(image);
-    }
-    for (Index v = 0; v < filled_.vertex_count; ++v) {
-        Complex image = v == places_.point ? Complex(1.0, 0.0) : moebius(at(v));
-        if (loop_of_[v] == 0) image /= std::abs(image);
-        now_.points.row(v) << image.real(), image.imag();
-    }
-    for (Eigen::Index f = 0; f < filled_.triangles.rows(); ++f)
-        if (was_right[f] && !right(f)) {
-            now_.points = before;
-            return false;
-        }
-    return true;
-}
-
-/// Moves the vertex for 0 alone, by a share of its way.
-/// @return false, without a change, if a face would turn over
-bool FilledMap::move_center_by(double share)
-{
-    const Index v = places_.center;
-    const std::vector<char> was_right = right_faces();
-    const Eigen::RowVector2d before = now_.points.row(v);
-    now_.points.row(v) -= share * before;
-    if (star_right(v, was_right)) return true;
-    now_.points.row(v) = before;
-    return false;
-}
-
-/// Brings the vertex for 0 there, and holds it. An automorphism turns a face over only if its pole lies in the face's
-/// circumscribed disk. So this takes small automorphisms, whose poles are far, and steps of the vertex alone. Between
-/// them the faces around it are relaxed, first towards equilateral ones, which have the smallest circumscribed disks.
-void FilledMap::bring_to_center(const ExecutionContext& context)
-{
-    let_rim_slide(true);
-    const State start = now_;
-    if (approach_center(false, context)) return;
-    return_to(start);
-    approach_center(true, context);
-}
-
-/// @param follows whether the vertex moves when faces are relaxed; it is then pulled the last part of the way
-/// @return whether the vertex is at 0
-bool FilledMap::approach_center(bool follows, const ExecutionContext& context)
-{
-    const Index v = places_.center;
-    now_.mobility[v] = follows ? Mobility::free : Mobility::held;
-    PatchShape shape = PatchShape::equilateral;
-    bool there = move_center_by(1.0);
-    for (int step = 0, stuck = 0; !there && step < most_moves && stuck < most_stuck; ++step) {
-        double turned = std::min(1.0, longest_move / std::abs(at(v))), alone = follows ? 0.0 : 0.5;
-        while (turned > least_move && !move_by({turned * at(v)})) turned *= 0.5;
-        while (alone > least_move && !move_center_by(alone)) alone *= 0.5;
-        const double most = std::max(turned, alone);
-        stuck = most > least_move ? 0 : stuck + 1;
-        if (most < poor_move) shape = shape == PatchShape::surface ? PatchShape::equilateral : PatchShape::surface;
-        relax({.regular = with_room, .shape = shape}, most < poor_move ? 12 : 4, context);
-        there = move_center_by(1.0);
-    }
-    for (double pull = 1.0; follows && !there && pull < hardest_pull; pull *= 10.0) {
-        relax({.regular = with_room, .place = pull, .shape = PatchShape::equilateral}, 12, context);
-        there = move_center_by(1.0);
-    }
-    now_.mobility[v] = there ? Mobility::held : Mobility::free;
-    return there;
 }
 
 void FilledMap::start(const VectorXcd& rim, const ExecutionContext& context)

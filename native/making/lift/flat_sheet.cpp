@@ -1,6 +1,7 @@
 #include "lift/flat_sheet.h"
 
 #include "core/length.h"
+#include "mesh/connected_pieces.h"
 #include "planar/planar_predicates.h"
 
 #include <Eigen/Geometry>
@@ -40,24 +41,8 @@ void find_steps(FlatSheet& sheet)
 
 void number_sheets(FlatSheet& sheet)
 {
-    sheet.sheet.assign(sheet.triangles.rows(), -1);
-    Index number = 0;
-    std::vector<Index> front;
-    for (Index f = 0; f < static_cast<Index>(sheet.sheet.size()); ++f) {
-        if (sheet.sheet[f] >= 0) continue;
-        front.assign(1, f);
-        sheet.sheet[f] = number;
-        while (!front.empty()) {
-            const Index g = front.back();
-            front.pop_back();
-            for (Index h = 3 * g; h < 3 * g + 3; ++h) {
-                if (sheet.border[h] || sheet.sheet[face_of(sheet.twin[h])] >= 0) continue;
-                sheet.sheet[face_of(sheet.twin[h])] = number;
-                front.push_back(face_of(sheet.twin[h]));
-            }
-        }
-        ++number;
-    }
+    Index count = 0;
+    sheet.sheet = joined_pieces(sheet.twin, count, [&](Index h) { return !sheet.border[h]; });
 }
 
 void measure(FlatSheet& sheet)

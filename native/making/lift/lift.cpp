@@ -3,6 +3,7 @@
 #include "core/all_elements.h"
 #include "core/counted.h"
 #include "core/enum_words.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "execution/peak_memory.h"
 #include "execution/run_on_copies.h"
@@ -23,7 +24,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -96,8 +96,7 @@ RaisedSheet image_relief(const FlatDomain& whole, const GreyImage& image, const 
     raised.triangles = fine.triangles;
     raised.uv = fine.uv;
     raised.patch.assign(fine.triangles.rows(), 0);
-    raised.source.resize(fine.vertices.rows());
-    std::iota(raised.source.begin(), raised.source.end(), 0);
+    raised.source = numbers_below(fine.vertices.rows());
     sheet.original = raised.source;
     std::fill(sheet.original.begin() + domain.vertices.rows(), sheet.original.end(), -1);
     sheet.patch = raised.patch;

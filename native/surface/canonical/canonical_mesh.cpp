@@ -137,11 +137,9 @@ std::vector<Index> entries_of_others(const Triangles& triangles, const std::vect
 CanonicalMesh as_it_is(const Vertices& vertices, const Triangles& triangles)
 {
     CanonicalMesh mesh{vertices, triangles, {}, {}, {}, Eigen::Matrix3d::Identity()};
-    mesh.original_vertices.resize(static_cast<std::size_t>(vertices.rows()));
-    mesh.original_faces.resize(static_cast<std::size_t>(triangles.rows()));
+    mesh.original_vertices = numbers_below(vertices.rows());
+    mesh.original_faces = numbers_below(triangles.rows());
     mesh.first_corners.assign(mesh.original_faces.size(), 0);
-    std::iota(mesh.original_vertices.begin(), mesh.original_vertices.end(), 0);
-    std::iota(mesh.original_faces.begin(), mesh.original_faces.end(), 0);
     return mesh;
 }
 

@@ -1,9 +1,10 @@
 #include "cut/edge_graph.h"
 
+#include "core/numbering.h"
+
 #include <boost/graph/dijkstra_shortest_paths.hpp>
 
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -59,8 +60,7 @@ PathTree shortest_paths(const EdgeGraph& graph, const std::vector<Index>& source
     const auto& g = graph.graph();
     const auto count = num_vertices(g);
     PathTree tree{std::vector<double>(count, std::numeric_limits<double>::max()), std::vector<Index>(count, no_twin),
-                  std::vector<Index>(count)};
-    std::iota(tree.parent.begin(), tree.parent.end(), 0);
+                  numbers_below(count)};
     std::vector<Index> before(count);
     const auto index = get(boost::vertex_index, g);
     boost::dijkstra_shortest_paths(

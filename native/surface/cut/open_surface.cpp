@@ -13,7 +13,6 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -374,10 +373,8 @@ SurfacePiece to_piece(const SeamedMesh& mesh, const Vertices& vertices)
 SurfacePiece whole_piece(const Vertices& vertices, const Triangles& triangles)
 {
     SurfacePiece piece{vertices, triangles, {}, {}, {}};
-    piece.source_vertex.resize(static_cast<std::size_t>(vertices.rows()));
-    piece.source_face.resize(static_cast<std::size_t>(triangles.rows()));
-    std::iota(piece.source_vertex.begin(), piece.source_vertex.end(), 0);
-    std::iota(piece.source_face.begin(), piece.source_face.end(), 0);
+    piece.source_vertex = numbers_below(vertices.rows());
+    piece.source_face = numbers_below(triangles.rows());
     return piece;
 }
 

@@ -50,11 +50,7 @@ public:
 private:
     bool alike(Index g, Index h) const { return origin(seams_.mesh.corners, g) == origin(seams_.mesh.corners, h); }
 
-    void join(Index g, Index h)
-    {
-        seams_.mesh.twin[g] = h;
-        seams_.mesh.twin[h] = g;
-    }
+    void join(Index g, Index h) { seams_.mesh.join(g, h); }
 
     /// Pairs half-edges, first inside polygons, then over edges with two half-edges left. A polygon that goes round a
     /// hole through a slit meets itself there: inside it, faces are joined as a tree.

@@ -1,9 +1,9 @@
 #include "cut/seamed_mesh.h"
 
 #include "cut/edge_runs.h"
+#include "mesh/connected_pieces.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -14,27 +14,6 @@ Index turn(const SeamedMesh& mesh, Index h) { return mesh.twin[previous_halfedge
 Index turn_back(const SeamedMesh& mesh, Index h)
 {
     return mesh.twin[h] == no_twin ? no_twin : next_halfedge(mesh.twin[h]);
-}
-
-/// The number of each face's connected part, and how many parts there are.
-std::pair<std::vector<Index>, Index> part_of_faces(const SeamedMesh& mesh)
-{
-    const Index face_count = static_cast<Index>(mesh.face.size());
-    std::vector<Index> part(face_count, -1), queue;
-    Index count = 0;
-    for (Index seed = 0; seed < face_count; ++seed) {
-        if (part[seed] >= 0) continue;
-        part[seed] = count;
-        queue.assign(1, seed);
-        for (std::size_t head = 0; head < queue.size(); ++head)
-            for (Index h = 3 * queue[head]; h < 3 * queue[head] + 3; ++h)
-                if (mesh.twin[h] != no_twin && part[face_of(mesh.twin[h])] < 0) {
-                    part[face_of(mesh.twin[h])] = count;
-                    queue.push_back(face_of(mesh.twin[h]));
-                }
-        ++count;
-    }
-    return {std::move(part), count};
 }
 
 }  // namespace
@@ -71,14 +50,14 @@ void join_idle_seams(SeamedMesh& mesh)
     for_each_edge(mesh.fans, mesh.fan_count, [&](std::span<const Index> run) {
         if (run.size() != 2 || mesh.twin[run[0]] != no_twin || mesh.twin[run[1]] != no_twin) return;
         if (origin(mesh.fans, run[0]) != target(mesh.fans, run[1])) return;
-        mesh.twin[run[0]] = run[1];
-        mesh.twin[run[1]] = run[0];
+        mesh.join(run[0], run[1]);
     });
 }
 
 std::vector<SeamedMesh> connected_parts(const SeamedMesh& mesh)
 {
-    const auto [part, count] = part_of_faces(mesh);
+    Index count = 0;
+    const std::vector<Index> part = joined_pieces(mesh.twin, count, [](Index) { return true; });
     std::vector<Index> size(count, 0), place(part.size());
     for (std::size_t f = 0; f < part.size(); ++f) place[f] = size[part[f]]++;
     // Half-edges keep their places in their faces: 3 f + k becomes 3 place[f] + k.

@@ -24,6 +24,11 @@ struct SeamedMesh {
 
     Index halfedge_count() const { return static_cast<Index>(twin.size()); }
     void cut(Index halfedge);
+    void join(Index halfedge, Index other)
+    {
+        twin[halfedge] = other;
+        twin[other] = halfedge;
+    }
 };
 
 /// Numbers the fans again after the twins have changed.

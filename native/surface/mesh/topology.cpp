@@ -6,8 +6,6 @@
 #include "execution/thread_share.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <string>
 #include <utility>
 

@@ -86,7 +86,7 @@ VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles
         const Eigen::RowVector3d up = normals.row(v).normalized();
         const Eigen::RowVector3d across = up.cross(vertices.row(neighbour[v]) - vertices.row(v)).normalized();
         const Eigen::RowVector3d along = across.cross(up), start = vertices.row(v) + off_surface * extent * up;
-        int free = 0;
+        int free = 0;  // of rays with the density of the cosine: on Vogel's spiral, projected up
         for (int k = 0; k < directions; ++k) {
             const double share = (k + 0.5) / directions, angle = golden_angle * k;
             const Eigen::RowVector3d to =

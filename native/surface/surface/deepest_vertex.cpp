@@ -1,7 +1,5 @@
 #include "surface/deepest_vertex.h"
 
-#include <algorithm>
-
 namespace koebe {
 
 Index deepest_vertex(BoundarySolver& surface, const VectorXd& areas)
