@@ -10,6 +10,7 @@
 #include <algorithm>
 
 namespace koebe {
+
 std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertices& vertices,
                                          const std::vector<Index>& polygon)
 {
