@@ -2,7 +2,7 @@
 """Theorem 4.1 of the paper, measured: the maps f_n of a domain without a disk D_n to a ring converge to its Riemann map
 f as D_n shrinks to a point p. All maps by koebe.planar, so that the errors are the theorem's and not a mesh's.
 
-Usage: shrinking_disks.py        prints a table in Markdown
+Usage: shrinking_disks.py        prints docs/data/shrinking_disks.csv
 """
 
 import koebe
@@ -51,11 +51,10 @@ def errors(name):
 
 
 def main():
-    print("| domain | " + " | ".join(f"n = {n}" for n in HALVINGS) + " | factor at last |")
-    print("| --- " * (len(HALVINGS) + 2) + "|")
+    print("domain," + ",".join(f"error with {n} halvings" for n in HALVINGS) + ",factor at last")
     for name in DOMAINS:
         found = errors(name)
-        print(f"| {name} | " + " | ".join(f"{error:.1e}" for error in found) + f" | {found[-2] / found[-1]:.2f} |")
+        print(f'"{name}",' + ",".join(f"{error:.1e}" for error in found) + f",{found[-2] / found[-1]:.2f}", flush=True)
 
 
 if __name__ == "__main__":

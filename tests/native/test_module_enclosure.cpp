@@ -1,6 +1,7 @@
 #include "certified/capacities.h"
 #include "certified/circle_bounds.h"
 #include "certified/circle_capacities.h"
+#include "certified/interval_functions.h"
 #include "circle_domain.h"
 #include "shape/conformal_module.h"
 
@@ -104,6 +105,42 @@ TEST(ModuleEnclosure, the_module_gives_the_circles)
             EXPECT_NEAR(found[k].radius, wanted[k].radius, 1e-14);
         }
     }
+}
+
+TEST(ModuleEnclosure, functions_of_intervals_hold_those_of_long_doubles_closely)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> exponent(-700.0, 700.0), number(0.0, 1.0);
+    const auto holds = [](const Interval& found, long double exact) {
+        const long double rounding = 1e-18L * (1.0L + std::abs(exact));  // of the long doubles
+        EXPECT_LE(found.lower, exact + rounding);
+        EXPECT_GE(found.upper, exact - rounding);
+        EXPECT_LE(found.width(), 1e-15 * (8.0 + 40.0 * static_cast<double>(std::abs(exact))));
+    };
+    for (int i = 0; i < 2000; ++i) {
+        const double x = std::exp(exponent(random)), small = 1.0 + (number(random) - 0.5) * 1e-3,
+                     y = 3.0 * number(random);
+        holds(logarithm(Interval(x)), std::log(static_cast<long double>(x)));
+        holds(logarithm(Interval(small)), std::log(static_cast<long double>(small)));
+        holds(exponential_between(Interval(-y)), std::exp(-static_cast<long double>(y)));
+        const auto whole = static_cast<std::ptrdiff_t>(1 + 3000 * number(random));
+        const auto part = static_cast<std::ptrdiff_t>(static_cast<double>(whole) * number(random));
+        const long double angle =
+            2.0L * std::numbers::pi_v<long double> * static_cast<long double>(part) / static_cast<long double>(whole);
+        const Plane<Interval> root = unit_root(part, whole);
+        holds(root.re, std::cos(angle));
+        holds(root.im, std::sin(angle));
+    }
+    EXPECT_EQ(exponential_between(Interval(-1e6)).lower, 0.0);
+    EXPECT_GT(exponential_between(Interval(-1e6)).upper, 0.0);
+    EXPECT_FALSE(std::isfinite(logarithm(Interval(-1.0, 1.0)).width()));
+}
+
+TEST(ModuleEnclosure, capacities_of_a_small_circle_near_the_rim_are_known_well)
+{
+    const VectorXd module = Eigen::Vector3d(0.32, 0.9947, 0.0036);
+    std::vector<Condenser> condensers = loop_condensers(3);
+    EXPECT_LT(near(module).errors(condensers, VectorXd::Zero(3)).maxCoeff(), 1e-7);
 }
 
 // An automorphism of the disk that brings another circle to the middle changes no capacity.

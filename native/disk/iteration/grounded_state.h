@@ -9,7 +9,7 @@
 namespace koebe {
 
 /// A = Sigma + sum T_k with the loops in reverse order, so that the first inner loop is last. One factor A = L L' gives
-/// the images and the fluxes: with N = A^-1, N_kk = |L^-1 E_k|^2 (docs/method.md, M9).
+/// the images and the fluxes: with N = A^-1, N_kk = Z_k^T Z_k, Z_k the columns of loop k in L^-1 (docs/method.md, M9).
 class DenseGroundedState final : public GroundedState {
 public:
     /// The first angles of an inner loop come from the flux through it with all other loops open and at one voltage.

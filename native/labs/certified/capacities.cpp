@@ -2,6 +2,7 @@
 
 #include "certified/bisected_surface.h"
 #include "certified/capacity_bounds.h"
+#include "certified/interval_functions.h"
 #include "certified/module_enclosure.h"
 #include "certified/quadratic_functions.h"
 #include "core/errors.h"
@@ -48,17 +49,6 @@ void require_condenser(const Condenser& condenser, int loop_count)
         throw InputError("a condenser names a loop twice", ElementKind::loops, {*twice});
 }
 
-/// exp, known to some units in the last place.
-Interval exponential(const Interval& x)
-{
-    double lower = std::exp(x.lower), upper = std::exp(x.upper);
-    for (int k = 0; k < 4; ++k) {
-        lower = std::max(below(lower), 0.0);
-        upper = above(upper);
-    }
-    return {lower, upper};
-}
-
 /// What is known about all numbers so far.
 class Enclosures {
 public:
@@ -84,9 +74,8 @@ public:
         report_.width = 0.0;
         for (const Capacity& capacity : report_.capacities) add_width(capacity.value);
         if (!ring_ || report_.capacities.empty()) return;
-        const Interval two_pi{0x1.921fb54442d18p2, 0x1.921fb54442d19p2};
         report_.modulus = Interval(1.0) / report_.capacities[0].value;
-        report_.module = {exponential(-(two_pi * *report_.modulus))};
+        report_.module = {exponential_between(-(enclosed_two_pi * *report_.modulus))};
         report_.order = {0, 1};
         add_width(*report_.modulus);
         add_width(report_.module[0]);
@@ -178,7 +167,7 @@ public:
             ExecutionContext quiet({}, {}, [&] { context.checkpoint(); });  // it is a stage of no known length
             if (near_.order.empty()) near_ = near_module(vertices_, surface_, threads_, quiet);
             enclosures.take_module(enclose_module(near_, report.capacities, quiet));
-            report.order = near_.order;
+            report.order = near_.wanted_order;
         } catch (const Cancelled&) {
             throw;
         } catch (const KoebeError& error) {
@@ -220,16 +209,21 @@ CapacityReport capacities_here(const Vertices& vertices, const Triangles& triang
         const VectorXd gap = enclose_all(surface, chosen, enclosures, context);
         enclosures.end_level(surface.face_count());
         const double before = std::exchange(of_capacities, report.width);
-        if (condensers.empty() && loop_count > 2 && report.width <= wanted) module.enclose(enclosures, context);
+        const bool has_module = condensers.empty() && loop_count > 2;
+        if (has_module && report.width <= wanted) module.enclose(enclosures, context);
         report.converged = report.width <= wanted;
         const bool may_find_circles = !report.no_module.empty() && loop_count <= most_enclosed_loops &&
                                       module.may_narrow() && options.width &&
                                       of_capacities > width_for_circles * wanted;
         const bool stuck = report.levels > 1 && of_capacities > (1.0 - least_progress) * before;
-        if ((report.converged && !may_find_circles) || stuck) return std::move(report);
         const std::vector<char> marked = largest_gaps(gap);
         const double cut = static_cast<double>(std::ranges::count(marked, 1));
-        if (!has_room(surface.face_count() + growth_reserve * 3.0 * cut, options)) return std::move(report);
+        if ((report.converged && !may_find_circles) || stuck ||
+            !has_room(surface.face_count() + growth_reserve * 3.0 * cut, options)) {
+            // Bounds that are too wide for the caller may do for the circles.
+            if (has_module && report.module.empty() && report.no_module.empty()) module.enclose(enclosures, context);
+            return std::move(report);
+        }
         surface.refine(marked);
     }
 }

@@ -8,6 +8,21 @@ namespace koebe {
 namespace {
 
 constexpr double room_for_rounding = 1e-12;  // in the unit disk
+constexpr double least_kept = 0.5;           // of each radius and gap, in a step
+constexpr int most_halvings = 60;
+
+/// The radii of the inner circles, the gaps between them, and those to the unit circle.
+VectorXd radii_and_gaps(const std::vector<Circle>& circles)
+{
+    std::vector<double> lengths;
+    for (std::size_t i = 1; i < circles.size(); ++i) {
+        lengths.push_back(circles[i].radius);
+        lengths.push_back(1.0 - std::abs(circles[i].center) - circles[i].radius);
+        for (std::size_t j = 1; j < i; ++j)
+            lengths.push_back(std::abs(circles[i].center - circles[j].center) - circles[i].radius - circles[j].radius);
+    }
+    return Eigen::Map<VectorXd>(lengths.data(), static_cast<Eigen::Index>(lengths.size()));
+}
 
 }  // namespace
 
@@ -30,6 +45,14 @@ std::vector<Circle> circles_of_module(const VectorXd& module)
         circles[step.circle].radius += step.radius * module[l];
     }
     return circles;
+}
+
+VectorXd moved_module(const VectorXd& module, VectorXd step)
+{
+    const VectorXd least = least_kept * radii_and_gaps(circles_of_module(module));
+    for (int i = 0; i < most_halvings; ++i, step *= 0.5)
+        if ((radii_and_gaps(circles_of_module(module + step)).array() >= least.array()).all()) break;
+    return module + step;
 }
 
 CircleMotion::CircleMotion(const VectorXd& numbers) : of_centers((numbers.size() + 6) / 3, 0.0), of_radii(of_centers)
@@ -74,7 +97,6 @@ OnCircle bounds_on(const std::vector<Circle>& circles, const CirclePart& part, c
             const double loose = reach + slack.of_centers[k] + 1e-14;
             const double least = apart - loose, most = apart + loose;
             if (!(least > 0.0)) return {};
-            on.nearest = std::min(on.nearest, least);
             const double relative = (moved + speed.of_centers[k]) / least;
             on.ratio.push_back(radius_k *
                                BoundedFunction{1.0 / least, relative / least, 2.0 * relative * relative / least});
@@ -88,7 +110,6 @@ OnCircle bounds_on(const std::vector<Circle>& circles, const CirclePart& part, c
         const double loose = size * reach + slack.of_centers[k] * z.value + 1e-14;
         const double least = at_here - loose, most = at_here + loose;
         if (!(least > 0.0)) return {};
-        on.nearest = std::min(on.nearest, least);
         const double relative = (speed.of_centers[k] * z.value + size_k * moved) / least;
         const double bend = 2.0 * speed.of_centers[k] * moved / least;
         on.mirrored.push_back(

@@ -4,7 +4,6 @@
 #include "circles/circle.h"
 #include "core/types.h"
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,6 +23,10 @@ CircleStep step_of(Eigen::Index number);
 /// The circles with this module (shape/conformal_module.h): the unit circle, a circle round 0, a circle with its centre
 /// on the positive y axis, the rest. @param module (3 n - 6) for n >= 3 circles
 std::vector<Circle> circles_of_module(const VectorXd& module);
+
+/// The module after a step towards other circles, halved until no radius and no gap between two circles shrinks to less
+/// than half: Newton's method stays among circle domains, and near the place where it was linear.
+VectorXd moved_module(const VectorXd& module, VectorXd step);
 
 /// Bounds of the absolute values of a function of one variable and of its first two derivatives.
 struct BoundedFunction {
@@ -50,10 +53,9 @@ struct CircleMotion {
 
 /// What the functions of inner circles k = 1, 2, ... are at most on another. D = 1 - conj(c) z.
 struct OnCircle {
-    std::vector<BoundedFunction> ratio;                        // [k - 1] r / (z - c)
-    std::vector<BoundedFunction> mirrored;                     // [k - 1] r z / D, its mirror image in the unit circle
-    std::vector<BoundedFunction> logarithm;                    // [k - 1] the sum of log |z - c| and log |D|
-    double nearest = std::numeric_limits<double>::infinity();  // |z - c| and |D| at least
+    std::vector<BoundedFunction> ratio;      // [k - 1] r / (z - c)
+    std::vector<BoundedFunction> mirrored;   // [k - 1] r z / D, its mirror image in the unit circle
+    std::vector<BoundedFunction> logarithm;  // [k - 1] the sum of log |z - c| and log |D|
 };
 
 /// A part of inner circle b: all of it, or a point of it and the neighbourhood of so many radii. If stretch > 1, where

@@ -1,6 +1,7 @@
 #include "certified/circle_capacities.h"
 
 #include "certified/circle_bounds.h"
+#include "certified/interval_functions.h"
 
 #include <Eigen/QR>
 
@@ -12,9 +13,8 @@
 namespace koebe {
 namespace {
 
-constexpr int fewest_terms = 12;
+constexpr Eigen::Index fewest_terms = 12;
 constexpr Eigen::Index most_unknowns = 800;
-constexpr Eigen::Index samples_per_term = 6;
 constexpr double most_stretch = 8.0;
 constexpr int tried_stretches = 32;
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -43,98 +43,115 @@ double largest_stretch(const std::vector<Circle>& circles, int b)
 
 }  // namespace
 
-/// Values of the functions on the inner circles, at equal angles.
+/// Values of the functions on the inner circles, at equal angles: doubles to solve with, intervals to prove with.
 struct CircleCapacities::Samples {
-    Samples(const CircleCapacities& of) : count(of.samples_), matrix(count * of.inner(), of.size())
+    Samples(const CircleCapacities& of) : matrix(of.first_sample_of(of.inner() + 1), of.size())
     {
         for (int b = 1; b <= of.inner(); ++b)
-            for (Eigen::Index j = 0; j < count; ++j) {
-                const Complex turn = std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(j) / count);
-                turns.push_back(turn);
-                points.push_back(of.circles_[b].center + of.circles_[b].radius * turn);
-                fill(of, b, static_cast<Eigen::Index>(points.size()) - 1);
+            for (Eigen::Index j = 0; j < of.samples_of(b); ++j) {
+                const Plane<Interval> turn = unit_root(j, of.samples_of(b));
+                turns.push_back({0.5 * (turn.re.lower + turn.re.upper), 0.5 * (turn.im.lower + turn.im.upper)});
+                circle_of.push_back(b);
+                const std::vector<double> row = values(of, b, turns.back());
+                matrix.row(static_cast<Eigen::Index>(turns.size()) - 1) =
+                    Eigen::Map<const Eigen::RowVectorXd>(row.data(), of.size());
             }
     }
 
-    /// The derivative of each sample of a potential, coefficients fixed, in a number of the module.
+    /// (samples, numbers of the module) the derivatives of a potential, coefficients fixed.
     MatrixXd derivatives(const CircleCapacities& of, const VectorXd& coefficients) const
     {
-        MatrixXd all = MatrixXd::Zero(matrix.rows(), of.module_.size());
-        for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
-            const int b = static_cast<int>(row / count) + 1;
-            const Complex z = points[row];
-            for (int k = 1; k <= of.inner(); ++k) {
-                const Circle& circle = of.circles_[k];
-                const double a = coefficients[of.log_of(k)];
-                const Complex inverse = k == b ? 0.0 : 1.0 / (z - circle.center);  // w_b is the same at each place
-                const Complex mirror_inverse = 1.0 / (1.0 - std::conj(circle.center) * z);
-                const Complex w = circle.radius * inverse, v = circle.radius * z * mirror_inverse;
-                Complex of_w = 0.0, of_v = 0.0, w_power = 1.0, v_power = 1.0;  // derivatives of the powers' sums
-                for (int s = 0; s < of.terms_; ++s, w_power *= w, v_power *= v) {
-                    const Eigen::Index i = of.pole_of(k) + 2 * static_cast<Eigen::Index>(s);
-                    const Complex pole(coefficients[i], coefficients[i + 1]);
-                    of_w += (s + 1.0) * pole * w_power;
-                    of_v += (s + 1.0) * std::conj(pole) * v_power;
-                }
-                for (Eigen::Index l = 0; l < of.module_.size(); ++l) {
-                    const CircleStep step = step_of(l);
-                    if (step.circle != b && step.circle != k) continue;
-                    const Complex dz = step.circle == b ? step.center + step.radius * turns[row] : 0.0;
-                    const Complex dc = step.circle == k ? step.center : 0.0;
-                    const double dr = step.circle == k ? step.radius : 0.0;
-                    const Complex of_distance = (dz - dc) * inverse;
-                    const Complex of_mirrored = -(std::conj(dc) * z + std::conj(circle.center) * dz) * mirror_inverse;
-                    const Complex dw = (dr - circle.radius * of_distance) * inverse;
-                    const Complex dv = (dr * z + circle.radius * (dz - z * of_mirrored)) * mirror_inverse;
-                    const double of_log = k == b ? dr / circle.radius : of_distance.real();
-                    all(row, l) += a * (of_log - of_mirrored.real()) + (of_w * dw - of_v * dv).real();
-                }
+        MatrixXd all(matrix.rows(), of.module_.size());
+        for (Eigen::Index i = 0; i < all.rows(); ++i) {
+            const std::vector<double> row = slopes(of, circle_of[i], turns[i], coefficients);
+            all.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), all.cols());
+        }
+        return all;
+    }
+
+    /// Of all functions, at one place of circle b.
+    template <class Real>
+    static std::vector<Real> values(const CircleCapacities& of, int b, const Plane<Real>& turn)
+    {
+        std::vector<Real> row(of.size());
+        const Plane<Real> z = place<Real>(of, b, turn);
+        for (int k = 1; k <= of.inner(); ++k) {
+            const Real radius = of.circles_[k].radius;
+            const Plane<Real> c = plane<Real>(of.circles_[k].center);
+            const Plane<Real> mirrored = plane<Real>(1.0) - conjugate(c) * z;
+            const Plane<Real> w = k == b ? conjugate(turn) : inverse_of(z - c) * radius;
+            const Plane<Real> v = z * inverse_of(mirrored) * radius;
+            row[of.log_of(k)] = Real(0.5) * (logarithm(k == b ? squared(radius) : squared_length(z - c)) -
+                                             logarithm(squared_length(mirrored)));
+            Plane<Real> w_power = w, v_power = v;
+            for (Eigen::Index s = 0; s < of.terms_[k - 1]; ++s, w_power = w_power * w, v_power = v_power * v) {
+                row[of.pole_of(k) + 2 * s] = w_power.re - v_power.re;
+                row[of.pole_of(k) + 2 * s + 1] = Real(0.0) - w_power.im - v_power.im;
+            }
+        }
+        return row;
+    }
+
+    /// Of one potential at one place of circle b, in each number of the module.
+    template <class Real>
+    static std::vector<Real> slopes(const CircleCapacities& of, int b, const Plane<Real>& turn,
+                                    const VectorXd& coefficients)
+    {
+        std::vector<Real> all(of.module_.size());
+        const Plane<Real> z = place<Real>(of, b, turn);
+        for (int k = 1; k <= of.inner(); ++k) {
+            const Real radius = of.circles_[k].radius;
+            const Plane<Real> c = plane<Real>(of.circles_[k].center);
+            const Plane<Real> inverse = k == b ? Plane<Real>{} : inverse_of(z - c);  // w_b is the same at each place
+            const Plane<Real> mirror_inverse = inverse_of(plane<Real>(1.0) - conjugate(c) * z);
+            const Plane<Real> w = inverse * radius, v = z * mirror_inverse * radius;
+            Plane<Real> of_w, of_v, w_power = plane<Real>(1.0), v_power = w_power;  // derivatives of the powers' sums
+            for (Eigen::Index s = 0; s < of.terms_[k - 1]; ++s, w_power = w_power * w, v_power = v_power * v) {
+                const Eigen::Index i = of.pole_of(k) + 2 * s;
+                const Plane<Real> pole{coefficients[i], coefficients[i + 1]};
+                of_w = of_w + w_power * pole * Real(static_cast<double>(s + 1));
+                of_v = of_v + v_power * conjugate(pole) * Real(static_cast<double>(s + 1));
+            }
+            for (Eigen::Index l = 0; l < of.module_.size(); ++l) {
+                const CircleStep step = step_of(l);
+                if (step.circle != b && step.circle != k) continue;
+                const Plane<Real> dz =
+                    step.circle == b ? plane<Real>(step.center) + turn * Real(step.radius) : Plane<Real>{};
+                const Plane<Real> dc = step.circle == k ? plane<Real>(step.center) : Plane<Real>{};
+                const Plane<Real> dr = plane<Real>(step.circle == k ? step.radius : 0.0);
+                const Plane<Real> of_distance = (dz - dc) * inverse;
+                const Plane<Real> of_mirrored = (conjugate(dc) * z + conjugate(c) * dz) * mirror_inverse;
+                const Plane<Real> dw = (dr - of_distance * radius) * inverse;
+                const Plane<Real> dv = (dr * z + (dz + z * of_mirrored) * radius) * mirror_inverse;
+                const Real of_log = k == b ? dr.re / radius : of_distance.re;
+                all[l] =
+                    all[l] + Real(coefficients[of.log_of(k)]) * (of_log + of_mirrored.re) + (of_w * dw - of_v * dv).re;
             }
         }
         return all;
     }
 
-    /// (circles, columns) a bound of the largest absolute value of trigonometric polynomials with fewer than `count`
-    /// terms: by Cauchy and Schwarz the sum of its Fourier coefficients is at most sqrt(count) times their root mean
-    /// square, which the samples have too (Parseval).
-    MatrixXd largest(const MatrixXd& values) const
-    {
-        MatrixXd most(values.rows() / count, values.cols());
-        for (Eigen::Index b = 0; b < most.rows(); ++b)
-            most.row(b) = values.middleRows(b * count, count).colwise().norm() * rounded_up;
-        return most;
-    }
-
-    Eigen::Index count;
-    std::vector<Complex> turns, points;
+    std::vector<int> circle_of;
+    std::vector<Plane<double>> turns;
     MatrixXd matrix;
 
 private:
-    void fill(const CircleCapacities& of, int b, Eigen::Index row)
+    template <class Real>
+    static Plane<Real> plane(const Complex& z)
     {
-        const Complex z = points[row];
-        for (int k = 1; k <= of.inner(); ++k) {
-            const Circle& circle = of.circles_[k];
-            const Complex apart = k == b ? circle.radius * turns[row] : z - circle.center;
-            const Complex mirror_apart = 1.0 - std::conj(circle.center) * z;
-            const Complex w = k == b ? std::conj(turns[row]) : circle.radius / apart;
-            const Complex v = circle.radius * z / mirror_apart;
-            matrix(row, of.log_of(k)) =
-                std::log(k == b ? circle.radius : std::abs(apart)) - std::log(std::abs(mirror_apart));
-            Complex w_power = w, v_power = v;
-            for (int s = 0; s < of.terms_; ++s, w_power *= w, v_power *= v) {
-                const Eigen::Index i = of.pole_of(k) + 2 * static_cast<Eigen::Index>(s);
-                matrix(row, i) = w_power.real() - v_power.real();
-                matrix(row, i + 1) = -w_power.imag() - v_power.imag();
-            }
-        }
+        return {z.real(), z.imag()};
+    }
+
+    template <class Real>
+    static Plane<Real> place(const CircleCapacities& of, int b, const Plane<Real>& turn)
+    {
+        return plane<Real>(of.circles_[b].center) + turn * Real(of.circles_[b].radius);
     }
 };
 
 /// The numbers of a potential: how large they are for all modules near by, and how fast they change.
 struct CircleCapacities::Coefficients {
     Coefficients(const CircleCapacities& of, int i, const VectorXd& reach, const VectorXd& speed)
-        : poles(of.inner(), std::vector<BoundedFunction>(of.terms_))
     {
         const auto bound = [&](Eigen::Index first, Eigen::Index count) {
             BoundedFunction result{of.coefficients_.col(i).segment(first, count).norm()};
@@ -146,8 +163,9 @@ struct CircleCapacities::Coefficients {
             return result;
         };
         for (int k = 1; k <= of.inner(); ++k) logarithms.push_back(bound(of.log_of(k), 1));
+        poles.resize(of.inner());
         for (int k = 1; k <= of.inner(); ++k)
-            for (int s = 0; s < of.terms_; ++s) poles[k - 1][s] = bound(of.pole_of(k) + 2 * s, 2);
+            for (Eigen::Index s = 0; s < of.terms_[k - 1]; ++s) poles[k - 1].push_back(bound(of.pole_of(k) + 2 * s, 2));
     }
 
     /// Of the potential on a circle.
@@ -174,36 +192,78 @@ struct CircleCapacities::Coefficients {
 CircleCapacities::CircleCapacities(VectorXd module, double wanted_error, ExecutionContext& context)
     : module_(std::move(module)), circles_(circles_of_module(module_))
 {
-    // Twice as many terms square the series' error, until rounding is what is left.
-    for (terms_ = fewest_terms; terms_ == fewest_terms || size() <= most_unknowns; terms_ *= 2) {
+    terms_.assign(inner(), fewest_terms);
+    do {
         context.checkpoint();
         solve();
-        if (errors_.maxCoeff() < wanted_error) return;
+    } while (add_terms(wanted_error));
+    context.checkpoint();
+    prove();
+}
+
+/// Twice as many terms square the series' error, until rounding is what is left. Circles near others, and large ones
+/// beside small ones, need most. @return whether the errors ask for more and there is room
+bool CircleCapacities::add_terms(double wanted_error)
+{
+    const VectorXd worst = errors_.rowwise().maxCoeff();
+    const std::vector<Eigen::Index> before = terms_;
+    for (const bool all : {true, false}) {
+        for (int b = 0; b < inner(); ++b)
+            if (!(worst[b] < (all ? wanted_error : worst.maxCoeff()))) terms_[b] *= 2;
+        if (size() <= most_unknowns) return terms_ != before;
+        terms_ = before;
     }
-    terms_ = static_cast<int>(samples_ / samples_per_term);  // of the last solution
+    return false;
 }
 
 void CircleCapacities::solve()
 {
-    samples_ = samples_per_term * terms_;
     const Samples samples(*this);
     MatrixXd wanted = MatrixXd::Zero(samples.matrix.rows(), inner());
-    for (int i = 0; i < inner(); ++i) wanted.col(i).segment(i * samples_, samples_).setOnes();
+    for (int i = 0; i < inner(); ++i) wanted.col(i).segment(first_sample_of(i + 1), samples_of(i + 1)).setOnes();
     const Eigen::HouseholderQR<MatrixXd> factored(samples.matrix);
     coefficients_ = factored.solve(wanted);
-    errors_ = samples.largest(samples.matrix * coefficients_ - wanted);
+    const MatrixXd missed = samples.matrix * coefficients_ - wanted;
+    errors_.resize(inner(), inner());
+    for (int b = 1; b <= inner(); ++b)
+        errors_.row(b - 1) = missed.middleRows(first_sample_of(b), samples_of(b)).colwise().norm();
     derivatives_.assign(module_.size(), MatrixXd(size(), inner()));
-    errors_of_derivatives_.assign(module_.size(), MatrixXd(inner(), inner()));
     for (int i = 0; i < inner(); ++i) {
-        const MatrixXd slopes = samples.derivatives(*this, coefficients_.col(i));
-        const MatrixXd found = factored.solve(-slopes);
-        const MatrixXd errors = samples.largest(samples.matrix * found + slopes);
-        for (Eigen::Index l = 0; l < module_.size(); ++l) {
-            derivatives_[l].col(i) = found.col(l);
-            errors_of_derivatives_[l].col(i) = errors.col(l);
-        }
+        const MatrixXd found = factored.solve(-samples.derivatives(*this, coefficients_.col(i)));
+        for (Eigen::Index l = 0; l < module_.size(); ++l) derivatives_[l].col(i) = found.col(l);
     }
-    for (int b = 1; b <= inner(); ++b) add_what_samples_miss(b);
+}
+
+/// The largest absolute value of a trigonometric polynomial through samples is at most the sum of its Fourier
+/// coefficients, by Cauchy and Schwarz at most sqrt(samples) times their root mean square, which the samples have too
+/// (Parseval).
+void CircleCapacities::prove()
+{
+    errors_.setZero(inner(), inner());
+    errors_of_derivatives_.assign(module_.size(), MatrixXd::Zero(inner(), inner()));
+    const auto sum = [](const std::vector<Interval>& row, const auto& coefficients) {
+        Interval sum;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            sum = sum + Interval(coefficients[static_cast<Eigen::Index>(i)]) * row[i];
+        return sum;
+    };
+    for (int b = 1; b <= inner(); ++b) {
+        for (Eigen::Index j = 0; j < samples_of(b); ++j) {
+            const Plane<Interval> turn = unit_root(j, samples_of(b));
+            const std::vector<Interval> row = Samples::values(*this, b, turn);
+            for (int i = 0; i < inner(); ++i) {
+                const Interval missed = sum(row, coefficients_.col(i)) - Interval(i + 1 == b ? 1.0 : 0.0);
+                errors_(b - 1, i) += squared(missed.magnitude());
+                const std::vector<Interval> slopes = Samples::slopes(*this, b, turn, coefficients_.col(i));
+                for (Eigen::Index l = 0; l < module_.size(); ++l)
+                    errors_of_derivatives_[l](b - 1, i) +=
+                        squared((slopes[l] + sum(row, derivatives_[l].col(i))).magnitude());
+            }
+        }
+        errors_.row(b - 1) = errors_.row(b - 1).cwiseSqrt() * rounded_up;
+        for (MatrixXd& errors : errors_of_derivatives_) errors.row(b - 1) = errors.row(b - 1).cwiseSqrt() * rounded_up;
+        add_what_samples_miss(b);
+    }
 }
 
 void CircleCapacities::add_what_samples_miss(int b)
@@ -215,20 +275,10 @@ void CircleCapacities::add_what_samples_miss(int b)
 
     // Fourier coefficient m is at most the bound in the annulus times stretch^-|m|, and samples show it in another's
     // place.
-    const double samples = static_cast<double>(samples_);
+    const double samples = static_cast<double>(samples_of(b));
     const auto tail = [&](double stretch) {
         const double power = std::pow(stretch, -0.5 * samples);
         return 4.0 * rounded_up * std::max(power, std::numeric_limits<double>::min()) / (1.0 - 1.0 / stretch);
-    };
-
-    // A sample is wrong by so much of what its terms are at most; a polynomial of samples by sqrt(samples) times as
-    // much, as in largest(). Two logarithms near 0 are not known relative to their own size, but to 1.
-    const double rounding = std::sqrt(samples) * unit_roundoff * (static_cast<double>(size()) + 64.0 * terms_ + 64.0) *
-                            (1.0 + 1.0 / on_circle(1.0, zero).nearest);
-    const auto sizes = [&](const VectorXd& speed) {
-        OnCircle on = on_circle(1.0, speed);
-        for (BoundedFunction& logarithm : on.logarithm) logarithm.value += 2.0;
-        return on;
     };
 
     const double most = largest_stretch(circles_, b);
@@ -243,12 +293,11 @@ void CircleCapacities::add_what_samples_miss(int b)
             stretch = other;
             least = missed;
         }
-        errors_(b - 1, i) += least + rounding * still.sum(sizes(zero)).value;
+        errors_(b - 1, i) += least;
         for (Eigen::Index l = 0; l < module_.size(); ++l) {
             const VectorXd step = VectorXd::Unit(module_.size(), l);
             const Coefficients moving(*this, i, zero, step);
-            errors_of_derivatives_[l](b - 1, i) +=
-                tail(stretch) * moving.sum(on_circle(stretch, step)).first + rounding * moving.sum(sizes(step)).first;
+            errors_of_derivatives_[l](b - 1, i) += tail(stretch) * moving.sum(on_circle(stretch, step)).first;
         }
     }
 }
@@ -257,13 +306,13 @@ VectorXd CircleCapacities::potential_errors(const VectorXd& reach) const
 {
     const CircleMotion motion(reach);
     if (!stay_apart(circles_, motion)) return VectorXd::Constant(inner(), infinite);
-    const double step = 2.0 * std::numbers::pi / static_cast<double>(samples_);
     VectorXd worst = VectorXd::Zero(inner());
     std::vector<Coefficients> coefficients;
     for (int i = 0; i < inner(); ++i) coefficients.emplace_back(*this, i, reach, reach);
     for (int b = 1; b <= inner(); ++b) {
         VectorXd second = VectorXd::Zero(inner());
-        for (Eigen::Index j = 0; j < samples_; ++j) {
+        const double step = 2.0 * std::numbers::pi / static_cast<double>(samples_of(b));
+        for (Eigen::Index j = 0; j < samples_of(b); ++j) {
             const Complex point = circles_[b].center + std::polar(circles_[b].radius, step * static_cast<double>(j));
             const OnCircle on =
                 bounds_on(circles_, {static_cast<std::size_t>(b), 1.0, point, 0.51 * step}, motion, motion);

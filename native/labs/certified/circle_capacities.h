@@ -6,6 +6,7 @@
 #include "core/types.h"
 #include "execution/execution.h"
 
+#include <numeric>
 #include <vector>
 
 namespace koebe {
@@ -41,23 +42,32 @@ public:
     VectorXd errors(const std::vector<Condenser>& condensers, const VectorXd& reach) const;
 
 private:
+    static constexpr Eigen::Index samples_per_term = 6;
+
     struct Samples;       // values on the circles
     struct Coefficients;  // bounds of them
 
     void solve();
+    bool add_terms(double wanted_error);
+    void prove();
     void add_what_samples_miss(int b);
     VectorXd potential_errors(const VectorXd& reach) const;
     VectorXd sums_of_fluxes(const std::vector<Condenser>& condensers, const MatrixXd& coefficients) const;
 
     int inner() const { return static_cast<int>(circles_.size()) - 1; }
     Eigen::Index log_of(int k) const { return k - 1; }
-    Eigen::Index pole_of(int k) const { return inner() + 2 * terms_ * (k - 1); }  ///< then Re and Im, s = 1, 2, ...
-    Eigen::Index size() const { return inner() + 2 * terms_ * inner(); }
+    Eigen::Index pole_of(int k) const { return inner() + 2 * sum_of_terms(k - 1); }  ///< then Re and Im, s = 1, 2, ...
+    Eigen::Index size() const { return pole_of(inner() + 1); }
+    Eigen::Index samples_of(int b) const { return samples_per_term * terms_[b - 1]; }
+    Eigen::Index first_sample_of(int b) const { return samples_per_term * sum_of_terms(b - 1); }
+    Eigen::Index sum_of_terms(int circles) const  ///< of inner circles 1, 2, ...
+    {
+        return std::accumulate(terms_.begin(), terms_.begin() + circles, Eigen::Index(0));
+    }
 
     VectorXd module_;
     std::vector<Circle> circles_;
-    int terms_ = 0;
-    Eigen::Index samples_ = 0;           // of each circle
+    std::vector<Eigen::Index> terms_;    // of each inner circle
     MatrixXd coefficients_;              // (size, inner)
     std::vector<MatrixXd> derivatives_;  // of them, in each number of the module
     MatrixXd errors_;                    // (inner, inner) on circle 1, 2, ... of the potentials, at the module

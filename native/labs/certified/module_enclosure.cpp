@@ -2,6 +2,7 @@
 
 #include "certified/circle_bounds.h"
 #include "certified/circle_capacities.h"
+#include "certified/interval_functions.h"
 #include "core/errors.h"
 #include "mesh/loop_with.h"
 #include "pipeline/uniformize.h"
@@ -52,6 +53,95 @@ VectorXd middle_of(const Box& box)
     for (std::size_t l = 0; l < box.size(); ++l)
         middle[static_cast<Eigen::Index>(l)] = 0.5 * (box[l].lower + box[l].upper);
     return middle;
+}
+
+/// The order in which the nearest other circle is farthest away, in radii.
+std::vector<int> roomiest_order(const std::vector<Circle>& circles)
+{
+    const int count = static_cast<int>(circles.size());
+    double most = -1.0;
+    std::vector<int> best;
+    for (int outer = 0; outer < count; ++outer)
+        for (int middle = 0; middle < count; ++middle) {
+            if (middle == outer) continue;
+            std::vector<int> order{outer, middle};
+            for (int k = 0; k < count; ++k)
+                if (k != outer && k != middle) order.push_back(k);
+            const std::vector<Circle> placed = normalized_circles(circles, order);
+            double room = std::numeric_limits<double>::infinity();
+            for (int i = 1; i < count; ++i)
+                for (int j = 0; j < count; ++j) {
+                    const double apart = std::abs(placed[i].center - placed[j].center);
+                    const double gap =
+                        j == 0 ? 1.0 - apart - placed[i].radius : apart - placed[i].radius - placed[j].radius;
+                    if (j != i) room = std::min(room, gap / placed[i].radius);
+                }
+            if (room > most) {
+                most = room;
+                best = order;
+            }
+        }
+    return best;
+}
+
+struct EnclosedCircle {
+    Plane<Interval> center;
+    Interval radius;
+};
+
+/// Under z -> (a z + b) / (c z + d), which takes the domain to bounded places.
+EnclosedCircle image_of_circle(const EnclosedCircle& circle, const Plane<Interval>& a, const Plane<Interval>& b,
+                               const Plane<Interval>& c, const Plane<Interval>& d)
+{
+    const Plane<Interval> below_line = c * circle.center + d;
+    const Interval size = squared_length(below_line) - squared_length(c) * squared(circle.radius);
+    const Interval inverse = size.upper < 0.0 ? -inverse_of(-size) : inverse_of(size);
+    const Plane<Interval> center =
+        (a * circle.center + b) * conjugate(below_line) - a * conjugate(c) * squared(circle.radius);
+    const Interval stretch = square_root(squared_length(a * d - b * c));
+    return {center * inverse, circle.radius * stretch * (size.upper < 0.0 ? -inverse : inverse)};
+}
+
+/// The module of circles in another order. @param order as in conformal_module
+Box reordered(const Box& module, const std::vector<int>& order)
+{
+    const Plane<Interval> zero, one{1.0, 0.0};
+    std::vector<EnclosedCircle> circles(order.size(), {zero, Interval(0.0)});
+    circles[0].radius = 1.0;
+    for (std::size_t l = 0; l < module.size(); ++l) {
+        const CircleStep step = step_of(static_cast<Eigen::Index>(l));
+        EnclosedCircle& circle = circles[step.circle];
+        if (step.radius != 0.0) circle.radius = module[l];
+        if (step.center.real() != 0.0) circle.center.re = module[l];
+        if (step.center.imag() != 0.0) circle.center.im = module[l];
+    }
+
+    // The outer circle to the unit circle.
+    const EnclosedCircle outer = circles[order[0]];
+    std::vector<EnclosedCircle> placed{{zero, Interval(1.0)}};
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        const EnclosedCircle& circle = circles[order[k]];
+        placed.push_back(order[0] == 0 ? circle
+                                       : image_of_circle(circle, zero, {outer.radius, 0.0}, one, zero - outer.center));
+    }
+
+    // The middle one to 0: its hyperbolic centre p goes there.
+    const Interval square = squared_length(placed[1].center);
+    const Interval sum = Interval(1.0) + square - squared(placed[1].radius);
+    const Interval root = square_root(squared(sum) - Interval(4.0) * square);
+    const Plane<Interval> p = placed[1].center * (Interval(2.0) * inverse_of(sum + root));
+    for (std::size_t k = 1; k < placed.size(); ++k)
+        placed[k] = image_of_circle(placed[k], one, zero - p, zero - conjugate(p), one);
+
+    // The third onto the positive y axis.
+    const Interval height = square_root(squared_length(placed[2].center));
+    const Plane<Interval> turn = Plane<Interval>{0.0, 1.0} * conjugate(placed[2].center) * inverse_of(height);
+    Box box{placed[1].radius, height, placed[2].radius};
+    for (std::size_t k = 3; k < placed.size(); ++k) {
+        const Plane<Interval> center = placed[k].center * turn;
+        box.insert(box.end(), {center.re, center.im, placed[k].radius});
+    }
+    return box;
 }
 
 /// The linear function near one module, solved for the module.
@@ -111,7 +201,7 @@ void approach(VectorXd& module, const std::vector<Condenser>& condensers, const 
     for (int i = 0; i < newton_steps; ++i) {
         const CircleCapacities circles(module, width, context);
         const VectorXd change = middle_of(LinearStep(circles, condensers).change(known));
-        module += change;
+        module = moved_module(module, change);
         require_circle_domain(circles_of_module(module));
         if (change.cwiseAbs().maxCoeff() < width) return;
     }
@@ -140,10 +230,13 @@ NearModule near_module(const Vertices& vertices, const Surface& surface, int thr
     NearModule near;
     std::vector<Circle> circles;
     for (const LoopReport& loop : result.loops) {
-        near.order.push_back(loop_with(surface.loops, loop.vertices.front()));
+        near.wanted_order.push_back(loop_with(surface.loops, loop.vertices.front()));
         circles.push_back(loop.circle);
     }
-    near.numbers = conformal_module(circles);
+    require_circle_domain(circles);
+    const std::vector<int> order = roomiest_order(circles);
+    near.numbers = conformal_module(circles, order);
+    for (const int circle : order) near.order.push_back(near.wanted_order[circle]);
     return near;
 }
 
@@ -184,7 +277,15 @@ std::vector<Interval> enclose_module(NearModule& near, const std::vector<Capacit
             box.push_back(Interval(near.numbers[l]) + offset);
             now[l] = std::min(reach[l], offset.magnitude());
         }
-        if (!(now.maxCoeff() < narrower * reach.maxCoeff())) return box;
+        if (!(now.maxCoeff() < narrower * reach.maxCoeff())) {
+            std::vector<int> order;
+            for (const int loop : near.wanted_order)
+                order.push_back(static_cast<int>(std::ranges::find(near.order, loop) - near.order.begin()));
+            box = reordered(box, order);
+            for (const Interval& number : box)
+                if (!std::isfinite(number.width())) throw SolverError("the box of the circles is too wide");
+            return box;
+        }
         reach = now;
     }
 }

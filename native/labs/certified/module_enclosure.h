@@ -13,11 +13,13 @@ namespace koebe {
 
 constexpr int most_enclosed_loops = 4;
 
-/// The iteration's circles in the module's position (shape/conformal_module.h). Nothing of it is trusted.
+/// The iteration's circles in the module's position (shape/conformal_module.h), another circle outside and another in
+/// the middle: as far apart, for their radii, as they can be. Bounds are narrowest there. Nothing of it is trusted.
 struct NearModule {
-    VectorXd numbers;        ///< (3 n - 6)
-    std::vector<int> order;  ///< the loop (its number in Surface::loops) of each circle, the unit circle first
-    bool may_narrow = true;  ///< false after an error of enclose_module that narrower capacities cannot mend
+    VectorXd numbers;               ///< (3 n - 6)
+    std::vector<int> order;         ///< the loop (its number in Surface::loops) of each circle, the unit circle first
+    std::vector<int> wanted_order;  ///< the same of the enclosed module: by falling length
+    bool may_narrow = true;         ///< false after an error of enclose_module that narrower capacities cannot mend
 };
 
 /// @throws KoebeError if the iteration finds no circles; Cancelled
@@ -35,8 +37,10 @@ NearModule near_module(const Vertices& vertices, const Surface& surface, int thr
 /// up to its mirror image. So m or its mirror image is the surface's module. A domain of three circles is its own
 /// mirror image. Between four circles the mirror image has -x_3 (docs/reliability.md).
 ///
+/// The box is then moved to the wanted order, in intervals.
+///
 /// @param near moved towards the module by Newton's method
-/// @param capacities those of loop_condensers @return as near.numbers
+/// @param capacities those of loop_condensers @return (3 n - 6) in near.wanted_order
 /// @throws SolverError why there is no box; InputError circles that meet on the way; Cancelled
 std::vector<Interval> enclose_module(NearModule& near, const std::vector<Capacity>& capacities,
                                      ExecutionContext& context);

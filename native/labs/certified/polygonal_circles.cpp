@@ -65,7 +65,7 @@ public:
             const MatrixXd slopes = wanted.cwiseInverse().asDiagonal() * now.gradients(of_circles_);
             const auto factored = slopes.colPivHouseholderQr();
             const VectorXd change = factored.solve(gap);
-            module += change;
+            module = moved_module(module, change);
             require_circle_domain(circles_of_module(module));
             if (change.cwiseAbs().maxCoeff() < settled)
                 return {module, module + factored.solve((others - wanted).cwiseQuotient(wanted))};
