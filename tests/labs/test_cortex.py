@@ -67,7 +67,7 @@ def is_right(flat):
     signs = signed(corners)
     assert (signs > 0).all() and flat.map.flipped == 0
     assert signs.sum() == pytest.approx(areas(points).sum(), rel=1e-9)
-    assert flat.map.angle_error_deg["mean"] < 11 and flat.map.area_distortion["log_sd"] < 0.25
+    assert flat.map.angle_error_deg["mean"] < 11 and flat.map.area_distortion["log_sd"] < 0.2
     assert not (flat.wall & flat.cuts).any()
     assert np.array_equal(np.isfinite(flat.places[:, 0]), ~(flat.wall | flat.cuts))
     return True

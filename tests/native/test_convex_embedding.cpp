@@ -1,4 +1,3 @@
-#include "circles/boundary_angles.h"
 #include "embedding/convex_embedding.h"
 #include "quality/stored_uv.h"
 #include "random_disks.h"

@@ -4,7 +4,6 @@
 #include "parts/carried_parts.h"
 #include "parts/dart_rounds.h"
 #include "parts/darts.h"
-#include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 
 #include <gtest/gtest.h>

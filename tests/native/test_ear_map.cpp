@@ -1,6 +1,5 @@
 #include "circle_domain.h"
 #include "ear_domain.h"
-#include "pipeline/uniformize.h"
 #include "planar/planar_predicates.h"
 
 #include <gtest/gtest.h>

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <random>
 
 using namespace koebe;
 

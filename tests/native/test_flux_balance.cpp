@@ -2,7 +2,6 @@
 #include "circle_domain.h"
 #include "circles/moebius.h"
 #include "linear/condensed_laplacian.h"
-#include "quality/distortion.h"
 #include "surface/laplacian.h"
 
 #include <gtest/gtest.h>

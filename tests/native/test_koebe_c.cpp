@@ -10,7 +10,6 @@
 #include <cstring>
 #include <limits>
 #include <random>
-#include <string>
 #include <thread>
 #include <vector>
 

@@ -1,4 +1,3 @@
-#include "transfer/correspondence.h"
 
 #include "core/connectivity.h"
 #include "core/errors.h"

@@ -9,7 +9,6 @@
 #include "quality/distortion.h"
 #include "quality/stored_uv.h"
 #include "splitting/coarse_surface.h"
-#include "splitting/mirror_symmetry.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -18,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numeric>
 #include <random>

@@ -1,13 +1,11 @@
 #include "circle_domain.h"
 #include "circles/circle_fit.h"
 #include "pipeline/uniformize.h"
-#include "quality/distortion.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 using namespace koebe;
 using namespace koebe::test;

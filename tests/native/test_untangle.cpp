@@ -1,6 +1,5 @@
 #include "foldover/untangle.h"
 #include "planar_map.h"
-#include "quality/distortion.h"
 
 #include <gtest/gtest.h>
 

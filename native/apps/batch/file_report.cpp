@@ -7,7 +7,6 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
-#include <system_error>
 
 namespace koebe::batch {
 namespace {

@@ -1,7 +1,6 @@
 #include "batch/summary.h"
 
 #include "batch/file_report.h"
-#include "batch/path_text.h"
 #include "batch/whole_file.h"
 #include "report/json.h"
 

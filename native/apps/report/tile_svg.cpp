@@ -3,7 +3,6 @@
 #include "report/picture_units.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace koebe {
 

@@ -5,8 +5,6 @@
 #include "core/api.h"
 #include "core/types.h"
 
-#include <vector>
-
 namespace koebe {
 
 /// z -> turn (z - a) / (1 - conj(a) z), |a| < 1, |turn| = 1: every automorphism of the unit disk.

@@ -1,11 +1,11 @@
 // The convex hull of points in the plane.
 #pragma once
 
+#include "core/numbering.h"
 #include "core/types.h"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <vector>
 
 namespace koebe {
@@ -17,8 +17,7 @@ inline std::vector<Eigen::Index> convex_hull(const PlanarPoints& points)
         const Eigen::RowVector2d along = points.row(b) - points.row(a), on = points.row(c) - points.row(b);
         return along[0] * on[1] - along[1] * on[0] > 0.0;
     };
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(points.rows()));
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Eigen::Index> order = numbers_below<Eigen::Index>(points.rows());
     std::ranges::sort(order, {}, [&](Eigen::Index i) { return std::array{points(i, 0), points(i, 1)}; });
     std::vector<Eigen::Index> corners;
     for (int side = 0; side < 2; ++side) {

@@ -4,8 +4,6 @@
 #include "circles/moebius.h"
 #include "core/types.h"
 
-#include <vector>
-
 namespace koebe {
 
 /// Where a map puts each face, and how much it shrinks the face.

@@ -64,7 +64,7 @@ Index DiskComplex::heir(const std::vector<Index>& link, const std::vector<Index>
     std::size_t least = 0, fewest = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Index u = link[i];
-        std::size_t wrong_faces = 0;
+        std::size_t wrong_faces = 0;  // of those that take the place of the star
         for (std::size_t k = 1; wrong && k + 1 < n; ++k) {
             double weight = weights_[faces[(i + k) % n]];
             if (k == 1) weight += weights_[faces[i]];
@@ -74,7 +74,7 @@ Index DiskComplex::heir(const std::vector<Index>& link, const std::vector<Index>
         if (best >= 0 && std::pair(wrong_faces, around_[u].size()) >= std::pair(fewest, least)) continue;
         for (const Index f : around_[u])
             for (const Index w : faces_[f]) marked_[w] = 1;
-        bool free = true;
+        bool free = true;  // the link condition: u has no other neighbour in the link
         for (std::size_t k = 2; k + 1 < n && free; ++k) {
             const Index w = link[(i + k) % n];
             free = !marked_[w] && (chords || !outer_[u] || !outer_[w]);

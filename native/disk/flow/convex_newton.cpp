@@ -1,7 +1,6 @@
 #include "flow/convex_newton.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace koebe {

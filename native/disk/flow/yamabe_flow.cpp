@@ -6,8 +6,6 @@
 #include "surface/edge_flip.h"
 
 #include <cmath>
-#include <numbers>
-#include <utility>
 
 namespace koebe {
 namespace {

@@ -1,5 +1,6 @@
 #include "foldover/angle_polish.h"
 
+#include "core/numbering.h"
 #include "core/tolerances.h"
 #include "foldover/angle_map.h"
 #include "foldover/angle_newton.h"
@@ -8,8 +9,6 @@
 #include "planar/boundary_crossings.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -139,8 +138,7 @@ private:
     /// @return whether no such vertex is left
     bool restore(std::vector<Complex>& places) const
     {
-        std::vector<Index> moved(map_.vertex_count()), wrong;
-        std::iota(moved.begin(), moved.end(), 0);
+        std::vector<Index> moved = numbers_below(map_.vertex_count()), wrong;
         for (int i = 0; i < most_restorations; ++i) {
             wrong.clear();
             for (const Index v : moved) collect_wrong(v, places, wrong);

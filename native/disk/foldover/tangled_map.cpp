@@ -9,7 +9,6 @@
 #include "quality/stored_uv.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace koebe {
 namespace {

@@ -1,6 +1,7 @@
 #include "iteration/filled_state.h"
 
 #include "circles/boundary_angles.h"
+#include "core/numbering.h"
 #include "execution/thread_share.h"
 #include "iteration/disk_dirichlet_to_neumann.h"
 
@@ -29,9 +30,7 @@ FilledState::FilledState(const std::vector<VertexLoop>& loops, const std::vector
 void FilledState::fill()
 {
     if (!begun()) return;
-    OpenedLoops all(loop_count());
-    std::iota(all.begin(), all.end(), 0);
-    fill(all);
+    fill(numbers_below<int>(loop_count()));
 }
 
 void FilledState::fill(OpenedLoops loops)

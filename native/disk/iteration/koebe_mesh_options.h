@@ -4,8 +4,6 @@
 #include "conformal/annulus_map.h"
 #include "iteration/sweep_order.h"
 
-#include <vector>
-
 namespace koebe {
 
 struct KoebeMeshOptions {

@@ -21,7 +21,6 @@
 #include <cmath>
 #include <exception>
 #include <numbers>
-#include <numeric>
 #include <string>
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include "pipeline/refinement.h"
 #include "surface/curvature_weights.h"
 
-#include <cmath>
 #include <utility>
 
 namespace koebe {

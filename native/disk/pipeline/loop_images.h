@@ -7,7 +7,6 @@
 #include "surface/intrinsic_metric.h"
 
 #include <optional>
-#include <vector>
 
 namespace koebe {
 

@@ -7,7 +7,6 @@
 #include "quality/stored_uv.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace koebe {
 namespace {

@@ -5,7 +5,6 @@
 #include "execution/memory_limit.h"
 #include "iteration/koebe_mesh.h"
 #include "pipeline/normalization.h"
-#include "quality/distortion.h"
 
 #include <cmath>
 #include <limits>

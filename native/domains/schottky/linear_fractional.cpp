@@ -5,7 +5,6 @@
 #include <Eigen/SVD>
 
 #include <cmath>
-#include <limits>
 
 namespace koebe {
 namespace {

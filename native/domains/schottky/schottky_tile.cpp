@@ -3,6 +3,7 @@
 #include "circles/circle_projection.h"
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "core/tolerances.h"
 #include "foldover/untangle.h"
@@ -11,10 +12,8 @@
 #include "quality/verdict.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -84,8 +83,7 @@ SchottkyTiling::SchottkyTiling(const HandleCut& cut, const FinerFaces& faces, co
       letter_(cut.original.size(), 0)
 {
     const Triangles& triangles = cut.surface.triangles;
-    first_side_.resize(cut.original.size());
-    std::iota(first_side_.begin(), first_side_.end(), 0);
+    first_side_ = numbers_below(cut.original.size());
     for (std::size_t h = 0; h < across_.size(); ++h) across_[h].halfedge = cut.surface.twin[h];
     std::vector<Index> border(cut.original.size(), -1);  // boundary half-edge from each vertex
     for (Index h = 0; h < static_cast<Index>(across_.size()); ++h)

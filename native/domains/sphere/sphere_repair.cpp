@@ -1,6 +1,5 @@
 #include "sphere/sphere_repair.h"
 
-#include "core/connectivity.h"
 #include "core/sort_unique.h"
 #include "execution/thread_share.h"
 #include "foldover/foldover_free.h"

@@ -5,7 +5,6 @@
 #include "iteration/convergence.h"
 #include "iteration/disk_dirichlet_to_neumann.h"
 #include "iteration/iteration_options.h"
-#include "iteration/koebe_outcome.h"
 #include "linear/dense_spd.h"
 #include "linear/kept_factor.h"
 #include "quality/map_clock.h"

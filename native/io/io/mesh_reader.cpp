@@ -7,7 +7,6 @@
 #include "io/mesh_formats.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 

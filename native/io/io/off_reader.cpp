@@ -4,7 +4,6 @@
 #include "io/text_lines.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdint>

@@ -5,7 +5,6 @@
 #include "io/text_writer.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -13,7 +13,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

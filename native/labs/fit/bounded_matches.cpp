@@ -1,10 +1,10 @@
 #include "fit/bounded_matches.h"
 
 #include "core/errors.h"
+#include "core/numbering.h"
 #include "shape/separation_distance.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace koebe {
 namespace {
@@ -13,9 +13,12 @@ class BoundedSearch {
 public:
     BoundedSearch(const std::vector<Circle>& a, const std::vector<Circle>& b, double limit,
                   const ExecutionContext& context)
-        : a_(conformal_separations(a)), b_(conformal_separations(b)), limit_(limit), context_(context), match_(a.size())
+        : a_(conformal_separations(a)),
+          b_(conformal_separations(b)),
+          limit_(limit),
+          context_(context),
+          match_(numbers_below(a.size()))
     {
-        std::iota(match_.begin(), match_.end(), 0);
     }
 
     std::vector<BoundedMatch> run()

@@ -2,7 +2,6 @@
 
 #include "core/complex_places.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 

@@ -1,5 +1,6 @@
 #include "fit/dilatation_bounds.h"
 
+#include "core/sort_unique.h"
 #include "fit/marked_forms.h"
 #include "fit/plane_beltrami.h"
 #include "surface/harmonic_solver.h"
@@ -119,8 +120,7 @@ Eigen::MatrixXcd quadratic_differentials(const DomainForms& all, const Triangles
         if (i < holes) pairs.emplace_back(i, i);
         for (const auto& [overlap, j] : others) pairs.emplace_back(std::min(i, j), std::max(i, j));
     }
-    std::ranges::sort(pairs);
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    sort_unique(pairs);
     // q = f g, and forms with a pole times measures that vanish there; all have the norm 1.
     const auto of_a_pole = all.poles.empty() ? 0 : holes - 2;
     const auto squares = static_cast<Eigen::Index>(pairs.size());

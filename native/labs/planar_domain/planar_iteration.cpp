@@ -195,7 +195,7 @@ double KoebeIteration::turn(std::size_t k)
     double off = 1.0;
     if (first) {
         keep_poles_off_domain(own);
-    } else {
+    } else {  // poles are the mirror images of near rims in the circle that fits
         const Circle circle = fitted(own);
         off = deviation(own, circle) / circle.radius;
         own.center = circle.center;
@@ -203,6 +203,7 @@ double KoebeIteration::turn(std::size_t k)
             if (j != k && (sweeps > 1 || j < k) && is_near(circle, layouts_[j]))
                 add_mirror_poles(own, circle, fitted(layouts_[j]), 2 * resolution_.panel_poles);
     }
+    // The outside of the rim goes to that of a circle, and takes the other rims with it.
     const RimMap map(own, first ? first_powers : powers(), !first);
     if (first) first_residual_ = std::max(first_residual_, map.residual());
     unknowns = std::max(unknowns, 2 * map.unknowns() - 1);
@@ -212,6 +213,7 @@ double KoebeIteration::turn(std::size_t k)
             checks_[j].samples = map(checks_[j].samples, layouts_[j].corners);
             layouts_[j] = map(layouts_[j]);
         }
+    // The rim is that circle now, with poles and samples for its next turn.
     const Circle circle{map.is_outer() ? Complex(0.0) : map.center(), map.radius()};
     std::vector<Complex> poles;
     for (std::size_t j = k + 1; first && j < layouts_.size(); ++j)

@@ -5,7 +5,6 @@
 #include "planar/planar_predicates.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

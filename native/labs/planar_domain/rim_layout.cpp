@@ -1,13 +1,11 @@
 #include "planar_domain/rim_layout.h"
 
-#include "core/counted.h"
 #include "core/errors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 #include <utility>
 
 namespace koebe {

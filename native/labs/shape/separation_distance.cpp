@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -38,11 +37,10 @@ public:
           b_(std::move(b)),
           any_outer_(any_outer),
           context_(context),
-          order_(a_.rows()),
+          order_(numbers_below(a_.rows())),
           used_(a_.rows())
     {
         // Loops with the largest separations tell most: they come first, behind the outer loop.
-        std::iota(order_.begin(), order_.end(), 0);
         std::stable_sort(order_.begin() + 1, order_.end(),
                          [&](int i, int j) { return a_.row(i).sum() > a_.row(j).sum(); });
     }

@@ -14,8 +14,6 @@
 #include "transfer/landmark_alignment.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <utility>
 
 namespace koebe {

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 namespace koebe {
@@ -77,8 +76,7 @@ std::optional<Moebius> through_three(const Three& from, const Three& to)
 /// Takes points of the rim exactly onto their targets: three far apart, or two and the middles between them.
 std::optional<Moebius> about_rim(const VectorXcd& points, const VectorXcd& targets)
 {
-    std::vector<Eigen::Index> order(points.size());
-    std::iota(order.begin(), order.end(), 0);
+    std::vector<Eigen::Index> order = numbers_below<Eigen::Index>(points.size());
     std::ranges::sort(order, {}, [&](Eigen::Index i) { return std::arg(points[i]); });
     const auto unit = [](Complex z) { return z / std::abs(z); };
     Three from, to;

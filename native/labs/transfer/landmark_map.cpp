@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <string>
 #include <utility>
 
 namespace koebe {

@@ -5,7 +5,6 @@
 #include "core/types.h"
 #include "surface/surface_point.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace koebe {

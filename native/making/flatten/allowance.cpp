@@ -25,7 +25,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 namespace koebe {
 namespace {

@@ -1,10 +1,9 @@
 #include "flatten/seams.h"
 
+#include "core/numbering.h"
 #include "parts/flat_mesh.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 #include <utility>
 
 namespace koebe {
@@ -33,8 +32,7 @@ public:
                                      first + (i + count - 1) % count, first + (i + 1) % count});
                 }
             }
-        std::vector<std::size_t> order(rims_.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::vector<std::size_t> order = numbers_below<std::size_t>(rims_.size());
         std::ranges::stable_sort(order, {}, [&](std::size_t r) { return ends(r); });
         for (std::size_t i = 0; i < order.size(); ++i) {
             const auto [low, high] = ends(order[i]);

@@ -5,7 +5,6 @@
 #include "flatten/seams.h"
 #include "parts/sheet_packing.h"
 
-#include <string>
 #include <vector>
 
 namespace koebe {

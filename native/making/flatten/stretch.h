@@ -7,7 +7,6 @@
 #include "quality/angle_error.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace koebe {
 

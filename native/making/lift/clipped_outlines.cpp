@@ -6,7 +6,6 @@
 #include "cut/disjoint_sets.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <set>
 #include <utility>

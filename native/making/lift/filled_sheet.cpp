@@ -9,7 +9,6 @@
 #include <cmath>
 #include <optional>
 #include <set>
-#include <utility>
 
 namespace koebe {
 namespace {

@@ -3,7 +3,6 @@
 
 #include "core/types.h"
 
-#include <array>
 #include <string>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include "core/types.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace koebe {

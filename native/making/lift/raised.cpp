@@ -2,8 +2,6 @@
 
 #include "core/connectivity.h"
 
-#include <utility>
-
 namespace koebe {
 namespace {
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "core/not_copied.h"
+#include "core/numbering.h"
 #include "core/types.h"
 
 #include <boost/pending/disjoint_sets.hpp>
 #include <boost/property_map/property_map.hpp>
 
 #include <cstddef>
-#include <numeric>
 #include <vector>
 
 namespace koebe {
@@ -16,9 +16,8 @@ namespace koebe {
 class DisjointSets : NotCopied {
 public:
     explicit DisjointSets(std::size_t count)
-        : rank_(count, 0), parent_(count), sets_(Map(rank_.data()), Map(parent_.data()))
+        : rank_(count, 0), parent_(numbers_below(count)), sets_(Map(rank_.data()), Map(parent_.data()))
     {
-        std::iota(parent_.begin(), parent_.end(), 0);
     }
 
     Index find(Index element) { return sets_.find_set(element); }

@@ -15,7 +15,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <string>
 #include <vector>
 
 namespace koebe {

@@ -23,7 +23,6 @@
 
 #include <cstdio>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 namespace koebe::cli {
@@ -47,8 +46,7 @@ LoopMatch by_length(const ShapeInput& a, const ShapeInput& b)
         throw InputError("the surfaces have " + std::to_string(a.circles.size()) + " and " +
                          std::to_string(b.circles.size()) + " loops: their modules cannot be compared");
     LoopMatch match;
-    match.order_a.resize(a.circles.size());
-    std::iota(match.order_a.begin(), match.order_a.end(), 0);
+    match.order_a = numbers_below(a.circles.size());
     match.order_b = match.order_a;
     match.distance = (conformal_module(a.circles) - conformal_module(b.circles)).norm();
     return match;

@@ -9,7 +9,6 @@
 #include "io/corner_uvs.h"
 
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace koebe::cli {

@@ -6,8 +6,6 @@
 #include "report/parts_json.h"
 #include "report/parts_svg.h"
 
-#include <utility>
-
 namespace koebe::cli {
 namespace {
 

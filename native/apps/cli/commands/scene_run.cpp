@@ -5,7 +5,6 @@
 #include "cli/process/standard_streams.h"
 #include "core/counted.h"
 #include "core/sort_unique.h"
-#include "core/tolerances.h"
 #include "io/atomic_file.h"
 #include "quality/stored_uv.h"
 #include "report/json.h"

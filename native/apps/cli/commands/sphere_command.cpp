@@ -6,8 +6,6 @@
 #include "report/sphere_svg.h"
 #include "sphere/sphere_map.h"
 
-#include <utility>
-
 namespace koebe::cli {
 namespace {
 

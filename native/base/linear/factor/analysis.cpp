@@ -3,7 +3,6 @@
 #include "core/errors.h"
 #include "core/sort_unique.h"
 #include "core/types.h"
-#include "execution/memory_limit.h"
 #include "execution/profile.h"
 #include "execution/thread_share.h"
 #include "linear/cholmod_support.h"

@@ -106,8 +106,8 @@ def cortex(
     surface: str | None = None,
     region: Any = None,
     cuts: PathLike | None = None,
-    even: float = 0.7,
-    darts: float = 0.01,
+    even: float = 0.825,
+    darts: float = 0.005,
     progress: Shown = None,
     cancel: "_koebe.CancelToken | None" = None,
 ) -> FlatCortex:
