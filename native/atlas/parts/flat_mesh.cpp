@@ -132,25 +132,32 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
     return pieces;
 }
 
-/// The rims of the pockets of all pieces, by vertices of the input.
-CutEdges rims_of_pockets(const std::vector<FlatPiece>& pieces)
+struct Pockets {
+    CutEdges rims = {};           ///< by vertices of the input
+    bool may_be_a_sheet = false;  ///< one of the surfaces that have them might lie flat as it is
+};
+
+/// The pockets of all pieces.
+Pockets pockets_of(const std::vector<FlatPiece>& pieces)
 {
-    CutEdges rims;
+    Pockets pockets;
     for (const FlatPiece& own : pieces) {
         const SurfacePiece& piece = own.input.piece;
         std::optional<CutSurface> whole = closed_surface(piece, piece.vertices, own.input.polygon);
         if (!whole) whole = cut_surface(piece.vertices, piece.triangles, own.input.polygon);
         whole->shown = own.input.shown;
-        for (const auto& [a, b] : pocket_rims(*whole)) rims.push_back({piece.source_vertex[a], piece.source_vertex[b]});
+        const auto rims = pocket_rims(*whole);
+        for (const auto& [a, b] : rims) pockets.rims.push_back({piece.source_vertex[a], piece.source_vertex[b]});
+        pockets.may_be_a_sheet |= !rims.empty() && !is_nearly_closed(*whole);
     }
-    return rims;
+    return pockets;
 }
 
-/// @param kept gets the edges that must not be divided @param pockets gets the rims of pockets; null: nobody asks for
+/// @param kept gets the edges that must not be divided @param pockets gets the pockets; null: nobody asks for
 /// them @return no value if there are any of these edges
 std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertices, const Triangles& undivided,
                                      const PartsOptions& given, std::vector<std::array<Index, 2>>& kept,
-                                     CutEdges* pockets, ExecutionContext& context)
+                                     Pockets* pockets, ExecutionContext& context)
 {
     Stopwatch stage;
     context.begin_stage("topology", 0.0, 0.05);
@@ -194,8 +201,8 @@ std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertice
     layout.handles_cut = opened.handles;
     // Then the parts of the other pieces. With importance hard parts are stretched, too.
     std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, faces.face, options);
-    if (pockets) *pockets = rims_of_pockets(pieces);
-    if (pockets && !pockets->empty()) return {};
+    if (pockets) *pockets = pockets_of(pieces);
+    if (pockets && !pockets->rims.empty()) return {};
     if (!hard.empty() && !options.importance.empty())
         pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
     mesh.seconds.topology = stage.lap();
@@ -243,15 +250,20 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
             return std::move(*mesh);
     }
 
-    // Pockets become pieces of their own.
+    // Pockets become pieces of their own, but a sheet that lies flat without a cut gets none.
     const DividedFaces undivided{triangles, options.polygon, {}, {}};
-    CutEdges pockets;
+    Pockets pockets;
     const bool may_have_pockets = options.cut && rims_are_free(options);
     if (auto mesh =
             flat_mesh_of(undivided, vertices, triangles, options, kept, may_have_pockets ? &pockets : nullptr, context))
         return std::move(*mesh);
+    if (pockets.may_be_a_sheet) {
+        std::optional<FlatMesh> mesh = flat_mesh_of(undivided, vertices, triangles, options, kept, nullptr, context);
+        if (mesh->parts.size() == 1 && mesh->layout.slit_length + mesh->layout.dart_length == 0.0)
+            return std::move(*mesh);
+    }
     PartsOptions cut = options;
-    cut.cuts.insert(cut.cuts.end(), pockets.begin(), pockets.end());
+    cut.cuts.insert(cut.cuts.end(), pockets.rims.begin(), pockets.rims.end());
     return *flat_mesh_of(undivided, vertices, triangles, cut, kept, nullptr, context);
 }
 

@@ -79,7 +79,7 @@ PieceSurface surface_of(const PieceInput& input)
         }
     }
     surface.whole = opened(input);
-    if (is_nearly_closed(surface.whole)) surface.first = halves(surface.whole);
+    if (is_between_cuts(surface.whole) && is_nearly_closed(surface.whole)) surface.first = halves(surface.whole);
     return surface;
 }
 

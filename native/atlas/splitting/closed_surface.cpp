@@ -38,12 +38,17 @@ std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertic
 bool is_nearly_closed(const CutSurface& whole)
 {
     double rim = 0.0;
-    for (Index h = 0; h < static_cast<Index>(whole.surface.twin.size()); ++h) {
-        if (whole.surface.twin[h] != no_twin) continue;
-        if (whole.seam.empty() || !whole.seam[h]) return false;
-        rim += whole.lengths[h];
-    }
-    return rim > 0.0 && whole.areas.sum() > tuning::nearly_closed * rim * rim;
+    for (std::size_t h = 0; h < whole.surface.twin.size(); ++h)
+        if (whole.surface.twin[h] == no_twin) rim += whole.lengths[static_cast<Eigen::Index>(h)];
+    return whole.areas.sum() > tuning::nearly_closed * rim * rim;
+}
+
+bool is_between_cuts(const CutSurface& whole)
+{
+    if (whole.seam.empty() || whole.surface.loops.empty()) return false;
+    for (std::size_t h = 0; h < whole.surface.twin.size(); ++h)
+        if (whole.surface.twin[h] == no_twin && !whole.seam[h]) return false;
+    return true;
 }
 
 std::vector<std::vector<Index>> halves(const CutSurface& whole)

@@ -15,8 +15,11 @@ namespace koebe {
 std::optional<CutSurface> closed_surface(const SurfacePiece& piece, const Vertices& vertices,
                                          const std::vector<Index>& polygon);
 
-/// Whether the only boundary of a surface is cuts, and so short that a map from it says as little as one from a slit.
+/// Whether a surface has so short a boundary that a map from it says as little as one from a slit; closed ones, too.
 bool is_nearly_closed(const CutSurface& whole);
+
+/// Whether a surface has a boundary that is cuts alone.
+bool is_between_cuts(const CutSurface& whole);
 
 /// The two pieces of a surface that is closed, or nearly (halving.h). @return the faces of each piece, ascending; empty
 /// if no curve was found
