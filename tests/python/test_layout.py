@@ -37,11 +37,12 @@ def test_cut_maps_lie_as_their_disks_are_packed():
     assert np.allclose(found, np.column_stack([radii, centers]), atol=1e-9)
 
 
-@pytest.mark.parametrize("radii, margin", [
-    ([1.0, 0.0], 0.02), ([1.0, np.nan], 0.02), ([[1.0]], 0.02), ([1.0, 1.0], 0.5),
+@pytest.mark.parametrize("radii, margin, told", [
+    ([1.0, 0.0], 0.02, "disks to pack need"), ([1.0, np.nan], 0.02, "radii are NaN"),
+    ([[1.0]], 0.02, r"radii must have shape \(n,\)"), ([1.0, 1.0], 0.5, "margin must be a number from 0 to below 0.5"),
 ])  # fmt: skip
-def test_what_is_no_disk_is_refused(radii, margin):
-    with pytest.raises(koebe.InputError, match="disks to pack need"):
+def test_what_is_no_disk_is_refused(radii, margin, told):
+    with pytest.raises(koebe.InputError, match=told):
         koebe.pack_disks(radii, margin)
 
 
