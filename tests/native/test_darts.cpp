@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace koebe;
@@ -60,6 +61,22 @@ EvenForces forces(const FlatPart& part, double even)
 double energy(const FlatPart& part, double even) { return forces(part, even).energy.sum(); }
 
 }  // namespace
+
+TEST(Darts, each_face_is_near_a_cut_though_edges_have_no_length)
+{
+    FlatPart part = cone(1.5 * pi);
+    const auto ring = [&](Index r) { return part.vertices.middleRows(1 + (r - 1) * around, around); };
+    part.vertices.middleRows(1 + 4 * around, around) = Vertices(ring(6));  // the fifth ring lies on the sixth
+    std::vector<std::vector<Index>> halves(2);
+    for (Index k = 0; k < around; ++k) halves[2 * k < around ? 0 : 1].push_back(1 + (rings - 1) * around + k);
+    const std::vector<int> nearest = nearest_cut(part, halves, std::numeric_limits<double>::infinity());
+    for (std::size_t f = 0; f < nearest.size(); ++f) {
+        const Index v = part.surface.triangles(static_cast<Eigen::Index>(f), 0);
+        const int half = 2 * ((v - 1) % around) < around ? 0 : 1;
+        if (v > 0) EXPECT_EQ(nearest[f], half) << f;
+        EXPECT_GE(nearest[f], 0) << f;
+    }
+}
 
 TEST(Darts, one_dart_to_its_tip_lays_a_cone_flat)
 {

@@ -230,9 +230,7 @@ std::vector<int> nearest_cut(const FlatPart& flat, const std::vector<std::vector
             label[v] = static_cast<int>(k);
         }
     const PathTree tree = shortest_paths(EdgeGraph(mesh, 1.0), sources);
-    std::vector<Index> order = numbers_below(label.size());
-    std::ranges::stable_sort(order, {}, [&](Index v) { return tree.distance[v]; });
-    for (const Index v : order)
+    for (const Index v : tree.order)
         if (tree.parent[v] != v && tree.distance[v] < reach) label[v] = label[tree.parent[v]];
     std::vector<int> nearest(static_cast<std::size_t>(flat.surface.triangles.rows()));
     for (Eigen::Index f = 0; f < flat.surface.triangles.rows(); ++f) nearest[f] = label[flat.surface.triangles(f, 0)];

@@ -101,16 +101,14 @@ private:
 
     void measure_ways()
     {
-        std::vector<Index> rim, order;
+        std::vector<Index> rim;
         for (Index v = 0; v < flat_.surface.vertex_count; ++v)
             if (outside_[v]) rim.push_back(v);
         tree_ = shortest_paths(EdgeGraph(mesh_, 1.0), rim);
         for (const Index v : rim) ways_[v].end = v;
-        for (Index v = 0; v < flat_.surface.vertex_count; ++v)
-            if (!outside_[v] && tree_.parent[v] != v) order.push_back(v);
-        std::ranges::stable_sort(order, {}, [&](Index v) { return tree_.distance[v]; });
-        for (const Index v : order) {
+        for (const Index v : tree_.order) {
             const Index u = tree_.parent[v];
+            if (outside_[v] || u == v) continue;
             const Complex force = tension_.at(u, v, next(u));
             ways_[v] = ways_[u];
             ways_[v].force += force;

@@ -160,7 +160,8 @@ private:
         const auto add = [&](const FlatPart& flat, double sign) {
             const VectorXd energy = energies(flat);
             for (std::size_t f = 0; f < flat.faces.size(); ++f)
-                released[cut_at.at(flat.faces[f])] += sign * energy[static_cast<Eigen::Index>(f)];
+                if (const int cut = cut_at.at(flat.faces[f]); cut >= 0)
+                    released[cut] += sign * energy[static_cast<Eigen::Index>(f)];
         };
         add(before, 1.0);
         for (std::size_t i = 0; i < trial.pieces.size(); ++i)

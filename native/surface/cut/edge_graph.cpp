@@ -12,6 +12,11 @@ namespace {
 
 struct TreeVisitor : boost::default_dijkstra_visitor {
     explicit TreeVisitor(PathTree& grown) : tree(&grown) {}
+    template <typename Vertex, typename Graph>
+    void examine_vertex(Vertex vertex, const Graph&) const
+    {
+        tree->order.push_back(static_cast<Index>(vertex));
+    }
     template <typename Edge, typename Graph>
     void edge_relaxed(const Edge& edge, const Graph& graph) const
     {

@@ -33,9 +33,10 @@ private:
 };
 
 struct PathTree {
-    std::vector<double> distance;  ///< (fans) from the nearest source; the greatest number if there is no path
-    std::vector<Index> halfedge;   ///< (fans) last half-edge of the path, in either direction; no_twin at the sources
-    std::vector<Index> parent;     ///< (fans) the fan before on the path; itself at the sources
+    std::vector<double> distance;   ///< (fans) from the nearest source; the greatest number if there is no path
+    std::vector<Index> halfedge;    ///< (fans) last half-edge of the path, in either direction; no_twin at the sources
+    std::vector<Index> parent;      ///< (fans) the fan before on the path; itself at the sources
+    std::vector<Index> order = {};  ///< fans with a path, by distance, each after its parent: edges may have no length
 
     /// Half-edges from the fan back to its source.
     std::vector<Index> path(Index fan) const;
