@@ -61,7 +61,7 @@ inline constexpr double avoided_factor = 8.0;
 inline constexpr double least_seen = 0.05;
 /// factor | on a cut where the mesh is finest, as in a face | cuts of a face from the eyes to the mouth: gone
 inline constexpr double most_detailed = 3.0;
-/// of the directions | what is seen of a pocket, in its depth half, up to its rim twice as much | face of the body whole
+/// of the directions | what is seen of a pocket; in its depth half, up to its rim twice | a body's face stays whole
 inline constexpr double pocket_seen = 0.2;
 /// area over squared rim | the shallowest pocket: a hemisphere has 0.16 | as pocket_seen
 inline constexpr double pocket_depth = 0.3;

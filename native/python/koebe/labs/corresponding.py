@@ -178,7 +178,9 @@ def laid_over_mean(
 
 def checked_labels(labels: Sequence[Any] | None, count: int) -> list[str]:
     """The labels of so many shapes: as given, or their numbers. Raises InputError."""
-    given = list(range(count)) if labels is None else listed(list(labels) if isinstance(labels, str) else labels, "labels")
+    if isinstance(labels, str):
+        labels = list(labels)
+    given = list(range(count)) if labels is None else listed(labels, "labels")
     if len(given) != count:
         raise InputError(f"there are {len(given)} labels for {count} shapes")
     return [str(label) for label in given]
