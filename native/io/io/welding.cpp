@@ -156,6 +156,7 @@ std::string shown_distance(double number)
 
 std::vector<Index> weld(const Vertices& vertices, double distance)
 {
+    if (vertices.rows() == 0) return {};
     KeptVertices kept(vertices, distance);
     std::vector<Index> first(static_cast<std::size_t>(vertices.rows()));
     for (Index v = 0; v < static_cast<Index>(first.size()); ++v) {

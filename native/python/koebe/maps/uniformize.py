@@ -309,8 +309,7 @@ def weld(vertices: Any, distance: float = 0.0) -> Ints:
     >>> koebe.weld([[0, 0, 0], [1, 0, 0], [0, 0, 0.01]], 0.1).tolist()
     [0, 1, 0]
     """
-    points, limit = as_points(vertices, "vertices", 3), number(distance, rows("parts")["weld"])
-    return _koebe.weld(points, limit) if len(points) else np.zeros(0, np.int32)
+    return _koebe.weld(as_points(vertices, "vertices", 3), number(distance, rows("parts")["weld"]))
 
 
 def distortion(vertices: Any, triangles: Any = None, uv: Any = None, *, mask: Any = None) -> dict[str, Any]:
