@@ -39,7 +39,7 @@ for platform in "$@"; do
     folder=build/dist-$platform
     tell_of_libraries &
     teller=$!
-    trap 'kill "$teller" 2>/dev/null' EXIT
+    trap 'kill "$teller" 2>/dev/null || true' EXIT
     cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DKOEBE_BUNDLE=ON -DKOEBE_TARGET="$target" \
         -DCMAKE_TOOLCHAIN_FILE="$PWD/native/bundle/zig.cmake" -DKOEBE_ZIG="$packages/ziglang/zig" \
         -Dpybind11_include="$packages/pybind11/include" \
@@ -47,5 +47,6 @@ for platform in "$@"; do
     rm -f "$folder"/koebe/_koebe.* # of Pythons that are not wanted now
     cmake --build "$folder"
     kill "$teller"
+    trap - EXIT
     "$venv/bin/python" scripts/pack_wheel.py bundle "$folder" "py3-none-$tag" dist
 done
