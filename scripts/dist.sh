@@ -25,13 +25,22 @@ export ZIG_GLOBAL_CACHE_DIR="${ZIG_GLOBAL_CACHE_DIR:-$PWD/build/zig-cache}"
 # The first link for a target compiles the compiler's own C and C++ libraries, for ten minutes and without a word.
 tell_of_libraries() {
     local before now
-    before=$(find "$ZIG_GLOBAL_CACHE_DIR/o" -name '*.o' 2>/dev/null | wc -l)
+    before=$(count_of_objects)
     while sleep "${TELL_SECONDS:-15}"; do
-        now=$(find "$ZIG_GLOBAL_CACHE_DIR/o" -name '*.o' 2>/dev/null | wc -l)
+        now=$(count_of_objects)
         [ "$now" -eq "$before" ] ||
             echo "make dist: $platform: the compiler's own libraries, once for all builds: $now files after $SECONDS s"
         before=$now
     done
+}
+
+# Without the folder, or where a file goes while it is counted, find fails: that must end nothing.
+count_of_objects() {
+    { find "$ZIG_GLOBAL_CACHE_DIR/o" -name '*.o' 2>/dev/null || true; } | wc -l
+}
+
+stop_telling() {
+    kill "$teller" 2>/dev/null || true
 }
 
 for platform in "$@"; do
@@ -39,14 +48,13 @@ for platform in "$@"; do
     folder=build/dist-$platform
     tell_of_libraries &
     teller=$!
-    trap 'kill "$teller" 2>/dev/null || true' EXIT
+    trap stop_telling EXIT
     cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release -DKOEBE_BUNDLE=ON -DKOEBE_TARGET="$target" \
         -DCMAKE_TOOLCHAIN_FILE="$PWD/native/bundle/zig.cmake" -DKOEBE_ZIG="$packages/ziglang/zig" \
         -Dpybind11_include="$packages/pybind11/include" \
         -DKOEBE_PYTHONS="${PYTHONS// /;}" -DKOEBE_BUILD_TESTS=OFF -DKOEBE_BUILD_BENCH=OFF
     rm -f "$folder"/koebe/_koebe.* # of Pythons that are not wanted now
     cmake --build "$folder"
-    kill "$teller"
-    trap - EXIT
+    stop_telling
     "$venv/bin/python" scripts/pack_wheel.py bundle "$folder" "py3-none-$tag" dist
 done
