@@ -132,6 +132,11 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
     return pieces;
 }
 
+bool is_uncut(const FlatMesh& mesh)
+{
+    return mesh.parts.size() == 1 && mesh.layout.slit_length + mesh.layout.dart_length == 0.0;
+}
+
 struct Pockets {
     CutEdges rims = {};           ///< by vertices of the input
     bool may_be_a_sheet = false;  ///< one of the surfaces that have them might lie flat as it is
@@ -143,18 +148,17 @@ Pockets pockets_of(const std::vector<FlatPiece>& pieces)
     Pockets pockets;
     for (const FlatPiece& own : pieces) {
         const SurfacePiece& piece = own.input.piece;
-        std::optional<CutSurface> whole = closed_surface(piece, piece.vertices, own.input.polygon);
-        if (!whole) whole = cut_surface(piece.vertices, piece.triangles, own.input.polygon);
-        whole->shown = own.input.shown;
-        const auto rims = pocket_rims(*whole);
+        const CutSurface whole = whole_of(own.input);
+        if (!(whole.areas.sum() > 2.0 * tuning::least_pocket)) continue;  // a pocket is less than half of its piece
+        const auto rims = pocket_rims(whole);
         for (const auto& [a, b] : rims) pockets.rims.push_back({piece.source_vertex[a], piece.source_vertex[b]});
-        pockets.may_be_a_sheet |= !rims.empty() && !is_nearly_closed(*whole);
+        pockets.may_be_a_sheet |= !rims.empty() && !is_nearly_closed(whole);
     }
     return pockets;
 }
 
-/// @param kept gets the edges that must not be divided @param pockets gets the pockets; null: nobody asks for
-/// them @return no value if there are any of these edges
+/// @param kept gets the edges that must not be divided @param pockets gets the pockets; null: nobody asks for them
+/// @return no value if edges must be kept, or pockets be cut off
 std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertices, const Triangles& undivided,
                                      const PartsOptions& given, std::vector<std::array<Index, 2>>& kept,
                                      Pockets* pockets, ExecutionContext& context)
@@ -202,7 +206,7 @@ std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertice
     // Then the parts of the other pieces. With importance hard parts are stretched, too.
     std::vector<FlatPiece> pieces = mesh_pieces(opened, layout.vertices, faces.face, options);
     if (pockets) *pockets = pockets_of(pieces);
-    if (pockets && !pockets->rims.empty()) return {};
+    if (pockets && !pockets->rims.empty() && !pockets->may_be_a_sheet) return {};
     if (!hard.empty() && !options.importance.empty())
         pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
     mesh.seconds.topology = stage.lap();
@@ -254,14 +258,9 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     const DividedFaces undivided{triangles, options.polygon, {}, {}};
     Pockets pockets;
     const bool may_have_pockets = options.cut && rims_are_free(options);
-    if (auto mesh =
-            flat_mesh_of(undivided, vertices, triangles, options, kept, may_have_pockets ? &pockets : nullptr, context))
-        return std::move(*mesh);
-    if (pockets.may_be_a_sheet) {
-        std::optional<FlatMesh> mesh = flat_mesh_of(undivided, vertices, triangles, options, kept, nullptr, context);
-        if (mesh->parts.size() == 1 && mesh->layout.slit_length + mesh->layout.dart_length == 0.0)
-            return std::move(*mesh);
-    }
+    std::optional<FlatMesh> mesh =
+        flat_mesh_of(undivided, vertices, triangles, options, kept, may_have_pockets ? &pockets : nullptr, context);
+    if (mesh && (pockets.rims.empty() || is_uncut(*mesh))) return std::move(*mesh);
     PartsOptions cut = options;
     cut.cuts.insert(cut.cuts.end(), pockets.rims.begin(), pockets.rims.end());
     return *flat_mesh_of(undivided, vertices, triangles, cut, kept, nullptr, context);

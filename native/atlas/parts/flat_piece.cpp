@@ -43,15 +43,20 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
     return parts;
 }
 
-/// The piece with the boundary that it came with.
-CutSurface opened(const PieceInput& input)
+/// @param whole the piece, without what is known of its elements
+CutSurface with_elements(CutSurface whole, const PieceInput& input)
 {
-    CutSurface whole = cut_surface(input.piece.vertices, input.piece.triangles, input.polygon);
     whole.face = input.face;
     whole.slit = input.slit;
     whole.seam = input.seam;
     whole.shown = input.shown;
     return whole;
+}
+
+/// The piece with the boundary that it came with.
+CutSurface opened(const PieceInput& input)
+{
+    return with_elements(cut_surface(input.piece.vertices, input.piece.triangles, input.polygon), input);
 }
 
 /// The part from which all parts were cut; null: there is none.
@@ -64,21 +69,20 @@ std::shared_ptr<const Part> root_of(const std::vector<PartPointer>& parts, const
 
 }  // namespace
 
+CutSurface whole_of(const PieceInput& input)
+{
+    std::optional<CutSurface> closed = closed_surface(input.piece, input.piece.vertices, input.polygon);
+    return closed ? with_elements(std::move(*closed), input) : opened(input);
+}
+
 PieceSurface surface_of(const PieceInput& input)
 {
-    PieceSurface surface;
-    if (std::optional<CutSurface> closed = closed_surface(input.piece, input.piece.vertices, input.polygon)) {
-        closed->shown = input.shown;
-        surface.first = halves(*closed);
-        if (!surface.first.empty()) {
-            surface.whole = std::move(*closed);
-            surface.whole.face = input.face;
-            surface.whole.slit = input.slit;
-            surface.whole.seam = input.seam;
-            return surface;
-        }
+    PieceSurface surface{whole_of(input)};
+    if (surface.whole.surface.loops.empty()) {
+        surface.first = halves(surface.whole);
+        if (!surface.first.empty()) return surface;
+        surface.whole = opened(input);
     }
-    surface.whole = opened(input);
     if (is_between_cuts(surface.whole) && is_nearly_closed(surface.whole)) surface.first = halves(surface.whole);
     return surface;
 }

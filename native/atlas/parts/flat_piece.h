@@ -28,6 +28,9 @@ struct PieceSurface {
 };
 PieceSurface surface_of(const PieceInput& input);
 
+/// The piece, closed if only a slit opened it.
+CutSurface whole_of(const PieceInput& input);
+
 /// Whether rims of parts may have any form: E is not 0, and none of round loops, round cuts, slits is asked for.
 bool rims_are_free(const PartsOptions& options);
 

@@ -1,6 +1,7 @@
 #include "splitting/pockets.h"
 
 #include "core/connectivity.h"
+#include "core/length.h"
 #include "core/numbering.h"
 #include "cost/costs.h"
 #include "splitting/dual_cut.h"
@@ -14,35 +15,11 @@
 namespace koebe {
 namespace {
 
-constexpr Eigen::Index most_looks = 40000;  // vertices from which rays start
-
-/// (V) What is seen of each vertex. In a large mesh of some vertices, and others take it from a neighbour.
-VectorXd seen_of_vertices(const PartMesh& all)
-{
-    const Triangles& triangles = all.surface.triangles;
-    const auto count = static_cast<Index>(all.vertices.rows());
-    const auto stride = static_cast<Index>((count + most_looks - 1) / most_looks);
-    std::vector<Index> at;
-    for (Index v = 0; v < count; v += stride) at.push_back(v);
-    const VectorXd looked = ambient_visibility(all.vertices, triangles, at);
-    VectorXd seen = VectorXd::Constant(count, -1.0);
-    for (std::size_t i = 0; i < at.size(); ++i) seen[at[i]] = looked[static_cast<Eigen::Index>(i)];
-    for (bool any = true; std::exchange(any, false);)
-        for (const auto face : triangles.rowwise())
-            for (int k = 0; k < 3; ++k) {
-                const double a = seen[face[(k + 1) % 3]], b = seen[face[(k + 2) % 3]];
-                if (seen[face[k]] >= 0.0 || std::max(a, b) < 0.0) continue;
-                seen[face[k]] = std::min(a, b) < 0.0 ? std::max(a, b) : 0.5 * (a + b);
-                any = true;
-            }
-    return seen;
-}
-
 /// (F) What is seen of each face, in the mean of its polygon.
 VectorXd seen_of_faces(const PartMesh& all)
 {
-    const VectorXd seen = seen_of_vertices(all);
     const Triangles& triangles = all.surface.triangles;
+    const VectorXd seen = ambient_visibility(all.vertices, triangles);
     VectorXd own(triangles.rows());
     for (Eigen::Index f = 0; f < own.size(); ++f)
         own[f] = (seen[triangles(f, 0)] + seen[triangles(f, 1)] + seen[triangles(f, 2)]) / 3.0;
@@ -71,9 +48,8 @@ std::vector<int> only_pockets(const PartMesh& all, const std::vector<int>& label
     for (Index h = 0; h < static_cast<Index>(surface.twin.size()); ++h) {
         const Index t = surface.twin[h];
         if (t != no_twin && piece[face_of(h)] != piece[face_of(t)])
-            rim[piece[face_of(h)]] +=
-                (all.vertices.row(origin(surface.triangles, h)) - all.vertices.row(target(surface.triangles, h)))
-                    .norm();
+            rim[piece[face_of(h)]] += length_of(all.vertices.row(origin(surface.triangles, h)) -
+                                                all.vertices.row(target(surface.triangles, h)));
     }
     std::vector<int> pocket(label.size());
     for (std::size_t f = 0; f < label.size(); ++f) {

@@ -151,7 +151,7 @@ private:
         for (int round = 0, far = 0; round < effort_.most_rounds;) {
             FoldoverProblem problem = surface_problem();
             try {
-                add_void(void_mesh(flat_.loops, problem.points, true),
+                add_void(void_mesh(flat_.loops, problem.points, VoidPoints::frame),
                          void_weight / static_cast<double>(flat_.triangles.rows()), least_gap * extent_, problem);
             } catch (const InputError&) {
                 return;

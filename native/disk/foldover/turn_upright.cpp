@@ -50,7 +50,7 @@ public:
     std::optional<VoidMesh> around() const
     {
         try {
-            return void_mesh(loops_, points_, false);
+            return void_mesh(loops_, points_, VoidPoints::own);
         } catch (const InputError&) {
             return {};
         }

@@ -36,7 +36,7 @@ VectorXcd frame_of(const PlanarPoints& points)
 
 }  // namespace
 
-VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points, bool bare)
+VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points, VoidPoints wanted)
 {
     const VectorXcd frame = frame_of(points);
     const Index first_corner = static_cast<Index>(points.rows());
@@ -44,7 +44,8 @@ VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& poi
     std::vector<Index> corners;
     /// @param names of the polygons' vertices; all others are new
     const auto add = [&](const std::vector<VectorXcd>& polygons, const std::vector<Index>& names) {
-        const PlanarMesh mesh = planar_mesh(polygons, {.gradation = 1.0, .smoothing = 0, .bare = bare});
+        const PlanarMesh mesh =
+            planar_mesh(polygons, {.gradation = 1.0, .smoothing = 0, .bare = wanted == VoidPoints::frame});
         const Index known = static_cast<Index>(names.size());
         const Index first = first_corner + static_cast<Index>(added.size()) - known;
         for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)

@@ -7,6 +7,9 @@
 
 namespace koebe {
 
+/// Without points of its own but the frame's, the void has fewer unknowns, but less room to turn faces in.
+enum class VoidPoints { frame, own };
+
 struct VoidMesh {
     PlanarPoints points;  ///< (V + n, 2) points of the surface, four corners of the frame, other points of the void
     Triangles triangles;  ///< triangles of the void only, counter-clockwise
@@ -14,9 +17,8 @@ struct VoidMesh {
 
 /// Triangulates the space between a frame and the outer loop, and the inside of each inner loop.
 /// @param loops simple and apart; the loop that encloses most is the outer loop @param points (V, 2)
-/// @param bare without points of its own but the frame's: fewer unknowns, but less room to turn faces in
 /// @throws InputError loops that are not simple, or not apart
-VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points, bool bare);
+VoidMesh void_mesh(const std::vector<VertexLoop>& loops, const PlanarPoints& points, VoidPoints wanted);
 
 /// Adds the triangles of the void to a problem. They want to keep their present shapes (Jiang, Schaefer and Panozzo
 /// 2017), or to become wider if they are narrower than the gap. As long as none turns over, no loops cross.

@@ -9,7 +9,7 @@ import re
 import textwrap
 import types
 from collections.abc import Iterator, Mapping
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 from . import errors
@@ -59,6 +59,12 @@ def parts(lines: list[str]) -> list[tuple[str, str, list[str]]]:
         else:
             found.append(("text", "", [line] if line.strip() else []))
     return [one for one in found if one[2]]
+
+
+@cache
+def _filled(text: str, width: int) -> str:
+    """In lines. Most texts are one, and many stand in several docstrings: this runs at each import."""
+    return text if len(text) <= width else textwrap.fill(text, width)
 
 
 def sentence(text: str) -> str:
@@ -121,7 +127,7 @@ def _numpydoc(text: str, one: Any, public: Mapping[str, Any]) -> str:
         for name, kind in vars(errors).items()
         if inspect.isclass(kind) and re.search(rf"Raises[^.]*\b{name}\b", " ".join(texts + more))
     )
-    sections["Notes"] = "\n\n".join(textwrap.fill(one, 116) for one in [" ".join(more), *texts] if one)
+    sections["Notes"] = "\n\n".join(_filled(one, 116) for one in [" ".join(more), *texts] if one)
     examples = found[first:] or (_borrowed(one, public) if is_class else [])
     sections["Examples"] = "\n\n".join("\n".join(part[2]) for part in examples)
     made = "".join(f"\n{name}\n{'-' * len(name)}\n{body.strip()}\n" for name, body in sections.items() if body.strip())
@@ -144,6 +150,7 @@ def _parameters(one: Any) -> Iterator[tuple[str, str]]:
             yield ("**" if parameter.kind is parameter.VAR_KEYWORD else "") + name, kind
 
 
+@cache
 def _type(annotation: Any) -> str:
     """A type in words."""
     if annotation is inspect.Parameter.empty or annotation is Any:
@@ -158,7 +165,7 @@ def _type(annotation: Any) -> str:
 
 
 def _entry(name: str, kind: str, text: str) -> str:
-    return f"{name} : {kind}\n{textwrap.indent(textwrap.fill(sentence(text), 112), '    ')}\n"
+    return f"{name} : {kind}\n{textwrap.indent(_filled(sentence(text), 112), '    ')}\n"
 
 
 def _attribute_types(cls: type[Any]) -> dict[str, str]:
@@ -181,7 +188,7 @@ def _returns(one: Any, texts: list[str], rows: Mapping[str, str], public: Mappin
     said = next((part for text in texts for part in sentences(text) if part.startswith("Returns ")), "")
     if not said and known:
         said = sentences(" ".join(inspect.cleandoc(public[known[0]].__doc__ or "").split("\n\n")[0].split()))[0]
-    text = textwrap.fill(sentence(said.removeprefix("Returns ") or texts[0]), 112)
+    text = _filled(sentence(said.removeprefix("Returns ") or texts[0]), 112)
     return f"{word}\n{textwrap.indent(text, '    ')}\n"
 
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace koebe {
@@ -17,6 +18,7 @@ namespace {
 constexpr double most_directions = 32.0, fewest_directions = 8.0;
 constexpr double most_rays =
     1e5;  // in all: of the vertices of a large mesh, which has no coarser one, fewer directions
+constexpr Eigen::Index most_starts = 40000;         // vertices from which rays start
 constexpr double golden_angle = 2.399963229728653;  // the turn from one direction to the next: they spread evenly
 constexpr double off_surface = 1e-3;                // start of a ray, over the extent
 constexpr int most_looks = 500;                     // at boxes and faces, for a ray: needles that cross have no tree
@@ -67,9 +69,22 @@ std::vector<Index> first_neighbours(const Vertices& vertices, const Triangles& t
     return neighbour;
 }
 
+/// Fills in the entries below 0: each gets the mean of neighbours that have one.
+void spread(const Triangles& triangles, VectorXd& seen)
+{
+    for (bool any = true; std::exchange(any, false);)
+        for (const auto face : triangles.rowwise())
+            for (int k = 0; k < 3; ++k) {
+                const double a = seen[face[(k + 1) % 3]], b = seen[face[(k + 2) % 3]];
+                if (seen[face[k]] >= 0.0 || std::max(a, b) < 0.0) continue;
+                seen[face[k]] = std::min(a, b) < 0.0 ? std::max(a, b) : 0.5 * (a + b);
+                any = true;
+            }
+}
+
 }  // namespace
 
-VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles, const std::vector<Index>& at)
+VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles)
 {
     const SilentCgal silent;
     std::vector<Index> faces = numbers_below(triangles.rows());
@@ -77,11 +92,12 @@ VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles
     const Vertices normals = outward_normals(vertices, triangles);
     const std::vector<Index> neighbour = first_neighbours(vertices, triangles);
     const double extent = (vertices.colwise().maxCoeff() - vertices.colwise().minCoeff()).norm();
-    const int directions =
-        static_cast<int>(std::clamp(most_rays / static_cast<double>(at.size()), fewest_directions, most_directions));
-    VectorXd seen = VectorXd::Ones(static_cast<Eigen::Index>(at.size()));
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        const Index v = at[i];
+    const auto stride = static_cast<Index>((vertices.rows() + most_starts - 1) / most_starts);
+    const int directions = static_cast<int>(
+        std::clamp(most_rays * stride / static_cast<double>(vertices.rows()), fewest_directions, most_directions));
+    VectorXd seen = VectorXd::Constant(vertices.rows(), -1.0);
+    for (Index v = 0; v < static_cast<Index>(vertices.rows()); v += stride) {
+        seen[v] = 1.0;
         if (!(normals.row(v).norm() > 0.0)) continue;
         const Eigen::RowVector3d up = normals.row(v).normalized();
         const Eigen::RowVector3d across = up.cross(vertices.row(neighbour[v]) - vertices.row(v)).normalized();
@@ -96,14 +112,10 @@ VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles
             tree.traversal(ray, way);
             free += !way.is_blocked();
         }
-        seen[static_cast<Eigen::Index>(i)] = static_cast<double>(free) / directions;
+        seen[v] = static_cast<double>(free) / directions;
     }
+    if (stride > 1) spread(triangles, seen);
     return seen;
-}
-
-VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles)
-{
-    return ambient_visibility(vertices, triangles, numbers_below(vertices.rows()));
 }
 
 }  // namespace koebe
