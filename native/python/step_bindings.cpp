@@ -18,6 +18,7 @@
 #include "opened/disk_packing.h"
 #include "quality/distortion.h"
 #include "quality/shared_warnings.h"
+#include "quality/upright_floats.h"
 #include "report/json.h"
 #include "surface/harmonic_map.h"
 #include "surface/importance.h"
@@ -148,6 +149,9 @@ void bind_steps(py::module_& m)
         PlacesInTriangles found =
             detached([uv, triangles, points] { return nearest_triangles(uv, triangles, points); });
         return py::make_tuple(found.face, found.weights, found.distance);
+    });
+    m.def("upright_floats", [](const PlanarPoints& points, const Triangles& triangles) {
+        return detached([points, triangles] { return upright_floats(points, triangles); });
     });
     m.def("mirror_image", [](Positions vertices, Faces triangles, const std::vector<Index>& polygon) {
         return array_of(detached([points = Vertices(vertices), faces = Triangles(triangles), polygon] {

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from .._fields import areas
+from .._native import _koebe
 from .._types import Floats, Ints
 from ..errors import FileError, InputError
 from .files import whole_file
@@ -77,8 +78,8 @@ def has_one_place_a_vertex(path: str | os.PathLike[str]) -> bool:
 
 def flat_surface(result: Any) -> tuple[Floats, Ints]:
     """The map as a surface, (V, 3) and its triangles: in the plane z = 0 with the area of the surface, or the sphere of
-    radius 100; or the surface itself, if the result is no map. Vertices without a face are at 0. Raises InputError for
-    a map with cuts."""
+    radius 100; or the surface itself, if the result is no map. Vertices without a face are at 0. No face of the plane
+    turns over by the rounding to 32 bits. Raises InputError for a map with cuts."""
     vertices, triangles = result._source.vertices, result._source.given_triangles
     if getattr(result, "is_surface", False):
         return vertices, triangles
@@ -87,9 +88,9 @@ def flat_surface(result: Any) -> tuple[Floats, Ints]:
         return np.nan_to_num(_SPHERE_RADIUS * on_sphere), triangles
     if result.uv.ndim != 2:
         raise InputError(CUT_TEXT)
-    plane = np.column_stack([result.uv, np.zeros(len(vertices))])
-    on_surface, in_disk = (np.abs(areas(points[triangles])).sum() for points in (vertices, plane))
-    return np.nan_to_num(np.sqrt(on_surface / in_disk) * plane), triangles
+    on_surface, in_disk = (np.abs(areas(points[triangles])).sum() for points in (vertices, result.uv))
+    plane = _koebe.upright_floats(np.nan_to_num(np.sqrt(on_surface / in_disk) * result.uv), triangles)
+    return np.column_stack([plane, np.zeros(len(plane))]), triangles
 
 
 def obj_of(vertices: Floats, triangles: Ints, uv: Floats | None = None) -> str:
