@@ -217,7 +217,7 @@ TEST(MeshReader, ObjFacesInAllTheirForms)
 {
     const PolygonMesh mesh =
         parse("forms.obj", "mtllib C:\\missing\\\n# C:\\none\\\n"
-                           "v 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\n"
+                           "v 0 0 0 1.0\nv 1 0 0 0.5 nan -inf\nvt 0 0\nvn 0 0 1\n"
                            "v 0 1 0\ng a b\nusemtl\ns off\n"
                            "f 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\n"
                            "f -3 -2 -1\nv 5 5 5\nf -4/-1/-1 -3/-1/-1 \\\n -2/-1/-1\nl 1 2\np 1\nf 5 4 3\n"
@@ -377,6 +377,8 @@ TEST(MeshReader, RefusesWhatIsNoMeshAndSaysWhere)
         {"a.obj", "v 0 0 0\r\n\r\nv 1 0 zero\r\n", "vertex 1 is not three finite", {1}},
         {"a.obj", "v 1,5 0 0\n", "vertex 0 is not three finite", {0}},
         {"a.obj", "v\n", "vertex 0 is not three finite", {0}},
+        {"a.obj", "v 0 0 0\nv 1 0 0 v 1 1 0\nf 1 2 2\n", "vertex 1 has words after its numbers", {1}},
+        {"a.obj", "v 0 0 0 red\nf 1 1 1\n", "vertex 0 has words after its numbers", {0}},
         {"a.obj", "v 0 0 0\nf 1 1 1\nf 1 x 1\n", "face 1 has a corner that is no integer", {1}},
         {"a.obj", "v 0 0 0\nf 1 1 1 99999999999\n", "face 0 has a corner that is no integer", {0}},
         {"a.off", "", "does not start with OFF", {}},

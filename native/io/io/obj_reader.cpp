@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -44,6 +45,11 @@ PolygonMesh read_obj(std::string_view bytes)
                 if (!lines.next_plain(number) && !to_number(lines.next_word_of_joined_lines(), number))
                     refuse("vertex", vertex_count, "is not three finite numbers");
             }
+            // A weight or a colour may follow, also one that is not finite; a second statement may not.
+            double more = 0.0;
+            for (std::string_view word; !(word = lines.next_word_of_joined_lines()).empty(); more = 0.0)
+                if (!to_number(word, more) && std::isfinite(more))
+                    refuse("vertex", vertex_count, "has words after its numbers in one line");
         } else if (keyword == "f") {
             for (;;) {
                 Index corner = 0;  // counted from 1; if negative, from the last vertex backwards
