@@ -139,7 +139,7 @@ TEST(Darts, one_that_begins_at_a_round_loop_leaves_both_ends_on_the_circle)
     relax_held();
     const double before = energy(part.flat, even);
     std::vector<HeldPart> parts{part};
-    cut_darts(parts, even, 1e-4, 1, context);
+    cut_darts(parts, DartTips::anywhere, even, 1e-4, 1, context);
     part = parts.front();
     relax_held();
     EXPECT_FALSE(part.flat.tips.empty());
@@ -189,7 +189,7 @@ TEST(CarriedParts, a_dart_lays_the_fine_cone_flat_too)
     ExecutionContext context;
     std::vector<HeldPart> cut{{coarse, {}}};
     relax(cut.front().flat, even);
-    cut_darts(cut, even, 1e-3, 1, context);
+    cut_darts(cut, DartTips::anywhere, even, 1e-3, 1, context);
     relax(cut.front().flat, even);
     const FlatPart& after = cut.front().flat;
     ASSERT_EQ(after.tips.size(), 1U);

@@ -20,7 +20,8 @@ namespace {
 
 constexpr int most_dart_rounds = 8;
 constexpr EvenEffort trial_effort{2, 1};
-constexpr EvenEffort warm_effort{1, 1};  // after some of the darts were closed again
+constexpr EvenEffort warm_effort{1, 1};             // after some of the darts were closed again
+constexpr EvenEffort strained_effort{8, 4, 30, 8};  // a crammed toe unfolds to a hundred times its area
 
 constexpr int roundings = 16;            // with the grid in other places
 constexpr double coarse_grid = 1 << 21;  // steps along the unit square: an eighth of those of 32-bit floats
@@ -33,8 +34,10 @@ struct EdgePlace {
 
 class DartRounds {
 public:
-    DartRounds(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context)
+    DartRounds(std::vector<HeldPart>& parts, DartTips tips, double even, double price, int threads,
+               ExecutionContext& context)
         : parts_(parts),
+          tips_(tips),
           refused_(parts.size()),
           energy_(parts.size()),
           even_(even),
@@ -52,12 +55,10 @@ public:
         for_each_part([&](std::size_t k, ExecutionContext&) {
             refused_[k].resize(static_cast<std::size_t>(parts_[k].flat.points.rows()), 0);
             EvenForces forces = forces_of(parts_[k].flat);
-            trials_[k].darts = promising_darts(parts_[k].flat, forces, even_, price_, refused_[k]);
-            double surplus = 0.0;
-            for (const Dart& dart : trials_[k].darts) surplus += dart.gain - dart.cost;
-            if (surplus < tuning::noticeable * forces.energy.sum()) trials_[k].darts.clear();
+            trials_[k].darts = promising_darts(parts_[k].flat, forces, even_, price_, barred_tips(k, forces));
             energy_[k] = std::move(forces.energy);
         });
+        leave_unnoticed_out();
         if (is_mirrored_) {
             const std::vector<Trial> unpaired = trials_;
             pair_images();
@@ -80,10 +81,36 @@ private:
         std::vector<double> gain;
     };
 
+    /// Where only strained faces get darts, what a part gains must be noticed in the whole.
+    void leave_unnoticed_out()
+    {
+        double whole = 0.0;
+        for (const VectorXd& energy : energy_) whole += energy.sum();
+        for (std::size_t k = 0; k < trials_.size(); ++k) {
+            double surplus = 0.0;
+            for (const Dart& dart : trials_[k].darts) surplus += dart.gain - dart.cost;
+            if (surplus < tuning::noticeable * (tips_ == DartTips::strained ? whole : energy_[k].sum()))
+                trials_[k].darts.clear();
+        }
+    }
+
     template <typename Visit>
     void for_each_part(Visit visit)
     {
         side_by_side(parts_.size(), threads_, context_, visit);
+    }
+
+    /// (V) 1 where no dart may end.
+    std::vector<char> barred_tips(std::size_t k, const EvenForces& forces) const
+    {
+        if (tips_ == DartTips::anywhere) return refused_[k];
+        const FlatPart& flat = parts_[k].flat;
+        const VectorXd areas = face_areas(flat.vertices, flat.surface.triangles);
+        std::vector<char> barred(refused_[k].size(), 1);
+        for (Eigen::Index f = 0; f < areas.size(); ++f)
+            if (forces.energy[f] > tuning::strained * areas[f])
+                for (const Index v : flat.surface.triangles.row(f)) barred[v] = refused_[k][v];
+        return barred;
     }
 
     EvenForces forces_of(const FlatPart& flat) const { return forces_in(flat, even_); }
@@ -107,7 +134,7 @@ private:
             is_warm = lies_one_to_one(flat, points);
             if (is_warm) flat.points = points;
         }
-        const EvenEffort& effort = is_warm ? warm_effort : trial_effort;
+        const EvenEffort& effort = tips_ == DartTips::strained ? strained_effort : is_warm ? warm_effort : trial_effort;
         if (!make_even(flat_surface(flat, part.round), even_, packed_side, context, effort).moved) return;
         if (!survives_storing(flat)) return;
         const VectorXd released = energy_[k] - forces_of(flat).energy;
@@ -317,6 +344,7 @@ private:
     }
 
     std::vector<HeldPart>& parts_;
+    DartTips tips_;
     std::vector<std::vector<char>> refused_;
     std::vector<VectorXd> energy_;  // (parts) energies of the faces, before this round
     std::vector<Trial> trials_;
@@ -348,10 +376,11 @@ bool survives_storing(const FlatPart& flat)
     return true;
 }
 
-void cut_darts(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context)
+void cut_darts(std::vector<HeldPart>& parts, DartTips tips, double even, double price, int threads,
+               ExecutionContext& context)
 {
     const ProfiledStage profiled("darts");
-    DartRounds rounds(parts, even, price, threads, context);
+    DartRounds rounds(parts, tips, even, price, threads, context);
     for (int i = 0; i < most_dart_rounds; ++i)
         if (!rounds.round()) return;
 }

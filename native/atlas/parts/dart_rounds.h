@@ -22,11 +22,15 @@ FlatSurface flat_surface(FlatPart& flat, std::vector<RoundLoop>& round);
 /// rounding is coarser than the rounding of stored UVs.
 bool survives_storing(const FlatPart& flat);
 
+/// Where darts end: anywhere, or in faces whose energy is above tuning::strained.
+enum class DartTips { anywhere, strained };
+
 /// Each round opens the most promising darts (darts.h) and relaxes their parts. Darts that released more energy than
 /// they cost stay. The other darts are closed again. On a surface that is its own mirror image darts come in pairs:
 /// both stay, or both are closed.
 /// @param parts relaxed for this E
 /// @param price price, in energy, of a dart as long as the root of the surface's area
-void cut_darts(std::vector<HeldPart>& parts, double even, double price, int threads, ExecutionContext& context);
+void cut_darts(std::vector<HeldPart>& parts, DartTips tips, double even, double price, int threads,
+               ExecutionContext& context);
 
 }  // namespace koebe

@@ -128,7 +128,7 @@ public:
         relax(even, effort);
         if (!(options_.darts > 0.0)) return false;
         const bool joined = cut_through(even, {});
-        cut_darts(parts_, even, cut_price(), options_.threads, context_);
+        cut_darts(parts_, DartTips::anywhere, even, cut_price(), options_.threads, context_);
         const bool is_cut = joined || std::ranges::any_of(parts_, has_darts);
         if (is_cut) relax_cut(even, effort);
         const bool is_split = cut_through(even, options_.piece * cut_price());
@@ -182,8 +182,12 @@ public:
             relax_cut(even, look);
             start_stuck_anew(even);
             if (bounds.exact && angles() > tuning::carried_error * bounds.sum()) bounds = bounds.exact();
-            if (bounds.most.empty() || angles() <= tuning::carried_error * bounds.sum())
+            if (bounds.most.empty() || angles() <= tuning::carried_error * bounds.sum()) {
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
+                // The coarse surface had no fingers and toes that darts could open.
+                if (options_.darts > 0.0 && options_.loops == LoopForm::free)
+                    cut_darts(parts_, DartTips::strained, even, cut_price(), options_.threads, context_);
+            }
             if (bounds.most.empty() || worst_groups(bounds).empty()) return {even, left_};
             const double times = angles() / bounds.sum();
             next = std::find_if(next, less_even_with_darts.end(), [&](double less) {
