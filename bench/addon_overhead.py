@@ -27,7 +27,6 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
 BOUND = 0.15  # seconds per 100,000 faces
-sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tests" / "blender"))
 
 

@@ -18,7 +18,6 @@ import bpy
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.dont_write_bytecode = True
 sys.path[:0] = [str(ROOT / "tests" / "blender"), str(ROOT / "bench")]
 
 import scenes  # noqa: E402

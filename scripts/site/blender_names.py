@@ -12,7 +12,6 @@ from pathlib import Path
 import bpy
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.dont_write_bytecode = True
 
 
 def register():
