@@ -84,6 +84,9 @@ def _parts() -> tuple[ModuleType, ...]:
 def register() -> None:
     """Called by Blender when the add-on is enabled."""
     for part in _parts():
+        for name, operator in vars(part).items():
+            if "_OT_" in name:  # Blender would show the line breaks, and cuts off text after 239 letters
+                operator.bl_description = " ".join(operator.__doc__.split())
         part.register()
 
 

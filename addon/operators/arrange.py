@@ -19,7 +19,6 @@ from .answers import refused
 from .layer_run import EACH_LAYER, LayerEdit
 from .modal_run import redraw
 from .polls import OnTargets, native_or_error
-from .tooltip import tooltip
 
 NO_TRIMS = "the trim sheet has no rectangle: press Make Grid, or + beside the list"
 CHANGES = [
@@ -40,7 +39,6 @@ class UV_OT_koebe_arrange(OnTargets, LayerEdit, bpy.types.Operator):
 
     bl_idname = "uv.koebe_arrange"
     bl_label = "Koebe Arrange"
-    bl_description = tooltip(__doc__)
     nothing, not_done = "nothing was arranged.", "not arranged"
 
     layer: EACH_LAYER

@@ -13,7 +13,6 @@ from ..maps.wording import counted
 from ..state.option_properties import option
 from .layer_run import EACH_LAYER, LayerEdit
 from .polls import in_object_mode
-from .tooltip import tooltip
 
 OUTSIDE = 1e-3  # UV units, that a layer may reach over the square
 
@@ -24,7 +23,6 @@ class UV_OT_koebe_bake_texture(LayerEdit, bpy.types.Operator):
 
     bl_idname = "uv.koebe_bake_texture"
     bl_label = "Koebe Bake to New UVs"
-    bl_description = tooltip(__doc__)
     nothing, not_done = "nothing was baked.", "not baked"
     moves_uv = False
 

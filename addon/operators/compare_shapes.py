@@ -11,7 +11,6 @@ from ..state.shape_report import shapes_of
 from .answers import finished
 from .modal_run import ModalRun, redraw
 from .polls import in_object_mode
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_compare_shapes(ModalRun, bpy.types.Operator):
@@ -20,7 +19,6 @@ class UV_OT_koebe_compare_shapes(ModalRun, bpy.types.Operator):
 
     bl_idname = "uv.koebe_compare_shapes"
     bl_label = "Koebe Compare Shapes"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER"}
 
     @classmethod

@@ -28,7 +28,7 @@ class DomainOperator(MapOperator):
     def __init_subclass__(cls) -> None:
         cls.bl_idname = f"uv.koebe_{cls.domain.name}"
         cls.bl_label = f"Koebe {cls.domain.button}"
-        cls.__doc__ = cls.bl_description = cls.domain.tooltip
+        cls.__doc__ = cls.domain.tooltip
         cls.options_shown = shown(cls.domain.name)
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> DomainJob:

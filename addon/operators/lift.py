@@ -21,7 +21,6 @@ from ..state.option_properties import settings_of
 from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .polls import OnTargets
-from .tooltip import tooltip
 
 
 class OBJECT_OT_koebe_lift(OnTargets, LiftProperties, ModalRun, bpy.types.Operator):
@@ -30,7 +29,6 @@ class OBJECT_OT_koebe_lift(OnTargets, LiftProperties, ModalRun, bpy.types.Operat
 
     bl_idname = "object.koebe_lift"
     bl_label = "Koebe Patterned Copy"
-    bl_description = tooltip(__doc__)
     needs, modes = "Select a mesh object, in Object Mode", ("OBJECT",)
 
     area: bpy.props.FloatProperty(default=0.0, options={"HIDDEN", "SKIP_SAVE"})

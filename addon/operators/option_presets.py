@@ -14,7 +14,6 @@ from ..blender.transaction import transaction
 from ..maps.presets import PRESETS
 from ..state.option_properties import SETTING_NAMES, settings_of
 from .answers import refused
-from .tooltip import tooltip
 
 FOLDER = "koebe_uv"  # of the presets, within the user's presets
 
@@ -52,7 +51,6 @@ class UV_OT_koebe_preset(bpy.types.Operator):
 
     bl_idname = "uv.koebe_preset"
     bl_label = "Koebe Preset"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     preset: bpy.props.EnumProperty(

@@ -9,7 +9,6 @@ from ..jobs.sew_job import SewJob
 from ..state.option_properties import option, shown_number
 from .layer_run import LayerRun
 from .polls import OnTargets
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_sew(OnTargets, LayerRun, bpy.types.Operator):
@@ -18,7 +17,6 @@ class UV_OT_koebe_sew(OnTargets, LayerRun, bpy.types.Operator):
 
     bl_idname = "uv.koebe_sew"
     bl_label = "Koebe Sew"
-    bl_description = tooltip(__doc__)
     done = "sewn"
     needs, modes = "In Edit Mode select the edges to sew", ("EDIT_MESH",)
 

@@ -18,7 +18,6 @@ from .answers import finished, refused
 from .modal_run import redraw
 from .moebius import numbered
 from .polls import OnTargets, native_or_error
-from .tooltip import tooltip
 
 Done = tuple[MoebiusJob, Symmetry]
 
@@ -29,7 +28,6 @@ class UV_OT_koebe_symmetrize(OnTargets, bpy.types.Operator):
 
     bl_idname = "uv.koebe_symmetrize"
     bl_label = "Koebe Symmetrize"
-    bl_description = tooltip(__doc__)
     needs = "Select a mapped mesh object, in Object Mode or in Edit Mode"
 
     layer: StringProperty(name="UV Layer", description="UV layer to write. Without a name, the active layer")

@@ -21,11 +21,25 @@ def koebe(*args, **options):
     return subprocess.run([COMMAND, *map(str, args)], capture_output=True, text=True, timeout=120, **options)
 
 
+def succeeded(*args, **options):
+    """The finished process of a call that has to succeed."""
+    run = koebe(*args, **options)
+    assert run.returncode == 0, run.stderr
+    return run
+
+
 def lasting(value):
     """A report without what is measured anew in each run."""
     if isinstance(value, dict):
         return {key: lasting(one) for key, one in value.items() if key not in ("seconds", "peak_memory_mb")}
     return [lasting(one) for one in value] if isinstance(value, list) else value
+
+
+def same_as_package(report, result):
+    """Whether a command's report is the package's, but for the file and what is measured anew in each run."""
+    of_file = ("input", "input_sha256")
+    own, said = (lasting({k: v for k, v in one.items() if k not in of_file}) for one in (result.to_dict(), report))
+    return own == said
 
 
 def contents(folder):
@@ -101,6 +115,16 @@ def stl_text(vertices, triangles):
         corners = "".join(f"vertex {x!r} {y!r} {z!r}\n" for x, y, z in vertices[triangle].tolist())
         facets.append(f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
     return "solid a\n" + "".join(facets) + "endsolid a\n"
+
+
+def write_obj(path, vertices, faces):
+    path.write_text(obj_text(vertices, faces))
+
+
+def obj_rows(path, keyword):
+    """The numbers of all lines of an OBJ that begin with the keyword."""
+    lines = [line.split() for line in path.read_text().splitlines()]
+    return np.array([words[1:] for words in lines if words and words[0] == keyword], float)
 
 
 class Obj:

@@ -8,7 +8,7 @@ from pathlib import Path
 import koebe
 import numpy as np
 import pytest
-from cli_support import USAGE, obj_text
+from cli_support import USAGE, obj_text, succeeded
 from cli_support import koebe as command
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
@@ -144,8 +144,7 @@ def test_the_command(tmp_path):
     found = {}
     for flags in ([], ["--extremal"]):
         out = tmp_path / "report.json"
-        run = command("transfer", *paths, "--landmarks", marks, "--json", out, *flags)
-        assert run.returncode == 0, run.stderr
+        succeeded("transfer", *paths, "--landmarks", marks, "--json", out, *flags)
         found[len(flags)] = json.loads(out.read_text())["beltrami"]["max"]
     assert found[1] < found[0]
     assert command("transfer", *paths, "--extremal").returncode == USAGE

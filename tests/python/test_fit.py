@@ -5,7 +5,7 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, succeeded
 from cli_support import koebe as command
 from domain_surfaces import cell, merged, patchwork
 
@@ -239,8 +239,7 @@ def circles(**more):
 def test_the_command_gives_the_same_map(tmp_path):
     listed = [{**c, "name": n} for c, n in zip(circles(), "abc", strict=True)]
     source, template, out, report, svg = written(tmp_path, {"circles": listed, "outer": {"rotates": True}})
-    run = command("fit", source, template, out, "--json", report, "--svg", svg)
-    assert run.returncode == 0, run.stderr
+    run = succeeded("fit", source, template, out, "--json", report, "--svg", svg)
     assert "3 circles, |mu|" in run.stdout and "0 flipped" in run.stdout
     made = json.loads(report.read_text())
     assert made["fit"]["mu"] == pytest.approx(FIT.fit["mu"]) and [c.get("name") for c in made["loops"]] == [

@@ -5,7 +5,7 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import USAGE, obj_text, perforated, triangles_of
+from cli_support import USAGE, obj_text, perforated, succeeded, triangles_of
 from cli_support import koebe as command
 
 
@@ -197,16 +197,14 @@ def test_the_command_takes_a_file(tmp_path):
     importance, _ = region(vertices, triangles, 0, 1)
     (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
     (tmp_path / "w.txt").write_text("\n".join(f"{w:g}" for w in importance))
-    done = command("uniformize", "in.obj", "a.obj", "--balance", "area", "--importance", "w.txt", "--json", "r.json",
+    succeeded("uniformize", "in.obj", "a.obj", "--balance", "area", "--importance", "w.txt", "--json", "r.json",
                    cwd=tmp_path)  # fmt: skip
-    assert done.returncode == 0, done.stderr
     assert json.loads((tmp_path / "r.json").read_text())["options"]["importance"] is True
     command("uniformize", "in.obj", "b.obj", "--balance", "area", cwd=tmp_path)
     assert (tmp_path / "a.obj").read_text() != (tmp_path / "b.obj").read_text()
-    parts = command("parts", "in.obj", "p.obj", "--importance", "w.txt", "--json", "p.json", cwd=tmp_path)
-    assert parts.returncode == 0 and json.loads((tmp_path / "p.json").read_text())["options"]["importance"] is True
-    even = command("uniformize", "in.obj", "e.obj", "--importance", "w.txt", "--even", "0.3", cwd=tmp_path)
-    assert even.returncode == 0, even.stderr
+    succeeded("parts", "in.obj", "p.obj", "--importance", "w.txt", "--json", "p.json", cwd=tmp_path)
+    assert json.loads((tmp_path / "p.json").read_text())["options"]["importance"] is True
+    succeeded("uniformize", "in.obj", "e.obj", "--importance", "w.txt", "--even", "0.3", cwd=tmp_path)
     refused = command("uniformize", "in.obj", "c.obj", "--importance", "w.txt", cwd=tmp_path)
     assert refused.returncode == USAGE and "balance" in refused.stderr
     for text in ("0.5 2", "x", "", "0.5"):

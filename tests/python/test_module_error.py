@@ -5,7 +5,7 @@ import csv
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, cells, obj_text, perforated, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, cells, obj_text, perforated, succeeded, triangles_of
 from cli_support import koebe as command
 
 
@@ -139,8 +139,7 @@ def test_the_command_makes_the_table_of_a_family(folder, tmp_path):
 def test_the_command_makes_the_table_of_distances(folder, tmp_path):
     names = list(SURFACES)
     family = koebe.family([koebe.uniformize(*s) for s in SURFACES.values()], reference=1, error=True)
-    done = command("compare", folder, "--csv", tmp_path / "far.csv", "--reference", names[1], "--error")
-    assert done.returncode == 0
+    succeeded("compare", folder, "--csv", tmp_path / "far.csv", "--reference", names[1], "--error")
     rows = rows_of(tmp_path / "far.csv")
     assert [(row["a"], row["b"]) for row in rows] == [(names[0], names[1]), (names[0], names[2]), (names[1], names[2])]
     pairs = ([0, 0, 1], [1, 2, 2])

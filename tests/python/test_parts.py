@@ -2,13 +2,12 @@
 
 import json
 import sys
-import threading
 from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded
 from cli_support import koebe as command
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
@@ -181,16 +180,10 @@ def test_degenerate_faces_are_taken():
         koebe.parts(VERTICES, more, cut=False)
 
 
-def test_progress_and_cancel():
-    seen = []
-    koebe.parts(VERTICES, TRIANGLES, progress=lambda fraction, stage: seen.append((fraction, stage)))
-    fractions = [fraction for fraction, _ in seen]
-    assert fractions == sorted(fractions) and {"topology", "split", "pack"} <= {stage for _, stage in seen}
-    token = koebe.CancelToken()
-    threading.Timer(0.02, token.cancel).start()
-    with pytest.raises(koebe.Cancelled):
-        while True:
-            koebe.parts(VERTICES, TRIANGLES, cancel=token)
+def test_its_stages_have_names():
+    seen = set()
+    koebe.parts(VERTICES, TRIANGLES, progress=lambda fraction, stage: seen.add(stage))
+    assert {"topology", "split", "pack"} <= seen
 
 
 def read_obj(path):
@@ -241,8 +234,8 @@ def test_the_command_keeps_vertices_and_polygons(tmp_path, surface):
     vertices, faces = surface
     source, target, report = tmp_path / "in.obj", tmp_path / "out.obj", tmp_path / "out.json"
     source.write_text(obj_text(vertices, faces), encoding="utf-8")
-    done = command("parts", source, target, "--json", report, "--svg", tmp_path / "out.svg")
-    assert done.returncode == 0 and done.stderr == "" and done.stdout.count("\n") == 1
+    done = succeeded("parts", source, target, "--json", report, "--svg", tmp_path / "out.svg")
+    assert done.stderr == "" and done.stdout.count("\n") == 1
     found, places, corners = read_obj(target)
     assert np.array_equal(found, vertices)
     assert [[v for v, _ in face] for face in corners] == [list(face) for face in faces]

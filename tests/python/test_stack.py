@@ -5,8 +5,7 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import cells, obj_text, triangles_of
-from cli_support import koebe as command
+from cli_support import cells, obj_text, succeeded, triangles_of
 
 
 def sheet(n=8, bend=0.9):
@@ -105,8 +104,7 @@ def test_the_command_has_it(tmp_path):
     vertices, triangles, _ = family(same_diagonals=True)
     (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
     words = "--stack --stack-mirrored --darts 0 --price 1 --json r.json".split()
-    done = command("parts", "in.obj", "out.obj", *words, cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("parts", "in.obj", "out.obj", *words, cwd=tmp_path)
     report = json.loads((tmp_path / "r.json").read_text())
     assert len(report["stacked"]) == 2 and report["flipped"] == 0 and report["tiles"] == 1
     assert report["options"]["stack"] is True

@@ -7,7 +7,7 @@ from pathlib import Path
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of
 from cli_support import koebe as command
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
@@ -112,8 +112,7 @@ def test_the_command_writes_the_points_of_a_on_b(tmp_path):
     (tmp_path / "a.obj").write_text(obj_text(VERTICES, FACES))
     (tmp_path / "b.obj").write_text(obj_text(other, faces))
     files = (tmp_path / "a.obj", tmp_path / "b.obj", tmp_path / "out.obj", "--json", tmp_path / "places.json")
-    done = command("transfer", *files)
-    assert done.returncode == 0
+    done = succeeded("transfer", *files)
     assert done.stdout.startswith(f"{tmp_path / 'out.obj'}: {len(VERTICES)} points, holes miss by")
     lines = [line.split() for line in (tmp_path / "out.obj").read_text().splitlines()]
     points = np.array([line[1:4] for line in lines if line[:1] == ["v"]], dtype=float)
