@@ -154,7 +154,3 @@ class UV_OT_koebe_trims(bpy.types.Operator):
             raise TransferError("no rectangle of the trim sheet is chosen")
         trims.items.remove(trims.active)
         trims.active = max(0, min(trims.active, len(trims.items) - 1))
-
-
-CLASSES = (UV_OT_koebe_arrange, UV_OT_koebe_trims)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

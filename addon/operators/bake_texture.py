@@ -49,6 +49,3 @@ class UV_OT_koebe_bake_texture(LayerEdit, bpy.types.Operator):
         left = any(slot.material and texture_nodes.has_other_images(slot.material) for slot in obj.material_slots)
         also = ". Films and images in node groups stay as they were" if left else ""
         return f"{obj.name}: {counted(len(made), 'image')} baked{also}"
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_bake_texture,))

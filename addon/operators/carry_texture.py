@@ -74,6 +74,3 @@ def _line(one: Carried) -> str:
         f"angle error {one.angle_error:.2f}°, {len(one.flipped)} flips"
     )
     return f"{text}; {one.message}" if one.message else text
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_carry_texture,))

@@ -51,6 +51,3 @@ class UV_OT_koebe_compare_shapes(ModalRun, bpy.types.Operator):
             if not job.comparisons[0].converged:
                 self.report({"WARNING"}, f"{job.names[0]}: not converged")
             return finished(self, "not compared", job.failures)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_compare_shapes,))

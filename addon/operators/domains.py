@@ -52,6 +52,7 @@ class UV_OT_koebe_schottky(DomainOperator, mixin("SchottkyProperties", option_na
     domain = SCHOTTKY
 
 
-CLASSES = (UV_OT_koebe_torus, UV_OT_koebe_ring, UV_OT_koebe_sphere, UV_OT_koebe_schottky)
-OPERATORS = {operator.domain.name: operator for operator in CLASSES}
-register, unregister = bpy.utils.register_classes_factory(CLASSES)
+OPERATORS = {
+    operator.domain.name: operator for operator in (
+        UV_OT_koebe_torus, UV_OT_koebe_ring, UV_OT_koebe_sphere, UV_OT_koebe_schottky)
+}  # fmt: skip

@@ -119,6 +119,3 @@ class UV_OT_koebe_even(OnTargets, ByHand, bpy.types.Operator):
         keys = "Click or Enter: Unwrap with This Even      Shift: Slowly      Esc: Cancel"
         text = f"Koebe UV: Even {self._drag.even:.2f}      {keys}"
         context.workspace.status_text_set(text)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_even,))

@@ -60,6 +60,3 @@ class MESH_OT_koebe_fill_holes(OnTargets, bpy.types.Operator):
         text = f"Koebe UV: {counted(holes, 'hole')} filled with {faces} faces"
         self.report({"WARNING" if problems else "INFO"}, f"{text}. {few(problems)}" if problems else text)
         return {"FINISHED"}
-
-
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_koebe_fill_holes,))

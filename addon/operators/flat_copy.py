@@ -251,7 +251,3 @@ def _write_whole(path: Path, text: str) -> None:
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
-
-
-CLASSES = (OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

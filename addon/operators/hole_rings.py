@@ -67,6 +67,3 @@ class MESH_OT_koebe_loops_around_holes(OnTargets, bpy.types.Operator):
             if self.hole in (0, number)
         ]
         return np.unique(np.concatenate(found)) if found else np.zeros(0, dtype=np.int64)
-
-
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_koebe_loops_around_holes,))

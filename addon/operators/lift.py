@@ -95,6 +95,3 @@ def _hide(run: Transaction, obj: MeshObject) -> None:
     if obj.library is None:
         run.before_write(setattr, obj, "hide_render", obj.hide_render)
         obj.hide_render = True
-
-
-register, unregister = bpy.utils.register_classes_factory((OBJECT_OT_koebe_lift,))

@@ -259,6 +259,3 @@ def numbered(context: bpy.types.Context, job: MoebiusJob, domain: CircleDomain) 
     """The domain with its holes numbered as in the report, if it is there."""
     entry = moved_circles.entry_of(context, job.name, job.layer, domain)
     return domain if entry is None else domain.numbered(moved_circles.loop_keys(entry))
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_moebius,))

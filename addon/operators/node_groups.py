@@ -97,9 +97,3 @@ class NODE_OT_koebe_remove_library(bpy.types.Operator):
         remove_library(_library_folder())
         self.report({"INFO"}, "Koebe UV: the asset library is removed")
         return {"FINISHED"}
-
-
-CLASSES = (
-    NODE_OT_koebe_add_groups, NODE_OT_koebe_remove_groups, NODE_OT_koebe_add_library, NODE_OT_koebe_remove_library,
-)  # fmt: skip
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -91,7 +91,3 @@ def _set_options(context: bpy.types.Context, values: dict[str, Any]) -> set[str]
             setattr(settings, name, value)
         edit_mode.undo_all(context)
         return {"FINISHED"}
-
-
-CLASSES = (UV_OT_koebe_preset_add, UV_OT_koebe_preset, UV_OT_koebe_reset)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

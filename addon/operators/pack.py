@@ -32,6 +32,3 @@ class UV_OT_koebe_pack(OnTargets, LayerRun, bpy.types.Operator):
                    "tiles": max(1, self.tiles), "seconds": self.seconds or None}  # fmt: skip
         job = PackJob(native_package.load(), self.layer, context.mode == "EDIT_MESH", self.keep_places, options)
         return self._read(context, job)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_pack,))

@@ -24,6 +24,3 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
         if keep:
             job.read_old_uv()
         return job
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_parts,))

@@ -33,6 +33,3 @@ class UV_OT_koebe_use_for_rendering(OnTargets, bpy.types.Operator):
             redraw(context)
             edit_mode.undo_all(context)
             return finished(self, "not done", problems)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_use_for_rendering,))

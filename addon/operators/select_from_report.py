@@ -203,15 +203,3 @@ class OBJECT_OT_koebe_show(bpy.types.Operator):
         with transaction() as run:
             select_objects(run, context, [obj])
         return {"FINISHED"}
-
-
-CLASSES = (
-    OBJECT_OT_koebe_show,
-    UV_OT_koebe_select_offenders,
-    UV_OT_koebe_select_flipped,
-    UV_OT_koebe_select_warning,
-    UV_OT_koebe_select_torn,
-    UV_OT_koebe_select_loop,
-    UV_OT_koebe_select_cuts,
-)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

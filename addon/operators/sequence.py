@@ -53,6 +53,3 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
         super()._write(run, context, job)
         if back is not None:
             back()
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_sequence,))

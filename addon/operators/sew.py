@@ -30,6 +30,3 @@ class UV_OT_koebe_sew(OnTargets, LayerRun, bpy.types.Operator):
         even = None if self.keep_angles else shown_number(self.even)
         job = SewJob(native_package.load(), self.layer, even, by_uv)
         return self._read(context, job, "select the edges to sew: cuts of the UVs")
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_sew,))

@@ -74,6 +74,3 @@ class UV_OT_koebe_symmetrize(OnTargets, bpy.types.Operator):
             self.report({"WARNING"} if ":" in text else {"INFO"},
                         f"{job.name}: {text}, {made.pairs} pairs of vertices, moved by {made.moved:.1e} at most")
         return finished(self, "some objects or islands were not changed", problems)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_symmetrize,))

@@ -108,7 +108,3 @@ class UV_OT_koebe_copy_density(SetsDensity, bpy.types.Operator):
         except TransferError as error:
             return refused(self, self.nothing, [str(error)])
         return self._set(context, [obj for obj in others if obj.data != source.data], density)
-
-
-CLASSES = (UV_OT_koebe_measure_density, UV_OT_koebe_set_density, UV_OT_koebe_copy_density)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -22,6 +22,3 @@ class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operat
         if job.options.placement == "keep":
             job.read_old_uv()
         return job
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_uniformize,))

@@ -60,6 +60,3 @@ class UV_OT_koebe_unwrap(MapOperator, mixin("UnwrapProperties", UNWRAP_OPTION_NA
         if options.placement == "keep":
             job.read_old_uv()
         return job
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_unwrap,))

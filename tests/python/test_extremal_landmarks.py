@@ -1,18 +1,14 @@
 """Extremal maps that keep landmarks, and the match of least K: against affine maps, which are extremal, and laws."""
 
 import json
-import sys
 import types
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
 from cli_support import USAGE, obj_text, succeeded
 from cli_support import koebe as command
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-from stretched_rectangles import pair, rectangle  # noqa: E402
+from stretched_rectangles import pair, rectangle
 
 
 def upright(faces, uv):

@@ -1,18 +1,14 @@
 """Flat patterns: true to size in the written files, whole, apart, and refused where they cannot be."""
 
 import json
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
+import random_models
 from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, succeeded
 from cli_support import koebe as command
 from pattern_files import crossings, dxf_entities, enclosed, inside, lengths, require_sound, svg_page
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import random_models  # noqa: E402
 
 
 def grid(points, around=False):

@@ -1,18 +1,15 @@
 """Shapes by their conformal modules: invariances, comparison, alignment; in Python and by the command."""
 
 import json
-import sys
 from pathlib import Path
 
+import exact_surfaces
 import koebe
 import numpy as np
 import pytest
 from cli_support import succeeded
 from test_cli import CANNOT_BE_MAPPED, NOT_CONVERGED, USAGE, obj_text, perforated, triangles_of
 from test_cli import koebe as command
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import exact_surfaces  # noqa: E402
 
 SHARED = Path(__file__).resolve().parents[3] / "shared" / "meshes" / "good"
 HOLES = ((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))

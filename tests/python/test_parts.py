@@ -1,19 +1,15 @@
 """Parts: the package's function and the command, on the same surfaces."""
 
 import json
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
+import random_models
+import random_surfaces
+import uv_measures
 from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded
 from cli_support import koebe as command
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import random_models  # noqa: E402
-import random_surfaces  # noqa: E402
-import uv_measures  # noqa: E402
 
 
 def finger(around=24, rings=40):

@@ -1,19 +1,15 @@
 """Show: where cuts and darts keep away."""
 
 import json
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
+import random_models
 from cli_support import CANNOT_BE_MAPPED, obj_text, succeeded
 from cli_support import koebe as command
 from koebe._native import _koebe
 from test_parts import TRIANGLES, VERTICES
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import random_models  # noqa: E402
 
 
 def creature():

@@ -1,18 +1,14 @@
 """Extremal maps and Teichmueller distances: against affine maps, which are extremal, and laws of a metric."""
 
 import json
-import sys
 import types
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
 from cli_support import USAGE, obj_text, perforated, succeeded, triangles_of
 from cli_support import koebe as command
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-from stretched_cylinders import cylinder, mapped, pair  # noqa: E402
+from stretched_cylinders import cylinder, mapped, pair
 
 
 def circles(*rows):

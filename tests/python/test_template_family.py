@@ -1,18 +1,14 @@
 """Families of surfaces with holes: corresponding points, mean shape and matrices of fields, over one template."""
 
 import pickle
-import sys
 import warnings
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
 from cli_support import perforated, triangles_of
 from domain_surfaces import renumbered
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-from noisy_shapes import bent  # noqa: E402
+from noisy_shapes import bent
 
 HOLES = ((0.3, 0.3, 0.17), (0.75, 0.35, 0.08), (0.4, 0.72, 0.12))  # no symmetry to mistake
 VERTICES, QUADS = perforated(20, HOLES)

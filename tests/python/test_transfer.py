@@ -1,17 +1,13 @@
 """Points of one surface on another: laws on surfaces whose correspondence is known."""
 
 import json
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
+from atrium_templates import atrium
 from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of
 from cli_support import koebe as command
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-from atrium_templates import atrium  # noqa: E402
 
 HOLES = ((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))
 VERTICES, QUADS = perforated(32, HOLES)
