@@ -86,6 +86,12 @@ def triangles_of(quads):
     return quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
 
 
+def triangulated_plate(*shape, **options):
+    """As `perforated`, in triangles."""
+    vertices, quads = perforated(*shape, **options)
+    return vertices, triangles_of(quads).astype(np.int32)
+
+
 def obj_text(vertices, faces):
     lines = ["v " + " ".join(repr(float(x)) for x in v) for v in vertices]
     lines += ["f " + " ".join(str(i + 1) for i in f) for f in faces]

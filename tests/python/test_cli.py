@@ -30,6 +30,7 @@ from cli_support import (
     stl_text,
     succeeded,
     triangles_of,
+    triangulated_plate,
 )
 
 HOSTILE = sorted((ROOT.parent / "shared" / "meshes" / "hostile").glob("*"))
@@ -331,8 +332,7 @@ def tube(n=12, m=5, twist=False, close=False):
 
 def hostile_meshes():
     """Name, file and bytes, and what the error line starts with."""
-    vertices, quads = perforated(8, ((0.5, 0.5, 0.2),))
-    triangles = triangles_of(quads)
+    vertices, triangles = triangulated_plate(8, ((0.5, 0.5, 0.2),))
     good = obj_text(vertices, triangles)
     two = obj_text(np.concatenate([vertices, vertices + 5]), np.concatenate([triangles, triangles + len(vertices)]))
     closed = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"

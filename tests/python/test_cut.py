@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of
 from cli_support import koebe as command
+from uv_measures import signed_areas
 
 
 def torus(m=16, n=8, thick=0.35):
@@ -41,8 +42,7 @@ def read_corners(path):
 
 def areas(uv):
     """Signed areas of (F, 3, 2), the coordinates rounded to 32 bits."""
-    a, b, c = np.moveaxis(uv.astype(np.float32).astype(float), 1, 0)
-    return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (c - a)[:, 0] * (b - a)[:, 1])
+    return signed_areas(uv.astype(np.float32).astype(float))
 
 
 def test_a_torus_of_quadrilaterals_keeps_its_faces_and_gets_seams(tmp_path):

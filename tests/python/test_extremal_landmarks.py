@@ -9,11 +9,11 @@ import pytest
 from cli_support import USAGE, obj_text, succeeded
 from cli_support import koebe as command
 from stretched_rectangles import pair, rectangle
+from uv_measures import signed_areas
 
 
 def upright(faces, uv):
-    a, b = uv[faces[:, 1]] - uv[faces[:, 0]], uv[faces[:, 2]] - uv[faces[:, 0]]
-    return bool((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] > 0).all())
+    return bool((signed_areas(uv[faces]) > 0).all())
 
 
 def bent(holes, rng, strength=0.15):

@@ -8,8 +8,9 @@ from xml.etree import ElementTree
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, succeeded, triangulated_plate
 from cli_support import koebe as command
+from uv_measures import signed_areas
 
 AROUND, ROWS = 60, 20
 
@@ -40,9 +41,7 @@ def loops_of(triangles):
 
 
 def stored_areas(uv):
-    u = uv.astype(np.float32).astype(float)
-    a, b = u[:, 1] - u[:, 0], u[:, 2] - u[:, 0]
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return signed_areas(uv.astype(np.float32).astype(float))
 
 
 @pytest.mark.parametrize("pattern", ["circles", "hexagons", "triangles", "diamonds", "stripes", "truchet", "voronoi"])
@@ -124,8 +123,7 @@ def test_the_same_seed_gives_the_same_pattern():
 
 @pytest.mark.parametrize("pattern", ["circles", "hexagons", "truchet"])
 def test_rows_follow_a_hole(pattern):
-    vertices, quads = perforated(48, holes=((0.42, 0.45, 0.12),))
-    faces = triangles_of(quads)
+    vertices, faces = triangulated_plate(48, holes=((0.42, 0.45, 0.12),))
     (vertex,) = {int(loop[0]) for loop in loops_of(faces)} - {0}
     result = koebe.lift(vertices, faces, pattern, around=vertex, repeats=12, perforate=True)
     in_a_row = 24 if pattern == "truchet" else 12
@@ -219,8 +217,7 @@ def test_it_is_told_where_each_corner_lies_on_the_surface(shape, options):
 
 
 def test_holes_stay_as_they_are():
-    vertices, quads = perforated(32)
-    faces = triangles_of(quads)
+    vertices, faces = triangulated_plate(32)
     result = koebe.lift(vertices, faces, "hexagons", size=0.06, perforate=True)
     assert result.left_out["at_border"] > 0 and result.loops["before"] == 4
     (warning,) = [one for one in result.warnings if one.kind == "left_out"]

@@ -6,11 +6,10 @@ import struct
 import numpy as np
 import pytest
 from cli_support import koebe as run
-from cli_support import perforated, succeeded, triangles_of
+from cli_support import succeeded, triangulated_plate
 from koebe import _koebe
 
-VERTICES, QUADS = perforated(8, holes=((0.5, 0.5, 0.2),))
-TRIANGLES = triangles_of(QUADS)
+VERTICES, TRIANGLES = triangulated_plate(8, holes=((0.5, 0.5, 0.2),))
 SINGLE = VERTICES.astype(np.float32)
 
 

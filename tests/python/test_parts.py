@@ -33,11 +33,6 @@ def triangulated(faces):
     return np.array([[f[0], f[k], f[k + 1]] for f in faces for k in range(1, len(f) - 1)])
 
 
-def areas(uv):
-    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
-    return 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-
-
 VERTICES, FACES = finger()
 TRIANGLES = triangulated(FACES)
 
@@ -49,7 +44,7 @@ def test_a_finger_is_a_tube_and_a_cap():
     assert (result.uv >= 0).all() and (result.uv <= 1).all()
     assert sorted(np.concatenate([part["faces"] for part in result.parts])) == list(range(len(TRIANGLES)))
     assert all((result.part[part["faces"]] == k).all() for k, part in enumerate(result.parts))
-    assert (areas(result.uv.astype(np.float32).astype(float)) > 0).all()
+    assert (uv_measures.signed_areas(result.uv.astype(np.float32).astype(float)) > 0).all()
     assert result.flipped == 0 and len(result.flipped_faces) == 0
     assert result.density_ratio_5_95 < 2 and result.even_area > 0.99
     assert 0 < result.slit_length < result.cut_length
@@ -71,12 +66,12 @@ def test_the_report_is_true_of_the_uvs():
     stored = result.uv.astype(np.float32).astype(float)
     a, b = (VERTICES[TRIANGLES[:, k]] - VERTICES[TRIANGLES[:, 0]] for k in (1, 2))
     surface = 0.5 * np.linalg.norm(np.cross(a, b), axis=1)
-    u = 0.5 * np.log(areas(stored) / surface)
+    u = 0.5 * np.log(uv_measures.signed_areas(stored) / surface)
     order = np.argsort(u)
     below = np.cumsum(surface[order]) / surface.sum()
     low, high = (u[order][np.searchsorted(below, share)] for share in (0.05, 0.95))
     assert result.density_ratio_5_95 == pytest.approx(np.exp(high - low), rel=1e-6)
-    assert result.coverage == pytest.approx(areas(stored).sum(), rel=1e-9)
+    assert result.coverage == pytest.approx(uv_measures.signed_areas(stored).sum(), rel=1e-9)
 
     seams = 0.0
     sides = {}
@@ -284,7 +279,7 @@ def test_slits_that_are_no_edges_are_an_error(slits):
 def lost_area(vertices, triangles, uv):
     """The share of the area in faces without area as stored."""
     area = uv_measures.triangle_areas(vertices[triangles])
-    return area[areas(uv.astype(np.float32).astype(float)) <= 0].sum() / area.sum()
+    return area[uv_measures.signed_areas(uv.astype(np.float32).astype(float)) <= 0].sum() / area.sum()
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,7 @@ from sphere_surfaces import (
     moved_sphere,
     spheroid_map,
 )
+from uv_measures import signed_areas
 
 HOLES = {(1, 0): ((0.5, 0.5), 0.3), (3, 1): ((0.5, 0.6), 0.25)}
 
@@ -67,8 +68,7 @@ def assert_sphere(sphere, triangles):
         assert abs(np.linalg.norm(cap[:3]) - 1) < 1e-12 and 0 <= cap[3] <= np.pi
     stored = sphere.uv.astype(np.float32).astype(float)
     assert np.array_equal(stored, sphere.uv)
-    a, b = (stored[:, k] - stored[:, 0] for k in (1, 2))
-    areas = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    areas = signed_areas(stored)
     areas[sphere.turned] *= -1
     assert np.array_equal(np.flatnonzero(areas <= 0), sphere.layout["flipped"])
     assert sphere.layout["flipped"] == sphere.flipped_faces.tolist() and len(sphere.flipped_faces) == sphere.flipped

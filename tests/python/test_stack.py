@@ -6,6 +6,7 @@ import koebe
 import numpy as np
 import pytest
 from cli_support import cells, obj_text, succeeded, triangles_of
+from uv_measures import signed_areas
 
 
 def sheet(n=8, bend=0.9):
@@ -30,11 +31,6 @@ def family(same_diagonals=False):
     count = len(points)
     faces = np.concatenate([quads, backwards + count, quads + 2 * count])
     return vertices, triangles_of(faces), np.repeat(np.arange(len(faces)), 2)
-
-
-def signed_areas(uv):
-    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
-    return 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def of_vertices(uv, triangles, count):

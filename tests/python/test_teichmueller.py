@@ -9,6 +9,7 @@ import pytest
 from cli_support import USAGE, obj_text, perforated, succeeded, triangles_of
 from cli_support import koebe as command
 from stretched_cylinders import cylinder, mapped, pair
+from uv_measures import signed_areas
 
 
 def circles(*rows):
@@ -18,8 +19,7 @@ def circles(*rows):
 
 
 def upright(faces, uv):
-    a, b = uv[faces[:, 1]] - uv[faces[:, 0]], uv[faces[:, 2]] - uv[faces[:, 0]]
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] > 0
+    return signed_areas(uv[faces]) > 0
 
 
 @pytest.mark.parametrize("holes, stretch", [(1, 2.0), (2, 1.5), (3, 1.1), (3, 2.0), (5, 1.5)])

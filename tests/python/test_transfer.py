@@ -6,12 +6,11 @@ import koebe
 import numpy as np
 import pytest
 from atrium_templates import atrium
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of, triangulated_plate
 from cli_support import koebe as command
 
 HOLES = ((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))
-VERTICES, QUADS = perforated(32, HOLES)
-FACES = triangles_of(QUADS).astype(np.int32)
+VERTICES, FACES = triangulated_plate(32, HOLES)
 A = koebe.uniformize(VERTICES, FACES)
 
 
@@ -82,8 +81,7 @@ def test_tubes_are_fitted_too():
 
 
 def flattened(holes):
-    vertices, quads = perforated(28, holes)
-    return vertices, triangles_of(quads).astype(np.int32)
+    return triangulated_plate(28, holes)
 
 
 @pytest.mark.parametrize(
