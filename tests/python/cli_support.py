@@ -129,8 +129,17 @@ def write_obj(path, vertices, faces):
 
 def obj_rows(path, keyword):
     """The numbers of all lines of an OBJ that begin with the keyword."""
-    lines = [line.split() for line in path.read_text().splitlines()]
+    lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
     return np.array([words[1:] for words in lines if words and words[0] == keyword], float)
+
+
+def read_corners(path):
+    """Vertices, faces, and (u, v) of each corner of each face of an OBJ."""
+    places = obj_rows(path, "vt").tolist()
+    words = [line.split()[1:] for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("f ")]
+    pairs = [[[int(number) - 1 for number in word.split("/")[:2]] for word in face] for face in words]
+    faces, corners = [[v for v, _ in face] for face in pairs], [[places[t][:2] for _, t in face] for face in pairs]
+    return obj_rows(path, "v"), faces, corners
 
 
 class Obj:

@@ -5,7 +5,7 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, read_corners, succeeded, triangles_of
 from cli_support import koebe as command
 from uv_measures import signed_areas
 
@@ -22,22 +22,6 @@ def torus(m=16, n=8, thick=0.35):
 
     quads = np.stack([number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)], axis=1)
     return vertices, quads
-
-
-def read_corners(path):
-    """Vertices, faces, and (u, v) of each corner of each face of an OBJ."""
-    vertices, places, faces, corners = [], [], [], []
-    for line in path.read_text().splitlines():
-        keyword, *words = line.split() or [""]
-        if keyword == "v":
-            vertices.append([float(w) for w in words])
-        elif keyword == "vt":
-            places.append([float(w) for w in words])
-        elif keyword == "f":
-            pairs = [tuple(int(x) - 1 for x in w.split("/")) for w in words]
-            faces.append([v for v, _ in pairs])
-            corners.append([places[t] for _, t in pairs])
-    return np.array(vertices), faces, corners
 
 
 def areas(uv):

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, koebe, obj_text, perforated, succeeded
+from cli_support import CANNOT_BE_MAPPED, USAGE, koebe, obj_rows, obj_text, perforated, succeeded
 from glb_support import GlbBuilder, GlbReader
 
 
@@ -242,9 +242,7 @@ def test_a_vertex_without_a_cut_keeps_its_place_and_has_the_uvs_of_obj(tmp_path)
     new, report = mapped(tmp_path, scene.bytes(), "uniformize")
     (tmp_path / "in.obj").write_text(obj_text(vertices.astype(float), faces))
     assert koebe("uniformize", "in.obj", "out.obj", cwd=tmp_path).returncode == 0
-    uv = np.array(
-        [line.split()[1:] for line in (tmp_path / "out.obj").read_text().splitlines() if line[:3] == "vt "], float
-    )
+    uv = obj_rows(tmp_path / "out.obj", "vt")
     primitive = new.json["meshes"][0]["primitives"][0]
     assert primitive["indices"] == 0 and primitive["attributes"]["POSITION"] == 1
     expected = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
