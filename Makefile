@@ -33,6 +33,8 @@ ADDON_SOURCES  := $(shell find addon -type f -not -path '*/__pycache__/*')
 export CCACHE_DIR := $(CURDIR)/build/ccache
 export CCACHE_SLOPPINESS := pch_defines,time_macros
 export CCACHE_DEPEND := 1
+# Scripts leave no compiled files beside themselves.
+export PYTHONDONTWRITEBYTECODE := 1
 ccache = CMAKE_CXX_COMPILER_LAUNCHER=$$(command -v ccache)
 
 .DELETE_ON_ERROR:
@@ -115,7 +117,7 @@ build/venv-dist/.done: Makefile native/bundle/requirements.txt | $(DONE)/install
 
 # Sphinx reads again what has changed. Undocumented names, warnings and dead links end it.
 docs: native build/docs/operators.json build/venv-docs/.done $(DONE)/install-docs ## the site: build/docs/html/
-	PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=build/python build/venv-docs/bin/python scripts/site/build.py build/docs
+	PYTHONPATH=build/python build/venv-docs/bin/python scripts/site/build.py build/docs
 
 build/docs/operators.json: scripts/site/blender_names.py $(ADDON_SOURCES) native/options/options.json | $(DONE)/install-blender
 	@mkdir -p $(@D)

@@ -2,6 +2,7 @@
 """Koebe UV: conformal UV maps of surfaces with holes, holes become circles."""
 
 from types import ModuleType
+from typing import Any
 
 bl_info = {
     "name": "Koebe UV",
@@ -81,13 +82,33 @@ def _parts() -> tuple[ModuleType, ...]:
     )  # fmt: skip
 
 
+def _operators(part: ModuleType) -> list[Any]:
+    """The operators of a module that says nothing else of how it is registered."""
+    if hasattr(part, "register"):
+        return []
+    return [one for name, one in vars(part).items() if "_OT_" in name and one.__module__ == part.__name__]
+
+
 def register() -> None:
     """Called by Blender when the add-on is enabled."""
+    from bpy.utils import register_class
+
     for part in _parts():
-        part.register()
+        for name, operator in vars(part).items():
+            if "_OT_" in name:  # Blender would show the line breaks, and cuts off text after 239 letters
+                operator.bl_description = " ".join(operator.__doc__.split())
+        for operator in _operators(part):
+            register_class(operator)
+        if hasattr(part, "register"):
+            part.register()
 
 
 def unregister() -> None:
     """Called by Blender when the add-on is disabled."""
+    from bpy.utils import unregister_class
+
     for part in reversed(_parts()):
-        part.unregister()
+        if hasattr(part, "unregister"):
+            part.unregister()
+        for operator in reversed(_operators(part)):
+            unregister_class(operator)

@@ -15,7 +15,6 @@ the bound, the bound is on what is beside it. Exit code 1 if a row is over the b
 """
 
 import argparse
-import importlib.util
 import json
 import os
 import sys
@@ -27,8 +26,9 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
 BOUND = 0.15  # seconds per 100,000 faces
-sys.dont_write_bytecode = True
-sys.path.insert(0, str(ROOT / "tests" / "blender"))
+sys.path[:0] = [str(ROOT / "tests" / room) for room in ("blender", "python")]
+
+from addon_support import registered_addon  # noqa: E402
 
 
 def parse():
@@ -39,18 +39,6 @@ def parse():
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--profile", action="store_true", help="also where the time goes")
     return parser.parse_args(given)
-
-
-def registered_addon():
-    """The add-on of this checkout, registered."""
-    spec = importlib.util.spec_from_file_location(
-        "koebe_uv", ROOT / "addon" / "__init__.py", submodule_search_locations=[str(ROOT / "addon")]
-    )
-    package = importlib.util.module_from_spec(spec)
-    sys.modules["koebe_uv"] = package
-    spec.loader.exec_module(package)
-    package.register()
-    return importlib.import_module("koebe_uv.jobs.native_package").load()
 
 
 def made_panel(faces):

@@ -22,8 +22,6 @@ import threading
 import time
 from pathlib import Path
 
-sys.dont_write_bytecode = True
-
 import doc_figures  # noqa: E402
 import numpy as np  # noqa: E402
 import uv_measures  # noqa: E402

@@ -19,12 +19,9 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
-sys.dont_write_bytecode = True
-
 import doc_figures  # noqa: E402
 import flatten_peer  # noqa: E402
+import numpy as np
 import uv_measures  # noqa: E402
 from geodesic_error import distance_error, geodesics  # noqa: E402
 

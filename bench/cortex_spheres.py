@@ -12,13 +12,10 @@ bending; angle error and standard deviation of log area of the right sphere then
 
 import argparse
 import copy
-import sys
 import time
 
 import koebe
 import numpy as np
-
-sys.dont_write_bytecode = True
 
 STIFFNESS = (0.3, 0.1, 0.03)
 

@@ -19,8 +19,6 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-sys.dont_write_bytecode = True
-
 from doc_tables import ROOT, TABLES  # noqa: E402
 
 FIGURES = ROOT / "docs" / "figures.json"

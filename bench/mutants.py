@@ -63,7 +63,7 @@ MUTANTS = [
     ("native/atlas/parts/twins.cpp", "twins[k]->mirrored ? -std::conj(other.up) : other.up", "other.up"),
     ("native/atlas/parts/tile_packing.cpp", "tiles_[fullest()].packing.scale", "tiles_[0].packing.scale"),
     ("native/atlas/parts/through_cuts.cpp", "price_.of(length, splits(from.end, to.end))", "price_.of(length, false)"),
-    ("native/labs/certified/capacity_bounds.cpp", "shared = loop >= 0 && !fixed_[i]", "shared = false"),
+    ("native/labs/certified/capacities.cpp", "shared = loop >= 0 && !fixed_[i]", "shared = false"),
     ("native/labs/bending/circle_path.cpp", "least = std::min(least, std::abs(centers[k] - centers[j]) / wanted);", ""),
     ("native/labs/bending/bent_domain.cpp", "k == 0 ? here : next, k == 0 ? next : here", "here, next"),
     ("native/surface/canonical/corner_map.h", "mesh.name_faces(result.turned);", ""),

@@ -11,10 +11,7 @@ predicted choices twin heads.
 
 import argparse
 import json
-import sys
 from pathlib import Path
-
-sys.dont_write_bytecode = True
 
 import convergence  # noqa: E402
 import doc_figures  # noqa: E402

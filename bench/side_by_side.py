@@ -18,11 +18,10 @@ import bpy
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.dont_write_bytecode = True
-sys.path[:0] = [str(ROOT / "tests" / "blender"), str(ROOT / "bench")]
+sys.path[:0] = [str(ROOT / "tests" / room) for room in ("blender", "python")]
 
 import scenes  # noqa: E402
-from addon_overhead import registered_addon  # noqa: E402
+from addon_support import registered_addon  # noqa: E402
 
 
 def parse():

@@ -15,7 +15,6 @@ from pathlib import Path
 import bpy
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.dont_write_bytecode = True
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests" / "blender")]
 
 GROWTH = 16.0  # MB from the first mark to the last: an image of the file that one undo step keeps is a tenth of that

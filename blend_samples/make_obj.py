@@ -15,7 +15,6 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-sys.dont_write_bytecode = True
 
 import face_expression  # noqa: E402
 import face_surface  # noqa: E402

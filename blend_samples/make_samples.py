@@ -21,7 +21,6 @@ import bpy
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-sys.dont_write_bytecode = True
 
 import character  # noqa: E402
 import closed_head  # noqa: E402

@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.dont_write_bytecode = True
 sys.path[:0] = [str(ROOT / "blend_samples"), str(Path(__file__).resolve().parent)]
 
 import make_obj  # noqa: E402

@@ -11,7 +11,6 @@ import math
 import sys
 from pathlib import Path
 
-sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "tests" / "python"))
 OUT = ROOT / "docs" / "images" / "certified.svg"

@@ -6,33 +6,21 @@
 The vase is mapped as `addon/batch.py --tube unroll` maps it; the pattern is computed here, so no file goes with it.
 """
 
-import importlib.util
 import sys
 from pathlib import Path
 
 import bpy
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-sys.dont_write_bytecode = True
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests" / "python")]
 
 import studio  # noqa: E402
+from addon_support import addon_module  # noqa: E402
 
-ROOT = Path(__file__).resolve().parent.parent
 PIXELS = 256
 REPEATS = 12.0  # of the pattern around the vase: a whole number, so that it meets itself at the cut
 PAPER, INK = (0.93, 0.90, 0.82), (0.05, 0.13, 0.36)
-
-
-def addon_module(name):
-    """A module of this checkout's add-on."""
-    if "koebe_uv" not in sys.modules:
-        spec = importlib.util.spec_from_file_location(
-            "koebe_uv", ROOT / "addon" / "__init__.py", submodule_search_locations=[str(ROOT / "addon")]
-        )
-        sys.modules["koebe_uv"] = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(sys.modules["koebe_uv"])
-    return importlib.import_module(f"koebe_uv.{name}")
 
 
 def mapped(obj, domain, squares):

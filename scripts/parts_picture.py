@@ -26,7 +26,6 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-sys.dont_write_bytecode = True
 
 import guide_picture  # noqa: E402
 import render_uv  # noqa: E402

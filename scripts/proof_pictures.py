@@ -12,7 +12,6 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "bench"))
 
 import convergence  # noqa: E402

@@ -15,7 +15,6 @@ import numpy as np
 from mathutils import Vector
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-sys.dont_write_bytecode = True
 
 import guide_picture  # noqa: E402
 import render_uv  # noqa: E402

@@ -19,7 +19,6 @@ from .answers import refused
 from .layer_run import EACH_LAYER, LayerEdit
 from .modal_run import redraw
 from .polls import OnTargets, native_or_error
-from .tooltip import tooltip
 
 NO_TRIMS = "the trim sheet has no rectangle: press Make Grid, or + beside the list"
 CHANGES = [
@@ -40,7 +39,6 @@ class UV_OT_koebe_arrange(OnTargets, LayerEdit, bpy.types.Operator):
 
     bl_idname = "uv.koebe_arrange"
     bl_label = "Koebe Arrange"
-    bl_description = tooltip(__doc__)
     nothing, not_done = "nothing was arranged.", "not arranged"
 
     layer: EACH_LAYER
@@ -156,7 +154,3 @@ class UV_OT_koebe_trims(bpy.types.Operator):
             raise TransferError("no rectangle of the trim sheet is chosen")
         trims.items.remove(trims.active)
         trims.active = max(0, min(trims.active, len(trims.items) - 1))
-
-
-CLASSES = (UV_OT_koebe_arrange, UV_OT_koebe_trims)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

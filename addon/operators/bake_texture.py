@@ -13,7 +13,6 @@ from ..maps.wording import counted
 from ..state.option_properties import option
 from .layer_run import EACH_LAYER, LayerEdit
 from .polls import in_object_mode
-from .tooltip import tooltip
 
 OUTSIDE = 1e-3  # UV units, that a layer may reach over the square
 
@@ -24,7 +23,6 @@ class UV_OT_koebe_bake_texture(LayerEdit, bpy.types.Operator):
 
     bl_idname = "uv.koebe_bake_texture"
     bl_label = "Koebe Bake to New UVs"
-    bl_description = tooltip(__doc__)
     nothing, not_done = "nothing was baked.", "not baked"
     moves_uv = False
 
@@ -51,6 +49,3 @@ class UV_OT_koebe_bake_texture(LayerEdit, bpy.types.Operator):
         left = any(slot.material and texture_nodes.has_other_images(slot.material) for slot in obj.material_slots)
         also = ". Films and images in node groups stay as they were" if left else ""
         return f"{obj.name}: {counted(len(made), 'image')} baked{also}"
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_bake_texture,))

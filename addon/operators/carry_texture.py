@@ -16,7 +16,6 @@ from ..state.shape_report import shapes_of
 from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .polls import in_object_mode
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_carry_texture(ModalRun, bpy.types.Operator):
@@ -25,7 +24,6 @@ class UV_OT_koebe_carry_texture(ModalRun, bpy.types.Operator):
 
     bl_idname = "uv.koebe_carry_texture"
     bl_label = "Koebe Carry Texture"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     layer: option("layer")
@@ -76,6 +74,3 @@ def _line(one: Carried) -> str:
         f"angle error {one.angle_error:.2f}°, {len(one.flipped)} flips"
     )
     return f"{text}; {one.message}" if one.message else text
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_carry_texture,))

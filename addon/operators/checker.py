@@ -73,6 +73,3 @@ class UV_OT_koebe_checker(bpy.types.Operator):
         """The checker of that size, or the nearest one that continues over the cuts of a tile."""
         found = self._read(obj)
         return checker.pattern_for(*found, size)[0] if found else Pattern(size)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_checker,))

@@ -11,7 +11,6 @@ from ..state.shape_report import shapes_of
 from .answers import finished
 from .modal_run import ModalRun, redraw
 from .polls import in_object_mode
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_compare_shapes(ModalRun, bpy.types.Operator):
@@ -20,7 +19,6 @@ class UV_OT_koebe_compare_shapes(ModalRun, bpy.types.Operator):
 
     bl_idname = "uv.koebe_compare_shapes"
     bl_label = "Koebe Compare Shapes"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER"}
 
     @classmethod
@@ -53,6 +51,3 @@ class UV_OT_koebe_compare_shapes(ModalRun, bpy.types.Operator):
             if not job.comparisons[0].converged:
                 self.report({"WARNING"}, f"{job.names[0]}: not converged")
             return finished(self, "not compared", job.failures)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_compare_shapes,))

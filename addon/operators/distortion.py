@@ -89,6 +89,3 @@ def _show_colors(run: Transaction, context: bpy.types.Context, on: bool) -> None
 def _restore_shading(views: list[Any], kinds: list[str]) -> None:
     for view, kind in zip(views, kinds, strict=True):
         view.shading.color_type = kind
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_distortion,))

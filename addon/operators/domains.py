@@ -28,7 +28,7 @@ class DomainOperator(MapOperator):
     def __init_subclass__(cls) -> None:
         cls.bl_idname = f"uv.koebe_{cls.domain.name}"
         cls.bl_label = f"Koebe {cls.domain.button}"
-        cls.__doc__ = cls.bl_description = cls.domain.tooltip
+        cls.__doc__ = cls.domain.tooltip
         cls.options_shown = shown(cls.domain.name)
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> DomainJob:
@@ -52,6 +52,7 @@ class UV_OT_koebe_schottky(DomainOperator, mixin("SchottkyProperties", option_na
     domain = SCHOTTKY
 
 
-CLASSES = (UV_OT_koebe_torus, UV_OT_koebe_ring, UV_OT_koebe_sphere, UV_OT_koebe_schottky)
-OPERATORS = {operator.domain.name: operator for operator in CLASSES}
-register, unregister = bpy.utils.register_classes_factory(CLASSES)
+OPERATORS = {
+    operator.domain.name: operator for operator in (
+        UV_OT_koebe_torus, UV_OT_koebe_ring, UV_OT_koebe_sphere, UV_OT_koebe_schottky)
+}  # fmt: skip

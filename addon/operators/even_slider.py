@@ -16,7 +16,6 @@ from ..state.option_properties import UNWRAP_OPTION_NAMES, settings_of
 from .answers import refused
 from .modal_run import redraw
 from .polls import OnTargets
-from .tooltip import tooltip
 from .uv_drag import ByHand
 
 POLL_SECONDS = 0.01
@@ -30,7 +29,6 @@ class UV_OT_koebe_even(OnTargets, ByHand, bpy.types.Operator):
 
     bl_idname = "uv.koebe_even"
     bl_label = "Koebe Drag Even"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "BLOCKING", "GRAB_CURSOR"}
     needs, modes = "Select a mapped mesh object, in Object Mode", ("OBJECT",)
     dragged: ClassVar[str] = ""  # the object whose UVs are dragged now: the circles of its report lie elsewhere
@@ -121,6 +119,3 @@ class UV_OT_koebe_even(OnTargets, ByHand, bpy.types.Operator):
         keys = "Click or Enter: Unwrap with This Even      Shift: Slowly      Esc: Cancel"
         text = f"Koebe UV: Even {self._drag.even:.2f}      {keys}"
         context.workspace.status_text_set(text)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_even,))

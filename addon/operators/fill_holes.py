@@ -12,7 +12,6 @@ from ..blender.transaction import Transaction, transaction
 from ..maps.wording import counted, few
 from .answers import refused
 from .polls import OnTargets, native_or_error
-from .tooltip import tooltip
 
 
 class MESH_OT_koebe_fill_holes(OnTargets, bpy.types.Operator):
@@ -21,7 +20,6 @@ class MESH_OT_koebe_fill_holes(OnTargets, bpy.types.Operator):
 
     bl_idname = "mesh.koebe_fill_holes"
     bl_label = "Koebe Fill Holes"
-    bl_description = tooltip(__doc__)
     needs = "Select a mesh object"
 
     which: bpy.props.EnumProperty(
@@ -62,6 +60,3 @@ class MESH_OT_koebe_fill_holes(OnTargets, bpy.types.Operator):
         text = f"Koebe UV: {counted(holes, 'hole')} filled with {faces} faces"
         self.report({"WARNING" if problems else "INFO"}, f"{text}. {few(problems)}" if problems else text)
         return {"FINISHED"}
-
-
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_koebe_fill_holes,))

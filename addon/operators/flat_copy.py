@@ -21,7 +21,6 @@ from ..maps.wording import counted
 from .answers import finished, refused
 from .modal_run import ModalRun
 from .polls import OnTargets
-from .tooltip import tooltip
 
 GAP = 0.05  # of a layout's width, between two objects
 BESIDE = 0.1  # of an object's width, between the objects and their flat pieces
@@ -76,7 +75,6 @@ class OBJECT_OT_koebe_flat_copy(FlatOperator, bpy.types.Operator):
 
     bl_idname = "object.koebe_flat_copy"
     bl_label = "Koebe Flat Copy"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     pieces: pieces_option()
@@ -147,7 +145,6 @@ class UV_OT_koebe_flat_svg(FlatOperator, ExportHelper, bpy.types.Operator):
 
     bl_idname = "uv.koebe_flat_svg"
     bl_label = "Koebe Flat SVG"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER"}
 
     filepath: StringProperty(name="File", subtype="FILE_PATH", description="File to write")
@@ -254,7 +251,3 @@ def _write_whole(path: Path, text: str) -> None:
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
-
-
-CLASSES = (OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_svg)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

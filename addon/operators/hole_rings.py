@@ -17,7 +17,6 @@ from ..maps.hole_rings import ring_edges
 from ..maps.offending_elements import EDGES
 from .answers import refused
 from .polls import OnTargets, native_or_error
-from .tooltip import tooltip
 
 
 class MESH_OT_koebe_loops_around_holes(OnTargets, bpy.types.Operator):
@@ -26,7 +25,6 @@ class MESH_OT_koebe_loops_around_holes(OnTargets, bpy.types.Operator):
 
     bl_idname = "mesh.koebe_loops_around_holes"
     bl_label = "Koebe Edge Loops Around Holes"
-    bl_description = tooltip(__doc__)
     needs = "Select a mapped mesh object"
 
     hole: IntProperty(name="Hole", min=0, description="Number of the hole, as in the report. 0: all holes")
@@ -69,6 +67,3 @@ class MESH_OT_koebe_loops_around_holes(OnTargets, bpy.types.Operator):
             if self.hole in (0, number)
         ]
         return np.unique(np.concatenate(found)) if found else np.zeros(0, dtype=np.int64)
-
-
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_koebe_loops_around_holes,))

@@ -21,7 +21,6 @@ from ..state.option_properties import settings_of
 from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .polls import OnTargets
-from .tooltip import tooltip
 
 
 class OBJECT_OT_koebe_lift(OnTargets, LiftProperties, ModalRun, bpy.types.Operator):
@@ -30,7 +29,6 @@ class OBJECT_OT_koebe_lift(OnTargets, LiftProperties, ModalRun, bpy.types.Operat
 
     bl_idname = "object.koebe_lift"
     bl_label = "Koebe Patterned Copy"
-    bl_description = tooltip(__doc__)
     needs, modes = "Select a mesh object, in Object Mode", ("OBJECT",)
 
     area: bpy.props.FloatProperty(default=0.0, options={"HIDDEN", "SKIP_SAVE"})
@@ -97,6 +95,3 @@ def _hide(run: Transaction, obj: MeshObject) -> None:
     if obj.library is None:
         run.before_write(setattr, obj, "hide_render", obj.hide_render)
         obj.hide_render = True
-
-
-register, unregister = bpy.utils.register_classes_factory((OBJECT_OT_koebe_lift,))

@@ -26,7 +26,6 @@ from ..state.run_report import report_of
 from .answers import refused
 from .modal_run import redraw
 from .polls import OnTargets
-from .tooltip import tooltip
 from .uv_drag import UvDrag
 
 NEAR, CLICK, SNAP = 6.0, 4.0, 7.0  # pixels: to hold a hole, longest click, to snap to the middle
@@ -46,7 +45,6 @@ class UV_OT_koebe_moebius(OnTargets, UvDrag, bpy.types.Operator):
 
     bl_idname = "uv.koebe_moebius"
     bl_label = "Koebe Move Circles"
-    bl_description = tooltip(__doc__)
     needs = "Select a mapped mesh object, in Object Mode or in Edit Mode"
     shown_errors = TransferError, DomainError, ReferenceError
 
@@ -261,6 +259,3 @@ def numbered(context: bpy.types.Context, job: MoebiusJob, domain: CircleDomain) 
     """The domain with its holes numbered as in the report, if it is there."""
     entry = moved_circles.entry_of(context, job.name, job.layer, domain)
     return domain if entry is None else domain.numbered(moved_circles.loop_keys(entry))
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_moebius,))

@@ -11,7 +11,6 @@ from ..blender.asset_library import add_library, find_library, remove_library
 from ..blender.node_groups import add_groups, find_groups, remove_groups
 from ..blender.transaction import transaction
 from .answers import refused
-from .tooltip import tooltip
 
 
 class NODE_OT_koebe_add_groups(bpy.types.Operator):
@@ -21,7 +20,6 @@ class NODE_OT_koebe_add_groups(bpy.types.Operator):
 
     bl_idname = "node.koebe_add_groups"
     bl_label = "Add Koebe Node Groups"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -68,7 +66,6 @@ class NODE_OT_koebe_add_library(bpy.types.Operator):
 
     bl_idname = "node.koebe_add_library"
     bl_label = "Add Koebe Asset Library"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "INTERNAL"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -87,7 +84,6 @@ class NODE_OT_koebe_remove_library(bpy.types.Operator):
 
     bl_idname = "node.koebe_remove_library"
     bl_label = "Remove Koebe Asset Library"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "INTERNAL"}
 
     @classmethod
@@ -101,9 +97,3 @@ class NODE_OT_koebe_remove_library(bpy.types.Operator):
         remove_library(_library_folder())
         self.report({"INFO"}, "Koebe UV: the asset library is removed")
         return {"FINISHED"}
-
-
-CLASSES = (
-    NODE_OT_koebe_add_groups, NODE_OT_koebe_remove_groups, NODE_OT_koebe_add_library, NODE_OT_koebe_remove_library,
-)  # fmt: skip
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

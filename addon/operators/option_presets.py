@@ -14,7 +14,6 @@ from ..blender.transaction import transaction
 from ..maps.presets import PRESETS
 from ..state.option_properties import SETTING_NAMES, settings_of
 from .answers import refused
-from .tooltip import tooltip
 
 FOLDER = "koebe_uv"  # of the presets, within the user's presets
 
@@ -52,7 +51,6 @@ class UV_OT_koebe_preset(bpy.types.Operator):
 
     bl_idname = "uv.koebe_preset"
     bl_label = "Koebe Preset"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO"}
 
     preset: bpy.props.EnumProperty(
@@ -93,7 +91,3 @@ def _set_options(context: bpy.types.Context, values: dict[str, Any]) -> set[str]
             setattr(settings, name, value)
         edit_mode.undo_all(context)
         return {"FINISHED"}
-
-
-CLASSES = (UV_OT_koebe_preset_add, UV_OT_koebe_preset, UV_OT_koebe_reset)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -9,7 +9,6 @@ from ..jobs.pack_job import PackJob
 from ..state.option_properties import option, shown_number
 from .layer_run import LayerRun
 from .polls import OnTargets
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_pack(OnTargets, LayerRun, bpy.types.Operator):
@@ -18,7 +17,6 @@ class UV_OT_koebe_pack(OnTargets, LayerRun, bpy.types.Operator):
 
     bl_idname = "uv.koebe_pack"
     bl_label = "Koebe Pack Only"
-    bl_description = tooltip(__doc__)
     done = "packed"
 
     layer: StringProperty(name="UV Layer", description="UV layer to pack. Without a name, the active layer")
@@ -34,6 +32,3 @@ class UV_OT_koebe_pack(OnTargets, LayerRun, bpy.types.Operator):
                    "tiles": max(1, self.tiles), "seconds": self.seconds or None}  # fmt: skip
         job = PackJob(native_package.load(), self.layer, context.mode == "EDIT_MESH", self.keep_places, options)
         return self._read(context, job)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_pack,))

@@ -7,7 +7,6 @@ from ..blender.targets import target_objects
 from ..jobs.parts_job import PartsJob
 from ..state.option_properties import PART_OPTION_NAMES, PartsProperties, choice_of, written_options_of
 from .run_operator import MapOperator
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
@@ -16,7 +15,6 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
 
     bl_idname = "uv.koebe_parts"
     bl_label = "Koebe Unwrap to Parts"
-    bl_description = tooltip(__doc__)
     options_shown = PART_OPTION_NAMES
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> PartsJob:
@@ -26,6 +24,3 @@ class UV_OT_koebe_parts(MapOperator, PartsProperties, bpy.types.Operator):
         if keep:
             job.read_old_uv()
         return job
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_parts,))

@@ -8,7 +8,6 @@ import bpy
 from ..jobs.map_job import Job
 from .modal_run import listen
 from .run_operator import MapOperator, Waiting, forget_waiting
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):
@@ -16,7 +15,6 @@ class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_redo"
     bl_label = "Koebe Redo"
-    bl_description = tooltip(__doc__)
     bl_options = {"INTERNAL"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:

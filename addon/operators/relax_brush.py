@@ -19,7 +19,6 @@ from ..state.run_report import forget
 from .answers import refused
 from .modal_run import redraw
 from .polls import OnTargets
-from .tooltip import tooltip
 from .uv_drag import UvDrag
 
 POLL_SECONDS = 0.01
@@ -32,7 +31,6 @@ class UV_OT_koebe_relax(OnTargets, UvDrag, bpy.types.Operator):
 
     bl_idname = "uv.koebe_relax"
     bl_label = "Koebe Relax"
-    bl_description = tooltip(__doc__)
     bl_options = {"REGISTER", "UNDO", "BLOCKING"}
     needs, modes = "Works on the UVs of a mesh object in Edit Mode", ("EDIT_MESH",)
     shown_errors = (TransferError,)

@@ -10,7 +10,6 @@ from ..blender.transaction import transaction
 from .answers import finished, refused
 from .modal_run import redraw
 from .polls import OnTargets
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_use_for_rendering(OnTargets, bpy.types.Operator):
@@ -18,7 +17,6 @@ class UV_OT_koebe_use_for_rendering(OnTargets, bpy.types.Operator):
 
     bl_idname = "uv.koebe_use_for_rendering"
     bl_label = "Koebe Use for Rendering"
-    bl_description = tooltip(__doc__)
 
     layer: StringProperty(name="UV Layer", description="UV layer that shall render. Without a name, the active layer")
 
@@ -35,6 +33,3 @@ class UV_OT_koebe_use_for_rendering(OnTargets, bpy.types.Operator):
             redraw(context)
             edit_mode.undo_all(context)
             return finished(self, "not done", problems)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_use_for_rendering,))

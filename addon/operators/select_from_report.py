@@ -15,7 +15,6 @@ from ..maps.offending_elements import EDGES, FACES, VERTICES
 from ..state.run_report import KoebeIslandReport, selectable_entries
 from .answers import refused
 from .modal_run import OperatorBase
-from .tooltip import tooltip
 
 
 def active_object(context: bpy.types.Context) -> MeshObject | None:
@@ -92,7 +91,6 @@ class UV_OT_koebe_select_flipped(FacesOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_select_flipped"
     bl_label = "Select Flipped Faces"
-    bl_description = tooltip(__doc__)
     faces = "flipped_faces"
 
 
@@ -102,7 +100,6 @@ class UV_OT_koebe_select_torn(FacesOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_select_torn"
     bl_label = "Select Torn Faces"
-    bl_description = tooltip(__doc__)
     faces = "torn_faces"
 
 
@@ -147,7 +144,6 @@ class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_select_cuts"
     bl_label = "Select Cuts"
-    bl_description = tooltip(__doc__)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -207,15 +203,3 @@ class OBJECT_OT_koebe_show(bpy.types.Operator):
         with transaction() as run:
             select_objects(run, context, [obj])
         return {"FINISHED"}
-
-
-CLASSES = (
-    OBJECT_OT_koebe_show,
-    UV_OT_koebe_select_offenders,
-    UV_OT_koebe_select_flipped,
-    UV_OT_koebe_select_warning,
-    UV_OT_koebe_select_torn,
-    UV_OT_koebe_select_loop,
-    UV_OT_koebe_select_cuts,
-)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -16,7 +16,6 @@ from ..state.option_properties import (
     sequence_options_of,
 )
 from .run_operator import MapOperator
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
@@ -25,7 +24,6 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
 
     bl_idname = "uv.koebe_sequence"
     bl_label = "Koebe Sequence"
-    bl_description = tooltip(__doc__)
     options_shown = ("source", *RANGE_NAMES, "target", "play", "checker", "checker_size")  # others are in the panel
     redo_waits = False  # it changes the frame while it reads
 
@@ -55,6 +53,3 @@ class UV_OT_koebe_sequence(MapOperator, SequenceProperties, bpy.types.Operator):
         super()._write(run, context, job)
         if back is not None:
             back()
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_sequence,))

@@ -9,7 +9,6 @@ from ..jobs.sew_job import SewJob
 from ..state.option_properties import option, shown_number
 from .layer_run import LayerRun
 from .polls import OnTargets
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_sew(OnTargets, LayerRun, bpy.types.Operator):
@@ -18,7 +17,6 @@ class UV_OT_koebe_sew(OnTargets, LayerRun, bpy.types.Operator):
 
     bl_idname = "uv.koebe_sew"
     bl_label = "Koebe Sew"
-    bl_description = tooltip(__doc__)
     done = "sewn"
     needs, modes = "In Edit Mode select the edges to sew", ("EDIT_MESH",)
 
@@ -32,6 +30,3 @@ class UV_OT_koebe_sew(OnTargets, LayerRun, bpy.types.Operator):
         even = None if self.keep_angles else shown_number(self.even)
         job = SewJob(native_package.load(), self.layer, even, by_uv)
         return self._read(context, job, "select the edges to sew: cuts of the UVs")
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_sew,))

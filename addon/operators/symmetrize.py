@@ -18,7 +18,6 @@ from .answers import finished, refused
 from .modal_run import redraw
 from .moebius import numbered
 from .polls import OnTargets, native_or_error
-from .tooltip import tooltip
 
 Done = tuple[MoebiusJob, Symmetry]
 
@@ -29,7 +28,6 @@ class UV_OT_koebe_symmetrize(OnTargets, bpy.types.Operator):
 
     bl_idname = "uv.koebe_symmetrize"
     bl_label = "Koebe Symmetrize"
-    bl_description = tooltip(__doc__)
     needs = "Select a mapped mesh object, in Object Mode or in Edit Mode"
 
     layer: StringProperty(name="UV Layer", description="UV layer to write. Without a name, the active layer")
@@ -76,6 +74,3 @@ class UV_OT_koebe_symmetrize(OnTargets, bpy.types.Operator):
             self.report({"WARNING"} if ":" in text else {"INFO"},
                         f"{job.name}: {text}, {made.pairs} pairs of vertices, moved by {made.moved:.1e} at most")
         return finished(self, "some objects or islands were not changed", problems)
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_symmetrize,))

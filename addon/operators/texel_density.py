@@ -18,7 +18,6 @@ from .answers import refused
 from .layer_run import EACH_LAYER, LayerEdit
 from .modal_run import redraw
 from .polls import OnTargets, in_object_mode
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_measure_density(OnTargets, bpy.types.Operator):
@@ -27,7 +26,6 @@ class UV_OT_koebe_measure_density(OnTargets, bpy.types.Operator):
 
     bl_idname = "uv.koebe_measure_density"
     bl_label = "Koebe Measure Texel Density"
-    bl_description = tooltip(__doc__)
 
     layer: EACH_LAYER
     take: BoolProperty(
@@ -79,7 +77,6 @@ class UV_OT_koebe_set_density(OnTargets, SetsDensity, bpy.types.Operator):
 
     bl_idname = "uv.koebe_set_density"
     bl_label = "Koebe Set Texel Density"
-    bl_description = tooltip(__doc__)
 
     layer: EACH_LAYER
     density: option("density")
@@ -94,7 +91,6 @@ class UV_OT_koebe_copy_density(SetsDensity, bpy.types.Operator):
 
     bl_idname = "uv.koebe_copy_density"
     bl_label = "Koebe Copy Texel Density"
-    bl_description = tooltip(__doc__)
 
     layer: EACH_LAYER
 
@@ -112,7 +108,3 @@ class UV_OT_koebe_copy_density(SetsDensity, bpy.types.Operator):
         except TransferError as error:
             return refused(self, self.nothing, [str(error)])
         return self._set(context, [obj for obj in others if obj.data != source.data], density)
-
-
-CLASSES = (UV_OT_koebe_measure_density, UV_OT_koebe_set_density, UV_OT_koebe_copy_density)
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -7,7 +7,6 @@ from ..blender.targets import target_objects
 from ..jobs.map_job import Job
 from ..state.option_properties import ACCURACY_NAMES, OPTION_NAMES, UniformizeProperties, options_of
 from .run_operator import MapOperator
-from .tooltip import tooltip
 
 
 class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operator):
@@ -16,7 +15,6 @@ class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operat
 
     bl_idname = "uv.koebe_uniformize"
     bl_label = "Koebe Unwrap to Disk"
-    bl_description = tooltip(__doc__)
     options_shown = tuple(sorted(OPTION_NAMES, key=lambda name: name in ACCURACY_NAMES))
 
     def _new_job(self, context: bpy.types.Context, selected_only: bool) -> Job:
@@ -24,6 +22,3 @@ class UV_OT_koebe_uniformize(MapOperator, UniformizeProperties, bpy.types.Operat
         if job.options.placement == "keep":
             job.read_old_uv()
         return job
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_uniformize,))

@@ -14,7 +14,6 @@ from ..state.option_properties import UNWRAP_OPTION_NAMES, choice_of, mixin, opt
 from .domains import OPERATORS
 from .parts import UV_OT_koebe_parts
 from .run_operator import MapOperator
-from .tooltip import tooltip
 from .uniformize import UV_OT_koebe_uniformize
 
 # By shape: the name of its map, and the rows of the redo panel, eight with the shape itself.
@@ -34,7 +33,6 @@ class UV_OT_koebe_unwrap(MapOperator, mixin("UnwrapProperties", UNWRAP_OPTION_NA
 
     bl_idname = "uv.koebe_unwrap"
     bl_label = "Koebe Unwrap"
-    bl_description = tooltip(__doc__)
 
     @property
     def options_shown(self) -> tuple[str, ...]:
@@ -62,6 +60,3 @@ class UV_OT_koebe_unwrap(MapOperator, mixin("UnwrapProperties", UNWRAP_OPTION_NA
         if options.placement == "keep":
             job.read_old_uv()
         return job
-
-
-register, unregister = bpy.utils.register_classes_factory((UV_OT_koebe_unwrap,))

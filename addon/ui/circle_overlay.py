@@ -91,11 +91,4 @@ def draw() -> None:
         drawing.text(content, x, y)
 
 
-def register() -> None:
-    """Draw in every UV Editor."""
-    drawing.add("IMAGE_EDITOR", "circles", draw)
-
-
-def unregister() -> None:
-    """The reverse of `register`."""
-    drawing.remove("IMAGE_EDITOR", "circles")
+register, unregister = drawing.drawn("IMAGE_EDITOR", name="circles", draw=draw)

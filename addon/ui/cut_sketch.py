@@ -34,11 +34,4 @@ def draw() -> None:
     gpu.matrix.pop_projection()
 
 
-def register() -> None:
-    """Draw in every 3D View."""
-    drawing.add("VIEW_3D", "sketch", draw, "POST_VIEW")
-
-
-def unregister() -> None:
-    """The reverse of `register`."""
-    drawing.remove("VIEW_3D", "sketch")
+register, unregister = drawing.drawn("VIEW_3D", name="sketch", draw=draw, when="POST_VIEW")

@@ -28,11 +28,4 @@ def draw_legend() -> None:
         drawing.color_bar(title, distortion_colors.ramp(kind), marks)
 
 
-def register() -> None:
-    """Draw in every 3D View."""
-    drawing.add("VIEW_3D", "legend", draw_legend)
-
-
-def unregister() -> None:
-    """The reverse of `register`."""
-    drawing.remove("VIEW_3D", "legend")
+register, unregister = drawing.drawn("VIEW_3D", name="legend", draw=draw_legend)

@@ -28,6 +28,22 @@ def remove(space: str, name: str) -> None:
     SPACES[space].draw_handler_remove(_handles.pop((space, name)), "WINDOW")
 
 
+def drawn(
+    *spaces: str, name: str, draw: Callable[[], None], when: str = "POST_PIXEL"
+) -> tuple[Callable[[], None], Callable[[], None]]:
+    """What a module has as `register` and `unregister` that draws in these editors."""
+
+    def register() -> None:
+        for space in spaces:
+            add(space, name, draw, when)
+
+    def unregister() -> None:
+        for space in spaces:
+            remove(space, name)
+
+    return register, unregister
+
+
 def lines(strips: list[np.ndarray], color: Color, width: float) -> None:
     """Draw strips of points (x, y) as one batch."""
     if not strips:

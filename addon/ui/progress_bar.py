@@ -25,13 +25,4 @@ def draw() -> None:
     drawing.text(words, middle, bottom + height + 8 * scale)
 
 
-def register() -> None:
-    """Draw in every 3D View and UV Editor."""
-    for space in SPACES:
-        drawing.add(space, "progress", draw)
-
-
-def unregister() -> None:
-    """The reverse of `register`."""
-    for space in SPACES:
-        drawing.remove(space, "progress")
+register, unregister = drawing.drawn(*SPACES, name="progress", draw=draw)

@@ -32,11 +32,4 @@ def draw() -> None:
         drawing.text(trims.items[k].name, points[0][0] + inset, points[0][1] + inset, color, centered=False)
 
 
-def register() -> None:
-    """Draw in every UV Editor."""
-    drawing.add("IMAGE_EDITOR", "trims", draw)
-
-
-def unregister() -> None:
-    """The reverse of `register`."""
-    drawing.remove("IMAGE_EDITOR", "trims")
+register, unregister = drawing.drawn("IMAGE_EDITOR", name="trims", draw=draw)

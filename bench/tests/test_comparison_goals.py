@@ -1,13 +1,9 @@
 """The goals of docs/comparison.md: which of our settings stands for a model, and when a goal counts as met."""
 
-import sys
-from pathlib import Path
 
+import compare_tables
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
-import compare_tables  # noqa: E402
-from compare_tables import BESIDE_XATLAS, CUTS  # noqa: E402
+from compare_tables import BESIDE_XATLAS, CUTS
 
 THEIRS = {"seams": 10.0, "spread": 1.2, "angle": 1.0, "islands": 21, "seconds": 2.0}
 

@@ -1,13 +1,8 @@
 """A cortex beside FreeSurfer's flat map of it, and what measures them (bench/cortex.py)."""
 
-import sys
-from pathlib import Path
 
+import cortex
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
-
-import cortex  # noqa: E402
 
 
 def sheet(n=21, step=4.0):

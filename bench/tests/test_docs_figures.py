@@ -5,17 +5,14 @@ import re
 import sys
 from pathlib import Path
 
+import against_bff
+import doc_figures
+import doc_tables
 import pytest
+import reproduce
+from doc_tables import TABLES
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "bench"))
-
-import against_bff  # noqa: E402
-import doc_figures  # noqa: E402
-import doc_tables  # noqa: E402
-import reproduce  # noqa: E402
-from doc_tables import TABLES  # noqa: E402
-
 FIGURES = doc_figures.load()
 # Each has its command in the file.
 MEASURED_ELSEWHERE = {

@@ -1,18 +1,16 @@
 """The error of the polyhedron itself: the first variation of circle domains, and finer meshes on its flat faces."""
 
-import sys
 from pathlib import Path
 
+import koebe
 import numpy as np
+import polyhedron_error
 import pytest
+import table_surfaces
+from polyhedron_error import FIVE_CIRCLES, SAMPLES
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "bench"))
 
-import koebe  # noqa: E402
-import polyhedron_error  # noqa: E402
-import table_surfaces  # noqa: E402
-from polyhedron_error import FIVE_CIRCLES, SAMPLES  # noqa: E402
 
 needs_mesher = pytest.mark.skipif(not table_surfaces.MESHER.exists(), reason="build/bench/planar_mesher is not built")
 TURN = np.exp(2j * np.pi * np.arange(SAMPLES) / SAMPLES)

@@ -1,19 +1,15 @@
 """The factors that bench/predicted_rates.py takes from the circles alone are those of the iteration."""
 
-import sys
 from pathlib import Path
 
+import koebe
 import numpy as np
+import predicted_rates
+import proof_pictures
 import pytest
+import table_surfaces
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "scripts")]
-
-import koebe  # noqa: E402
-import predicted_rates  # noqa: E402
-import proof_pictures  # noqa: E402
-import table_surfaces  # noqa: E402
-
 CIRCLES = [(0j, 1.0), (-0.4 + 0.2j, 0.3), (0.45 - 0.1j, 0.25), (0.1 + 0.6j, 0.2)]
 
 

@@ -2,27 +2,23 @@
 figures with the frames that they promise."""
 
 import re
-import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+import domain_figures
+import even_mesh
+import koebe
+import mesh_regions
 import numpy as np
+import printed
+import process_figures
 import pytest
+import table_one
+import table_surfaces
+import table_two
+import two_heads
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "bench"))
-
-import domain_figures  # noqa: E402
-import even_mesh  # noqa: E402
-import koebe  # noqa: E402
-import mesh_regions  # noqa: E402
-import printed  # noqa: E402
-import process_figures  # noqa: E402
-import table_one  # noqa: E402
-import table_surfaces  # noqa: E402
-import table_two  # noqa: E402
-import two_heads  # noqa: E402
-
 SMALL = {"vertices": 500, "boundary": 110}
 LARGE = 20_000  # vertices: more take seconds
 SVG = "{http://www.w3.org/2000/svg}"

@@ -1,13 +1,9 @@
 """The figures of bench/compare.py on maps whose figures are known."""
 
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "bench"))
-import uv_measures  # noqa: E402
+import uv_measures
 
 N = 20
 

@@ -4,27 +4,15 @@
     blender -b --factory-startup --python-exit-code 1 -P scripts/site/blender_names.py -- OUT.json
 """
 
-import importlib.util
 import json
 import sys
 from pathlib import Path
 
 import bpy
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "python"))
 
-
-def register():
-    """Registers the add-on of this checkout."""
-    folder = ROOT / "addon"
-    spec = importlib.util.spec_from_file_location(
-        "koebe_uv", folder / "__init__.py", submodule_search_locations=[str(folder)]
-    )
-    package = importlib.util.module_from_spec(spec)
-    sys.modules["koebe_uv"] = package
-    spec.loader.exec_module(package)
-    package.register()
+from addon_support import registered_addon  # noqa: E402
 
 
 def names():
@@ -58,7 +46,7 @@ def operator(name):
 
 def main():
     before = names()
-    register()
+    registered_addon()
     added = sorted(names() - before)
     if not added:
         raise SystemExit("no operator was registered")

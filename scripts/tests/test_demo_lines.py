@@ -6,14 +6,11 @@ import sys
 import types
 from pathlib import Path
 
+import demo
 import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import demo  # noqa: E402
-
 FACTS = {
     "loops": [{"roundness": 1e-13}], "faces": 8064, "sweeps": 1, "angle_error_deg": {"mean": 0.3}, "flipped": 0,
     "seconds": {"total": 0.1}, "converged": True,

@@ -1,12 +1,12 @@
 """The wheels and zips of a release: what is written into them, and what their binaries are checked for."""
 
-import importlib.util
 import json
 import re
 import shutil
 import subprocess
 import sys
 import zipfile
+from importlib import import_module
 from pathlib import Path
 
 import cli_support
@@ -16,21 +16,6 @@ import tomllib
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPTS = ROOT / "scripts"
-
-
-@pytest.fixture(scope="module", autouse=True)
-def scripts_importable():
-    sys.path.insert(0, str(SCRIPTS))
-    yield
-    sys.path.remove(str(SCRIPTS))
-
-
-def script(name):
-    spec = importlib.util.spec_from_file_location(name, SCRIPTS / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
 
 
 # CMakeLists.txt sets it, and pip's package takes it from there by the pattern in pyproject.toml. The changelog's first
@@ -46,7 +31,7 @@ VERSIONS = {
 @pytest.mark.parametrize(("name", "pattern"), VERSIONS.items())
 def test_the_version_is_one(name, pattern):
     found = re.search(pattern, (ROOT / name).read_text(encoding="utf-8"))[1]
-    assert found == script("package_extension").project_version()
+    assert found == import_module("package_extension").project_version()
 
 
 def test_the_release_page_says_what_is_new():
@@ -77,7 +62,7 @@ def test_another_version_is_one_line(tmp_path):
 
 
 def test_what_is_built_says_its_version():
-    expected = script("package_extension").project_version()
+    expected = import_module("package_extension").project_version()
     printed = subprocess.run([SCRIPTS / "version.sh"], capture_output=True, text=True, check=True).stdout.strip()
     command = cli_support.koebe("--version").stdout.strip()
     assert (koebe.__version__, command, printed) == (expected, expected, expected)
@@ -94,7 +79,7 @@ def bundle(folder, *names):
 def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch):
     build = bundle(tmp_path / "build", "libkoebe.so", "bin/koebe", "_koebe.cpython-311-x86_64-linux-gnu.so",
                    "_koebe.cpython-313-x86_64-linux-gnu.so")  # fmt: skip
-    packer = script("pack_wheel")
+    packer = import_module("pack_wheel")
     for out in ("one", "two"):
         tag = "py3-none-manylinux_2_28_x86_64"
         monkeypatch.setattr(sys, "argv", ["", "bundle", str(build), tag, str(tmp_path / out)])
@@ -119,7 +104,7 @@ def test_a_bundle_becomes_one_wheel_whose_record_is_right(tmp_path, monkeypatch)
 
 
 def test_a_wheel_lists_what_it_holds_of_others():
-    maker = script("sbom")
+    maker = import_module("sbom")
     bill = json.loads(maker.sbom("1.2.3", "GPL-3.0-or-later", "manylinux_2_28_x86_64"))
     assert (bill["bomFormat"], bill["specVersion"]) == ("CycloneDX", "1.6")
     assert bill["metadata"]["component"]["purl"] == "pkg:pypi/koebe@1.2.3"
@@ -135,7 +120,7 @@ def test_a_wheel_lists_what_it_holds_of_others():
 
 
 def test_the_list_of_others_names_the_pinned_versions():
-    maker = script("sbom")
+    maker = import_module("sbom")
     pinned, parts = maker.pinned(), maker.parts()
     assert {part.package for part in parts} == set(pinned)
     inside = {"RapidXML, with namespaces (of svgpp)", "stb_image"}  # their packages have another number
@@ -145,7 +130,7 @@ def test_the_list_of_others_names_the_pinned_versions():
 
 
 def test_what_is_no_bundle_makes_no_wheel(tmp_path, monkeypatch):
-    packer = script("pack_wheel")
+    packer = import_module("pack_wheel")
     for number, names in enumerate([
         ("libkoebe.so", "bin/koebe"), ("_koebe.cpython-311-darwin.so", "bin/koebe"),
         ("libkoebe.so", "_koebe.cpython-311-x86_64-linux-gnu.so")]):
@@ -160,18 +145,18 @@ def test_a_wheel_of_this_machine_has_the_libraries_that_others_lack(tmp_path, mo
     module, command = Path(koebe._koebe.__file__), Path(cli_support.COMMAND)
     tag = "cp{0}{1}-cp{0}{1}-linux_x86_64".format(*sys.version_info)
     monkeypatch.setattr(sys, "argv", ["", "local", str(module), str(command), tag, str(tmp_path)])
-    script("pack_wheel").main()
+    import_module("pack_wheel").main()
     (wheel,) = tmp_path.glob(f"koebe-*-{tag}.whl")
     with zipfile.ZipFile(wheel) as archive:
         names = {name.removeprefix("koebe/") for name in archive.namelist()}
         needed = {name for binary in (module.name, "bin/koebe")
-                  for name in script("binary_facts").facts_of(archive.read(f"koebe/{binary}")).libraries}
+                  for name in import_module("binary_facts").facts_of(archive.read(f"koebe/{binary}")).libraries}
     assert {"__init__.py", "bin/koebe", module.name} < names
-    assert {name for name in needed - names if not re.match(script("pack_wheel").SYSTEM, name)} == set()
+    assert {name for name in needed - names if not re.match(import_module("pack_wheel").SYSTEM, name)} == set()
 
 
 def test_a_release_has_a_zip_for_each_platform_and_leaves_the_one_of_this_machine(tmp_path, monkeypatch):
-    packer = script("package_extension")
+    packer = import_module("package_extension")
     version = packer.project_version()
     for tag in ("cp311-cp311-linux_x86_64", "py3-none-manylinux_2_28_x86_64", "py3-none-win_amd64"):
         (tmp_path / f"koebe-{version}-{tag}.whl").write_bytes(tag.encode())
@@ -199,13 +184,13 @@ def test_a_release_has_a_zip_for_each_platform_and_leaves_the_one_of_this_machin
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads this interpreter's own module")
 def test_a_binary_says_what_it_needs():
-    facts = script("binary_facts").facts_of(Path(koebe._koebe.__file__).read_bytes())
+    facts = import_module("binary_facts").facts_of(Path(koebe._koebe.__file__).read_bytes())
     assert any(name.startswith("libc.so") for name in facts.libraries)
     assert any(name.startswith("GLIBC_2.") for name in facts.versions)
 
 
 def test_a_binary_that_asks_too_much_is_named():
-    check, facts = script("check_dist"), script("binary_facts").Facts
+    check, facts = import_module("check_dist"), import_module("binary_facts").Facts
     tag = "manylinux_2_28_x86_64"
     good = facts("x86_64", ["libc.so.6", "libm.so.6", "libkoebe.so"], ["GLIBC_2.28", "GLIBC_2.2.5"])
     assert check.problems_of(good, "manylinux", tag) == []
@@ -229,7 +214,7 @@ def test_the_page_of_the_platform_says_what_the_manifest_says():
 
 
 def test_a_binary_does_not_say_where_it_was_built():
-    paths = script("check_dist").machine_paths
+    paths = import_module("check_dist").machine_paths
     assert paths(b"\0build/sources/headers/usr/include/CGAL/a.h\0/usr/include/b.h\0") == []
     assert paths(b"\0/home/me/koebe/build/sources/a.c\0") == [
         "says /home/me/koebe/build/sources/a.c, a place on the machine that built it"]

@@ -2,16 +2,12 @@
 
 import html
 import re
-import sys
 from pathlib import Path
 
 import pytest
+from guide_html import PAGES, page
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "scripts"))
-
-from guide_html import PAGES, page  # noqa: E402
-
 DOCS = ROOT / "docs"
 MADE = {name: page((DOCS / f"{name}.md").read_text(encoding="utf-8"), name) for name in PAGES}
 

@@ -1,15 +1,12 @@
 """The pictures of docs/method.md are what their script draws, and show what the page says."""
 
-import sys
 from pathlib import Path
 
+import method_pictures
 import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import method_pictures  # noqa: E402
 
 
 @pytest.mark.parametrize("name", method_pictures.PICTURES)

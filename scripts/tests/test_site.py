@@ -4,23 +4,19 @@ import doctest
 import importlib.util
 import inspect
 import json
-import sys
 from pathlib import Path
 
+import blender_pages
+import command_pages
+import cpp_pages
+import docstrings
 import koebe
+import links
+import pages
 import pytest
+import python_pages
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts" / "site"))
-
-import blender_pages  # noqa: E402
-import command_pages  # noqa: E402
-import cpp_pages  # noqa: E402
-import docstrings  # noqa: E402
-import links  # noqa: E402
-import pages  # noqa: E402
-import python_pages  # noqa: E402
-
 TABLE = json.loads((ROOT / "native" / "options" / "options.json").read_text(encoding="utf-8"))
 FUNCTIONS = [name for name in koebe.__all__ if inspect.isroutine(getattr(koebe, name))]
 CALLED = [*FUNCTIONS, *sorted(python_pages.CALLED)]

@@ -2,18 +2,14 @@
 
 import json
 import re
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+import three_holes
 from cli_support import koebe as command
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import three_holes  # noqa: E402
-
 NOTEBOOK = json.loads(three_holes.NOTEBOOK.read_text(encoding="utf-8"))
 CODE = [cell for cell in NOTEBOOK["cells"] if cell["cell_type"] == "code"]
 NUMBER = re.compile(r"-?\d+\.?\d*")

@@ -70,8 +70,7 @@ def relaxable():
     obj.data.uv_layers["Koebe"].data.foreach_set("uv", uv.ravel())
     states.consistent([obj])
     scenes.select(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
 
 
 def offending():
@@ -105,8 +104,7 @@ def in_edit_mode(start):
 
     def begin():
         start()
-        bpy.ops.object.mode_set(mode="EDIT")
-        bpy.ops.mesh.select_all(action="SELECT")
+        scenes.edit_all()
 
     return begin
 

@@ -107,6 +107,13 @@ def select(*objects):
     bpy.context.view_layer.objects.active = objects[0]
 
 
+def edit_all(mode="EDIT"):
+    """Enter Edit Mode with everything selected, or another mode."""
+    bpy.ops.object.mode_set(mode=mode)
+    if mode == "EDIT":
+        bpy.ops.mesh.select_all(action="SELECT")
+
+
 def select_faces(obj, indices=None):
     """Enter Edit Mode in face mode with these faces selected (None: all)."""
     chosen = np.ones(len(obj.data.polygons), bool)
@@ -153,6 +160,13 @@ def with_polygons(obj, wanted=True):
 def corner_uv(mesh, layer):
     """UVs (C, 2) of a layer."""
     return read(mesh.uv_layers[layer].data, "uv", np.float32, 2)
+
+
+def vertex_uv(obj):
+    """UVs (V, 2) of the vertices of a mesh without seams."""
+    uv = np.empty((len(obj.data.vertices), 2))
+    uv[read(obj.data.loops, "vertex_index", np.int32)] = corner_uv(obj.data, "Koebe")
+    return uv
 
 
 def pin(mesh, layer, corners):

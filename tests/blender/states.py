@@ -168,8 +168,7 @@ def edited():
     beside = plain("Beside")
     consistent([*objects, beside])
     scenes.select(*objects)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     objects[4].hide_set(True)
     objects[5].hide_select = True
     beside.select_set(True)
@@ -181,8 +180,7 @@ def edited_in_sight():
     objects = [keyed(), layered()]
     consistent(objects)
     scenes.select(*objects)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
 
 
 def edited_worn():

@@ -58,8 +58,7 @@ def test_sorted_by_size_by_material_and_by_part():
     assert rows_of(obj) == [[4, 2, 0], [5], [3, 1]]
     assert bpy.ops.uv.koebe_arrange(mode="PART") == {"FINISHED"}
     assert rows_of(obj) == [[5], [4, 3], [2, 1, 0]]
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     bpy.ops.mesh.edge_split(type="EDGE")
     assert bpy.ops.uv.koebe_arrange(mode="PART") == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")

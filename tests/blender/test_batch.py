@@ -71,6 +71,22 @@ def test_it_writes_what_the_operator_writes(batch, tmp_path, koebe):
     }
 
 
+def as_the_operator(batch, tmp_path, obj, words, operator, **options):
+    """The output of a run and its report's entry; the run's UVs are those of the operator, without a flip."""
+    done = batch("--output", "out.blend", "--report", "out.json", *words.split())
+    assert done.returncode == 0, done.stderr
+    scenes.select(obj)
+    assert getattr(bpy.ops.uv, f"koebe_{operator}")(**options) == {"FINISHED"}
+    name, layer = obj.name, options.get("layer", "Koebe")
+    expected, flipped = scenes.corner_uv(obj.data, layer).copy(), scenes.last_run().flipped
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert np.array_equal(scenes.corner_uv(bpy.data.objects[name].data, layer), expected)
+    content = json.loads((tmp_path / "out.json").read_text())
+    (entry,) = content["objects"]
+    assert content["exit_code"] == 0 and entry["object"] == name and entry["flipped"] == flipped
+    return done.stdout, entry
+
+
 @pytest.mark.alike
 @pytest.mark.parametrize("domain, options", [
     ("torus", {}), ("torus", {"fit": "square"}), ("ring", {"holes": "radial", "fit": "period"}),
@@ -78,19 +94,13 @@ def test_it_writes_what_the_operator_writes(batch, tmp_path, koebe):
 ], ids=str)  # fmt: skip
 def test_tiles_are_those_of_the_operators(batch, tmp_path, domain, options):
     obj = (tori.add_torus if domain == "torus" else tori.add_tube)(holes=tori.block(3, 4))
-    words = [f"--{name}={value}" for name, value in options.items()]
-    done = batch("--output", "out.blend", "--report", "out.json", "--domain", domain, "--layer", "Own", *words)
-    assert done.returncode == 0, done.stderr
-    assert f"{obj.name}: 1 {'torus tile' if domain == 'torus' else 'cylinder'}, " in done.stdout
-    assert ", texel density 1 : " in done.stdout
-    assert getattr(bpy.ops.uv, f"koebe_{domain}")(layer="Own", **options) == {"FINISHED"}
-    expected, name = scenes.corner_uv(obj.data, "Own").copy(), obj.name
-    loops = {frozenset(loop) for loop in scenes.boundary_loops(obj.data)}
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
-    assert np.array_equal(scenes.corner_uv(bpy.data.objects[name].data, "Own"), expected)
-    content = json.loads((tmp_path / "out.json").read_text())
-    (entry,) = content["objects"]
-    assert content["exit_code"] == 0 and entry["converged"] is True and entry["flipped"] == 0
+    loops, name = {frozenset(loop) for loop in scenes.boundary_loops(obj.data)}, obj.name
+    words = " ".join(f"--{name}={value}" for name, value in options.items())
+    said, entry = as_the_operator(batch, tmp_path, obj, f"--domain {domain} --layer Own {words}", domain,
+                                  layer="Own", **options)  # fmt: skip
+    assert f"{name}: 1 {'torus tile' if domain == 'torus' else 'cylinder'}, " in said
+    assert ", texel density 1 : " in said
+    assert entry["converged"] is True and entry["flipped"] == 0
     assert entry["domain"] == domain and entry["fit"] == options.get("fit", "inside")
     assert {frozenset(loop["vertices"]) for loop in entry["loops"]} == loops
     if options.get("fit"):
@@ -100,33 +110,21 @@ def test_tiles_are_those_of_the_operators(batch, tmp_path, domain, options):
 @pytest.mark.alike
 @pytest.mark.parametrize("layout", balls.LAYOUTS)
 def test_spheres_are_those_of_the_operator(batch, tmp_path, layout):
-    obj = balls.add_ball(holes=((3, 4),))
-    words = ["--domain", "sphere", "--layout", layout, "--layer", "Own"]
-    done = batch("--output", "out.blend", "--report", "out.json", *words)
-    assert done.returncode == 0, done.stderr
-    assert "Ball: 1 sphere, 1 hole, " in done.stdout
-    assert bpy.ops.uv.koebe_sphere(layer="Own", layout=layout) == {"FINISHED"}
-    expected, flipped = scenes.corner_uv(obj.data, "Own").copy(), scenes.last_run().flipped
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
-    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Ball"].data, "Own"), expected)
-    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
+    said, entry = as_the_operator(batch, tmp_path, balls.add_ball(holes=((3, 4),)),
+                                  f"--domain sphere --layout {layout} --layer Own", "sphere",
+                                  layer="Own", layout=layout)  # fmt: skip
+    assert "Ball: 1 sphere, 1 hole, " in said
     assert entry["domain"] == "sphere" and entry["layout"]["kind"] == layout and entry["converged"] is True
-    assert entry["flipped"] == flipped and len(entry["loops"]) == 1 and 0 < entry["loops"][0]["radius"] < 1
+    assert len(entry["loops"]) == 1 and 0 < entry["loops"][0]["radius"] < 1
 
 
 @pytest.mark.alike
 @pytest.mark.parametrize("normalization", ["area", "circles"])
 def test_handles_are_those_of_the_operator(batch, tmp_path, normalization):
-    obj = handles.add_plate(holes=handles.HOLE)
-    words = ["--domain", "schottky", "--normalization", normalization, "--layer", "Own"]
-    done = batch("--output", "out.blend", "--report", "out.json", *words)
-    assert done.returncode == 0, done.stderr
-    assert "Plate: 1 fundamental domain, 2 handles, 1 hole, cut along " in done.stdout
-    assert bpy.ops.uv.koebe_schottky(layer="Own", normalization=normalization) == {"FINISHED"}
-    expected = scenes.corner_uv(obj.data, "Own").copy()
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
-    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Plate"].data, "Own"), expected)
-    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
+    said, entry = as_the_operator(batch, tmp_path, handles.add_plate(holes=handles.HOLE),
+                                  f"--domain schottky --normalization {normalization} --layer Own", "schottky",
+                                  layer="Own", normalization=normalization)  # fmt: skip
+    assert "Plate: 1 fundamental domain, 2 handles, 1 hole, cut along " in said
     assert entry["domain"] == "schottky" and entry["options"]["normalization"] == normalization
     assert entry["converged"] is True and entry["flipped"] == 0
     assert (len(entry["handles"]), len(entry["loops"])) == (2, 1)
@@ -135,35 +133,29 @@ def test_handles_are_those_of_the_operator(batch, tmp_path, normalization):
 @pytest.mark.alike
 def test_even_parts_are_those_of_the_operator(batch, tmp_path):
     obj = scenes.add_cube("Cube")
-    done = batch("--output", "out.blend", "--report", "out.json", "--parts", "--even", "0", "--loops", "free")
-    assert done.returncode == 0, done.stderr
     scenes.select(obj)
-    bpy.ops.uv.koebe_parts(keep_angles=False, even=0.0, loops="free")
-    expected = scenes.corner_uv(obj.data, "Koebe").copy()
     bpy.ops.uv.koebe_parts()
-    assert not np.array_equal(scenes.corner_uv(obj.data, "Koebe"), expected)
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
-    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Cube"].data, "Koebe"), expected)
-    assert json.loads((tmp_path / "out.json").read_text())["objects"][0]["even"] == 0.0
+    usual = scenes.corner_uv(obj.data, "Koebe").copy()
+    _, entry = as_the_operator(batch, tmp_path, obj, "--parts --even 0 --loops free", "parts",
+                               keep_angles=False, even=0.0, loops="free")  # fmt: skip
+    assert entry["even"] == 0.0
+    assert not np.array_equal(scenes.corner_uv(bpy.data.objects["Cube"].data, "Koebe"), usual)
 
 
 @pytest.mark.alike
 def test_parts_are_those_of_the_operator(batch, tmp_path):
     obj = scenes.add_cube("Cube")
-    done = batch("--output", "out.blend", "--report", "out.json", "--parts", "--evenness", "0.2", "--layer", "Own",
-                 "--write-seams")  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.count("Cube: ") == 1 and "part" in done.stdout
     scenes.select(obj)
     bpy.ops.uv.koebe_parts(evenness=0.2, layer="Own", write_seams=True)
-    expected, seams = scenes.corner_uv(obj.data, "Own").copy(), scenes.read(obj.data.edges, "use_seam", bool)
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    seams = scenes.read(obj.data.edges, "use_seam", bool)
+    obj.data.edges.foreach_set("use_seam", np.zeros(len(seams), bool))
+    said, entry = as_the_operator(batch, tmp_path, obj, "--parts --evenness 0.2 --layer Own --write-seams", "parts",
+                                  evenness=0.2, layer="Own", write_seams=True)  # fmt: skip
+    assert said.count("Cube: ") == 1 and "part" in said
     mesh = bpy.data.objects["Cube"].data
-    assert np.array_equal(scenes.corner_uv(mesh, "Own"), expected)
     assert np.array_equal(scenes.read(mesh.edges, "use_seam", bool), seams) and seams.any()
-    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
     assert sorted(face for part in entry["parts"] for face in part["faces"]) == list(range(len(mesh.polygons)))
-    assert entry["object"] == "Cube" and entry["flipped"] == 0 and entry["angle_error_deg"]["mean"] < 60.0
+    assert entry["flipped"] == 0 and entry["angle_error_deg"]["mean"] < 60.0
 
 
 @pytest.mark.alike
@@ -200,18 +192,12 @@ def test_what_is_no_tile_is_told_and_nothing_is_saved(batch, tmp_path):
 
 
 @pytest.mark.alike
-@pytest.mark.parametrize("options", [{"tube": "unroll"}, {"upright": False}], ids=str)
-def test_shapes_are_those_of_the_operator(batch, tmp_path, options):
-    obj = add_tube()
-    words = {"tube": ("--tube", "unroll"), "upright": ("--no-upright",)}[next(iter(options))]
-    done = batch("--output", "out.blend", "--report", "out.json", *words)
-    assert done.returncode == 0, done.stderr
-    bpy.ops.uv.koebe_uniformize(**options)
-    expected = scenes.corner_uv(obj.data, "Koebe").copy()
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
-    assert np.array_equal(scenes.corner_uv(bpy.data.objects["Tube"].data, "Koebe"), expected)
-    (entry,) = json.loads((tmp_path / "out.json").read_text())["objects"]
-    assert entry["unrolled"] is (options.get("tube") == "unroll") and entry["flipped"] == 0
+@pytest.mark.parametrize("words, options", [
+    ("--tube unroll", {"tube": "unroll"}), ("--no-upright", {"upright": False}),
+])  # fmt: skip
+def test_shapes_are_those_of_the_operator(batch, tmp_path, words, options):
+    _, entry = as_the_operator(batch, tmp_path, add_tube(), words, "uniformize", **options)
+    assert entry["unrolled"] is ("tube" in options) and entry["flipped"] == 0
 
 
 @pytest.mark.alike

@@ -13,22 +13,6 @@ from test_parts import MODELS, added
 from touched import only_uvs_change
 
 
-def klein(around=24, along=12):
-    """A Klein bottle, as a figure of eight that is turned half round."""
-    u, v = np.meshgrid(2 * np.pi * np.arange(around) / around, 2 * np.pi * np.arange(along) / along, indexing="ij")
-    r = 3 + np.cos(u / 2) * np.sin(v) - np.sin(u / 2) * np.sin(2 * v)
-    z = np.sin(u / 2) * np.sin(v) + np.cos(u / 2) * np.sin(2 * v)
-    vertices = np.stack([r * np.cos(u), r * np.sin(u), z], axis=2).reshape(-1, 3)
-
-    def at(i, j):
-        if i == around:  # the bottle closes with v -> -v
-            i, j = 0, -j
-        return i * along + j % along
-
-    return vertices, [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1))
-                      for i in range(around) for j in range(along)]  # fmt: skip
-
-
 def bow_tie():
     """Two tents that share their tips and nothing else, and a fin that makes them one for a careless reader."""
     tent = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)]
@@ -63,7 +47,7 @@ ANY = {
     "sphere": MODELS["sphere"],
     "torus": MODELS["torus"],
     "torus with a hole": lambda: scenes.add_object("Bad", *torus_with_hole()),
-    "klein": lambda: scenes.add_object("Bad", *klein()),
+    "klein": lambda: scenes.add_object("Bad", *wild.closed_grid(24, 12, klein=True)),
     "moebius": lambda: scenes.add_object("Bad", *moebius_strip()),
     "fin": lambda: scenes.add_object("Bad", *fin()),
     "fan": lambda: scenes.add_object("Bad", FAN, [(0, 1, 2), (1, 0, 3), (0, 1, 4)]),
@@ -269,7 +253,7 @@ def damaged(random):
     elif kind == 1:
         vertices, faces = torus_with_hole(6, 5)
     elif kind == 2:
-        vertices, faces = klein(8, 6)
+        vertices, faces = wild.closed_grid(8, 6, klein=True)
     else:
         vertices, faces = moebius_strip(8)
     return wild.damaged(random, vertices, faces)

@@ -105,8 +105,7 @@ def test_edits_that_only_edit_mode_knows_are_seen():
 def test_several_objects_in_edit_mode_and_a_selected_one_that_is_not():
     one, two, three = (scenes.add_panel(name) for name in ("One", "Two", "Three"))
     scenes.select(one, two)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     three.select_set(True)
     bpy.ops.uv.koebe_uniformize()
     assert {obj.name for obj in bpy.context.objects_in_mode} == {"One", "Two"}
@@ -122,8 +121,7 @@ def test_the_loop_of_the_active_vertex_becomes_the_rim():
     obj = scenes.add_panel()
     loops = scenes.boundary_loops(obj.data)
     hole = min(loops, key=len)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     mesh = bmesh.from_edit_mesh(obj.data)
     mesh.verts.ensure_lookup_table()
     mesh.select_history.add(mesh.verts[hole[0]])
@@ -162,9 +160,7 @@ def test_the_old_place_is_kept_as_in_object_mode():
         uv = scenes.read(obj.data.vertices, "co", np.float32, 3)[vertex, :2]
         obj.data.uv_layers.new(name="Koebe").data.foreach_set("uv", (0.1 * uv + 0.7).astype(np.float32).ravel())
         meshes = len(bpy.data.meshes)
-        bpy.ops.object.mode_set(mode=mode)
-        if mode == "EDIT":
-            bpy.ops.mesh.select_all(action="SELECT")
+        scenes.edit_all(mode)
         assert bpy.ops.uv.koebe_uniformize(placement="keep") == {"FINISHED"}
         assert bpy.context.mode == ("EDIT_MESH" if mode == "EDIT" else "OBJECT")
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -189,9 +185,7 @@ def test_islands_and_shape_keys_are_as_in_object_mode(existing):
         obj.data.uv_layers.new(name="Other")
         if existing:
             obj.data.uv_layers.new(name="Koebe")
-        bpy.ops.object.mode_set(mode=mode)
-        if mode == "EDIT":
-            bpy.ops.mesh.select_all(action="SELECT")
+        scenes.edit_all(mode)
         assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
         bpy.ops.object.mode_set(mode="OBJECT")
         assert obj.data.uv_layers.active.name == "Koebe"

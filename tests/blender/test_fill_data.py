@@ -74,8 +74,7 @@ def test_shape_keys_with_a_change_that_only_edit_mode_knows():
         obj = add_flat()
         add_keys(obj)
         obj.active_shape_key_index = 0
-        bpy.ops.object.mode_set(mode="EDIT")
-        bpy.ops.mesh.select_all(action="SELECT")
+        scenes.edit_all()
         bpy.ops.transform.translate(value=(0, 0, 3))
         if filled:
             assert bpy.ops.mesh.koebe_fill_holes() == {"FINISHED"}

@@ -1,6 +1,5 @@
 """Unwrap Pretzel: UVs of surfaces with any number of handles, as the package makes them."""
 
-import collections
 import json
 import os
 
@@ -12,7 +11,7 @@ from balls import join_faces
 from handles import HOLE, HOLES, THREE, add_plate, plate_arrays
 from scenes import last_run
 from tori import add_torus, block
-from wild import damaged, map_or_refuse, wild
+from wild import add_wild, map_or_refuse_many, wild
 
 
 def unwrap(**options):
@@ -167,11 +166,7 @@ def wild_plate(random):
     n = (size + 2) * count + 2 + int(random.integers(0, 3))
     holes = {(int(random.integers(n)), int(random.integers(m))) for _ in range(random.integers(0, 4))}
     points, faces = plate_arrays(windows, holes, size, n, m, bent=random.uniform(0, 0.1))
-    points += random.normal(0, random.choice([0, 0.02, 0.1]), points.shape)
-    if random.random() < 0.3:
-        points, faces = damaged(random, points, faces)
-    obj = scenes.add_object("Wild", points, faces)
-    return join_faces(random, obj, random.choice([0.0, 0.0, 0.1, 0.3]))
+    return join_faces(random, add_wild(random, points, faces, 0.1, 0.3), random.choice([0.0, 0.0, 0.1, 0.3]))
 
 
 def assert_is_cut_open(outcome, one):
@@ -195,14 +190,5 @@ def assert_is_cut_open(outcome, one):
 @pytest.mark.alike
 @pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "8"))))
 def test_wild_surfaces_are_cut_open_or_refused(addon, seed):
-    random = np.random.default_rng(seed)
-    mapped, refused = collections.Counter(), collections.Counter()
-    for _ in range(10):
-        obj = wild_plate(random)
-        bpy.context.view_layer.update()
-        choice = addon("maps.domains").SCHOTTKY.choice(str(random.choice(["area", "circles"])))
-        done, failed = map_or_refuse(obj, scenes.domain_job(addon, obj, choice), assert_is_cut_open)
-        mapped.update(f"{len(one.result.handles)} handles, converged: {one.result.converged}" for one in done)
-        refused.update(getattr(one.error, "kind", None) or f"{type(one.error).__name__}: {one.error}" for one in failed)
-        bpy.data.objects.remove(obj)
-    print(f"mapped {dict(mapped)}, refused {dict(refused)}")
+    map_or_refuse_many(addon, seed, 10, wild_plate, lambda random, domains: [
+        domains.SCHOTTKY.choice(str(random.choice(["area", "circles"])))], assert_is_cut_open)  # fmt: skip

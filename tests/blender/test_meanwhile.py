@@ -124,8 +124,7 @@ def test_a_texture_is_carried_to_the_others(meanwhile, change, who):
 
 def test_in_edit_mode_too(meanwhile):
     changed, other = two()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
 
     def happen():
         bpy.ops.mesh.select_all(action="SELECT")

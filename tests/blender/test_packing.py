@@ -24,23 +24,6 @@ def test_one_disk_fills_the_square_as_the_contract_says(packed):
     assert np.array_equal(placement.apply(points), (1.0 + points) / 2.0)
 
 
-@pytest.mark.parametrize("count", [2, 3, 5, 9, 24, 25, 60])
-@pytest.mark.parametrize("margin", [0.0, 0.02])
-def test_disks_keep_their_proportions_their_distance_and_to_the_square(packed, count, margin):
-    radii = np.random.default_rng(count).uniform(0.2, 3.0, count)
-    placements = packed(radii, margin)
-    scale = np.array([placement.scale for placement in placements])
-    center = np.array([placement.offset for placement in placements])
-    assert np.allclose(scale / radii, scale[0] / radii[0], rtol=1e-12)
-    kept = min(margin, 0.5 / count)
-    first, second = np.triu_indices(count, 1)
-    distance = np.linalg.norm(center[first] - center[second], axis=1)
-    assert (distance - scale[first] - scale[second] >= kept - 1e-9).all()
-    assert (center - scale[:, None] >= kept / 2 - 1e-9).all()
-    assert (center + scale[:, None] <= 1.0 - kept / 2 + 1e-9).all()
-    assert np.pi * (scale**2).sum() > 0.4  # and it wastes no more than this
-
-
 def test_two_equal_disks_lie_on_the_diagonal(packed):
     first, second = packed([1.0, 1.0], 0.0)
     assert first.scale == pytest.approx(1.0 / (2.0 + np.sqrt(2.0)), rel=1e-3)  # the optimum

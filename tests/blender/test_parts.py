@@ -169,9 +169,7 @@ def cuts_of(obj):
 def test_cuts_become_seams_and_the_next_run_cuts_along_them(model, mode):
     obj = add_finger() if model == "finger" else MODELS[model]()
     scenes.select(obj)
-    bpy.ops.object.mode_set(mode=mode)
-    if mode == "EDIT":
-        bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all(mode)
     assert unwrap(checker=False) == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
     assert len(seams_of(obj)) == 0, "the mesh was changed without being asked"
@@ -221,8 +219,7 @@ def test_a_tube_is_unrolled_along_its_seam():
     bpy.ops.mesh.primitive_cylinder_add(vertices=24, depth=6.0, end_fill_type="NOTHING")
     obj = bpy.context.object
     scenes.select(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     bpy.ops.mesh.subdivide(number_cuts=3)
     bpy.ops.object.mode_set(mode="OBJECT")
     sides = [{tuple(np.round(obj.data.vertices[v].co[:2], 4)) for v in edge.vertices} for edge in obj.data.edges]

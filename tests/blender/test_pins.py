@@ -34,9 +34,7 @@ def test_pins_stay_to_the_last_bit_and_the_map_joins_them(shape, mode, count):
     places = {0: (0.1, 0.1), 168: (0.8, 0.7), 84: (0.6, 0.25), 12: (0.05, 0.7)}
     pinned = put(obj, dict(list(places.items())[:count]))
     before = scenes.corner_uv(obj.data, "Koebe")
-    bpy.ops.object.mode_set(mode=mode)
-    if mode == "EDIT":
-        bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all(mode)
     assert bpy.ops.uv.koebe_unwrap(shape=shape, checker=False) == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
     after = scenes.corner_uv(obj.data, "Koebe")

@@ -9,21 +9,13 @@ import scenes
 pytestmark = pytest.mark.alike
 
 
-def vertex_uv(obj):
-    """UVs (V, 2) of the vertices of a mesh without seams."""
-    uv = np.empty((len(obj.data.vertices), 2))
-    uv[scenes.read(obj.data.loops, "vertex_index", np.int32)] = scenes.corner_uv(obj.data, "Koebe")
-    return uv
-
-
 def inner_vertex(obj):
     rim = np.concatenate(scenes.boundary_loops(obj.data))
     return int(np.setdiff1d(np.arange(len(obj.data.vertices)), rim)[40])
 
 
 def make_active(obj, vertex):
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     mesh = bmesh.from_edit_mesh(obj.data)
     mesh.verts.ensure_lookup_table()
     mesh.select_history.clear()
@@ -41,7 +33,7 @@ def test_the_active_vertex_becomes_the_centre():
     make_active(obj, vertex)
     assert bpy.ops.uv.koebe_uniformize(center="active") == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert np.array_equal(vertex_uv(obj)[vertex], [0.5, 0.5])
+    assert np.array_equal(scenes.vertex_uv(obj)[vertex], [0.5, 0.5])
     scenes.assert_circle_domain(obj)
 
 
@@ -51,7 +43,7 @@ def test_the_active_vertex_becomes_the_right_end_and_its_loop_the_rim():
     make_active(obj, hole[2])
     assert bpy.ops.uv.koebe_uniformize(point="active") == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert np.abs(vertex_uv(obj)[hole[2]] - [1.0, 0.5]).max() < 1e-7
+    assert np.abs(scenes.vertex_uv(obj)[hole[2]] - [1.0, 0.5]).max() < 1e-7
     assert scenes.fit_circle(scenes.loop_uv(obj.data, "Koebe", hole))[1] == pytest.approx(0.5, abs=1e-6)
 
 
@@ -63,10 +55,10 @@ def test_the_3d_cursor_names_the_nearest_vertex_in_the_world():
     rim = max(scenes.boundary_loops(obj.data), key=len)
     bpy.context.scene.cursor.location = in_the_world(obj, vertex)
     assert bpy.ops.uv.koebe_uniformize(center="cursor") == {"FINISHED"}
-    assert np.array_equal(vertex_uv(obj)[vertex], [0.5, 0.5])
+    assert np.array_equal(scenes.vertex_uv(obj)[vertex], [0.5, 0.5])
     bpy.context.scene.cursor.location = in_the_world(obj, rim[5])
     assert bpy.ops.uv.koebe_uniformize(point="cursor") == {"FINISHED"}
-    assert np.abs(vertex_uv(obj)[rim[5]] - [1.0, 0.5]).max() < 1e-7
+    assert np.abs(scenes.vertex_uv(obj)[rim[5]] - [1.0, 0.5]).max() < 1e-7
 
 
 def test_the_cursor_on_a_hole_finds_a_vertex_inside_for_the_centre():
@@ -74,7 +66,7 @@ def test_the_cursor_on_a_hole_finds_a_vertex_inside_for_the_centre():
     hole = min(scenes.boundary_loops(obj.data), key=len)
     bpy.context.scene.cursor.location = in_the_world(obj, hole[0])
     assert bpy.ops.uv.koebe_uniformize(center="cursor", point="cursor") == {"FINISHED"}
-    uv = vertex_uv(obj)
+    uv = scenes.vertex_uv(obj)
     assert (np.abs(uv - 0.5).max(axis=1) == 0.0).sum() == 1
     assert np.abs(uv[hole[0]] - [1.0, 0.5]).max() < 1e-7
 
@@ -108,13 +100,13 @@ def test_only_the_island_that_has_the_vertex_gets_it():
     two = scenes.add_object("Two", np.concatenate([vertices, vertices + [5.0, 0.0, 0.0]]), faces + moved)
     scenes.select(two)
     bpy.ops.uv.koebe_uniformize()
-    plain = vertex_uv(two)
+    plain = scenes.vertex_uv(two)
     vertex = inner_vertex(two)
     assert vertex < count
     make_active(two, vertex)
     bpy.ops.uv.koebe_uniformize(center="active", placement="pack")
     bpy.ops.object.mode_set(mode="OBJECT")
-    uv = vertex_uv(two)
+    uv = scenes.vertex_uv(two)
     disk = uv[:count]
     middle = (disk.min(axis=0) + disk.max(axis=0)) / 2
     assert np.abs(uv[vertex] - middle).max() < 2e-3

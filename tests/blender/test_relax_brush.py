@@ -24,8 +24,7 @@ def squeezed(size=12, seams=()):
 
 def edit():
     """Enter Edit Mode with all faces selected."""
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
 
 
 def uv_of(obj):

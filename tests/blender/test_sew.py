@@ -67,8 +67,7 @@ def test_what_cannot_be_sewn_is_told_and_stays():
     bpy.ops.uv.koebe_parts(checker=False)
     bpy.ops.object.mode_set(mode="OBJECT")
     before = scenes.corner_uv(obj.data, "Koebe")
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     with pytest.raises(RuntimeError, match="the sewn island cannot lie flat in one piece"):
         bpy.ops.uv.koebe_sew()
     bpy.ops.mesh.select_all(action="DESELECT")

@@ -1,6 +1,5 @@
 """Unwrap to Sphere: UVs of the sphere's two layouts, which their pattern continues over the cuts to the last bit."""
 
-import collections
 import json
 import os
 
@@ -12,7 +11,7 @@ from balls import LAYOUTS, add_ball, are_continued, ball_arrays, join_faces, led
 from scenes import last_run
 from test_handles import signed_areas
 from tori import add_torus
-from wild import damaged, map_or_refuse, wild
+from wild import add_wild, map_or_refuse_many, wild
 
 HOLES = ((1, 2), (2, 2), (9, 5), (9, 6), (10, 5))
 
@@ -249,11 +248,7 @@ def wild_ball(random):
     n, m = int(random.integers(3, 14)), int(random.integers(2, 10))
     holes = {(int(random.integers(n)), int(random.integers(-1, m))) for _ in range(random.integers(0, 5))}
     points, faces = ball_arrays(n, m, holes, tuple(random.uniform(0, 6, 2)), np.exp(random.normal(0, 0.5, 3)))
-    points += random.normal(0, random.choice([0, 0.02, 0.1]), points.shape)
-    if random.random() < 0.3:
-        points, faces = damaged(random, points, faces)
-    obj = scenes.add_object("Wild", points, faces)
-    return join_faces(random, obj, random.choice([0.0, 0.2, 0.8]))
+    return join_faces(random, add_wild(random, points, faces, 0.1, 0.3), random.choice([0.0, 0.2, 0.8]))
 
 
 def assert_is_a_layout(outcome, one):
@@ -289,14 +284,5 @@ def assert_is_a_layout(outcome, one):
 @pytest.mark.alike
 @pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "12"))))
 def test_wild_surfaces_become_spheres_or_are_refused(addon, seed):
-    random = np.random.default_rng(seed)
-    mapped, refused = 0, collections.Counter()
-    for _ in range(10):
-        obj = wild_ball(random)
-        bpy.context.view_layer.update()
-        choice = addon("maps.domains").SPHERE.choice(layout=str(random.choice(LAYOUTS)))
-        done, failed = map_or_refuse(obj, scenes.domain_job(addon, obj, choice), assert_is_a_layout)
-        mapped += len(done)
-        refused.update(getattr(one.error, "kind", None) or type(one.error).__name__ for one in failed)
-        bpy.data.objects.remove(obj)
-    print(f"{mapped} islands mapped, refused {dict(refused)}")
+    map_or_refuse_many(addon, seed, 10, wild_ball, lambda random, domains: [
+        domains.SPHERE.choice(layout=str(random.choice(LAYOUTS)))], assert_is_a_layout)  # fmt: skip

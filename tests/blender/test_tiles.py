@@ -21,7 +21,7 @@ from tori import (
     torus_arrays,
     tube_arrays,
 )
-from wild import damaged, map_or_refuse, wild
+from wild import add_wild, map_or_refuse_many, wild
 
 
 def torus(**options):
@@ -360,10 +360,7 @@ def wild_surface(random):
     n, m = random.integers(3, 14, 2).tolist()
     points, faces = (torus_arrays if kind else tube_arrays)(n, m, holes if len(holes) < n * m else ())
     points = points * np.exp(random.normal(0, random.choice([0, 0.5, 1.5]), 3))
-    points += random.normal(0, random.choice([0, 0.02, 0.2]), points.shape)
-    if random.random() < 0.5:
-        points, faces = damaged(random, points, faces)
-    return scenes.add_object("Wild", points, faces)
+    return add_wild(random, points, faces, 0.2, 0.5)
 
 
 def assert_is_a_tile(outcome, one):
@@ -396,18 +393,13 @@ def assert_is_a_tile(outcome, one):
     assert set(one.result.flipped_faces) == set(one.flipped) or choice.fit != "inside"
 
 
+def tile_choices(random, domains):
+    fit = str(random.choice(["inside", "period", "square"]))
+    holes = str(random.choice(["circles", "concentric", "radial"]))
+    return domains.TORUS.choice(fit=fit), domains.RING.choice(fit=fit, holes=holes)
+
+
 @pytest.mark.alike
 @pytest.mark.parametrize("seed", range(int(os.environ.get("KOEBE_RANDOM_RUNS", "12"))))
 def test_wild_surfaces_become_tiles_or_are_refused(addon, seed):
-    random = np.random.default_rng(seed)
-    domains, mapped = addon("maps.domains"), 0
-    for _ in range(6):
-        obj = wild_surface(random)
-        bpy.context.view_layer.update()
-        fit, holes = (str(random.choice(of)) for of in (
-            ["inside", "period", "square"], ["circles", "concentric", "radial"]))  # fmt: skip
-        for choice in (domains.TORUS.choice(fit=fit), domains.RING.choice(fit=fit, holes=holes)):
-            done, _ = map_or_refuse(obj, scenes.domain_job(addon, obj, choice), assert_is_a_tile)
-            mapped += len(done)
-        bpy.data.objects.remove(obj)
-    print(f"{mapped} islands mapped")
+    map_or_refuse_many(addon, seed, 6, wild_surface, tile_choices, assert_is_a_tile)

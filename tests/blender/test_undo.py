@@ -88,8 +88,7 @@ def test_what_an_error_has_selected_can_be_undone():
     bad = states.broken()
     states.consistent([bad])
     scenes.select(bad)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     bpy.ops.ed.undo_push(message="before")
     before = seen()
     with pytest.raises(RuntimeError, match="NaN"):

@@ -152,9 +152,7 @@ def test_it_is_one_undo_step(mode):
 
     states.new_file()
     scenes.select(scenes.add_panel())
-    bpy.ops.object.mode_set(mode=mode)
-    if mode == "EDIT":
-        bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all(mode)
     bpy.ops.ed.undo_push(message="made")
     bpy.ops.uv.koebe_unwrap()
     bpy.ops.ed.undo_push(message="unwrapped")

@@ -24,13 +24,6 @@ def add_annulus(name="Annulus", normal=1):
     return obj
 
 
-def vertex_uv(obj):
-    """UVs (V, 2) of the vertices of a mesh without seams."""
-    uv = np.empty((len(obj.data.vertices), 2))
-    uv[scenes.read(obj.data.loops, "vertex_index", np.int32)] = scenes.corner_uv(obj.data, "Koebe")
-    return uv
-
-
 def seen(obj):
     """Vertices in the world."""
     to_world = np.array(obj.matrix_world)[:3, :3]
@@ -43,14 +36,14 @@ def test_the_worlds_up_is_up_however_the_object_is_turned(turn):
     obj.rotation_euler = (0, turn, 0)
     bpy.ops.uv.koebe_uniformize()
     x, _, z = seen(obj).T
-    assert np.abs(vertex_uv(obj) - 0.5 - 0.5 * np.stack([x, z], axis=1)).max() < 2e-3
+    assert np.abs(scenes.vertex_uv(obj) - 0.5 - 0.5 * np.stack([x, z], axis=1)).max() < 2e-3
 
 
 def test_what_lies_flat_has_y_up():
     obj = add_annulus(normal=2)
     obj.rotation_euler = (0, 0, 1.0)
     bpy.ops.uv.koebe_uniformize()
-    assert np.abs(vertex_uv(obj) - 0.5 - 0.5 * seen(obj)[:, :2]).max() < 2e-3
+    assert np.abs(scenes.vertex_uv(obj) - 0.5 - 0.5 * seen(obj)[:, :2]).max() < 2e-3
 
 
 def test_a_mirrored_surface_is_upright_too_and_not_flipped():
@@ -58,7 +51,7 @@ def test_a_mirrored_surface_is_upright_too_and_not_flipped():
     obj.scale, obj.rotation_euler = (-1, 1, 1), (0, 0.7, 0)
     bpy.ops.uv.koebe_uniformize()
     x, _, z = seen(obj).T
-    assert np.abs(vertex_uv(obj) - 0.5 - 0.5 * np.stack([-x, z], axis=1)).max() < 2e-3
+    assert np.abs(scenes.vertex_uv(obj) - 0.5 - 0.5 * np.stack([-x, z], axis=1)).max() < 2e-3
     assert (scenes.signed_areas(obj.data, "Koebe") > 0).all()
 
 
@@ -67,7 +60,7 @@ def test_every_island_has_no_up_to_the_side():
     obj = scenes.add_panel()
     obj.rotation_euler = (1.2, 0.3, 0.4)
     bpy.ops.uv.koebe_uniformize()
-    corners, uv, total = scenes.triangles(obj.data)[0], vertex_uv(obj), np.zeros(2)
+    corners, uv, total = scenes.triangles(obj.data)[0], scenes.vertex_uv(obj), np.zeros(2)
     for p, q in zip(seen(obj).astype(float)[corners], uv[corners]):
         space, plane = (p[1:] - p[0]).T, (q[1:] - q[0]).T
         up = np.linalg.lstsq(space, [0.0, 0.0, 1.0], rcond=None)[0]  # in the edges: the part in the triangle's plane
@@ -94,6 +87,6 @@ def test_the_reported_circles_are_those_of_the_uvs(addon):
     job.write()
     ((entry,),) = [outcome.entries() for outcome in job.outcomes]
     for loop in entry["loops"]:
-        center, radius, _ = scenes.fit_circle(vertex_uv(obj)[loop["vertices"]])
+        center, radius, _ = scenes.fit_circle(scenes.vertex_uv(obj)[loop["vertices"]])
         assert (1 + np.array(loop["center"])) / 2 == pytest.approx(center, abs=1e-6)
         assert loop["radius"] / 2 == pytest.approx(radius, abs=1e-6)

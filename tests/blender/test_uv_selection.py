@@ -138,8 +138,7 @@ def test_a_run_that_fails_while_it_writes_selects_nothing(mode, addon, monkeypat
 def test_moved_circles_keep_the_selection():
     obj = scenes.add_panel()
     bpy.ops.uv.koebe_unwrap()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    scenes.edit_all()
     select_in_uv(obj, range(5, len(obj.data.polygons)), on=False)
     assert bpy.ops.uv.koebe_moebius(center=(0.3, 0.1)) == {"FINISHED"}
     assert selected(obj) == ([0, 1, 2, 3, 4], 0)

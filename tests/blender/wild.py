@@ -22,16 +22,15 @@ def _sheet(n, m):
 
 
 def torus(random):
-    return _closed_grid(random, klein=False)
+    return closed_grid(*random.integers((3, 3), (9, 7)).tolist())
 
 
 def klein(random):
-    """One-sided."""
-    return _closed_grid(random, klein=True)
+    return closed_grid(*random.integers((3, 3), (9, 7)).tolist(), klein=True)
 
 
-def _closed_grid(random, klein):
-    n, m = int(random.integers(3, 9)), int(random.integers(3, 7))
+def closed_grid(n, m, klein=False):
+    """A torus, or Klein's bottle, as a figure of eight that is turned half round."""
     u, v = np.meshgrid(2 * np.pi * np.arange(n) / n, 2 * np.pi * np.arange(m) / m, indexing="ij")
     radius = 3 + np.cos(u / 2) * np.sin(v) - np.sin(u / 2) * np.sin(2 * v) if klein else 2 + np.cos(v)
     height = np.sin(u / 2) * np.sin(v) + np.cos(u / 2) * np.sin(2 * v) if klein else np.sin(v)
@@ -204,3 +203,22 @@ def map_or_refuse(obj, job, assert_is_right):
         key: value for key, value in state.items() if key not in ("uv Koebe", "face material")
     }.items()
     return outcome.mapped, outcome.failed
+
+
+def map_or_refuse_many(addon, seed, times, make, choices, assert_is_right):
+    """As map_or_refuse, of so many objects that `make` adds, each with every one of its choices."""
+    random, domains = np.random.default_rng(seed), addon("maps.domains")
+    for _ in range(times):
+        obj = make(random)
+        bpy.context.view_layer.update()
+        for choice in choices(random, domains):
+            map_or_refuse(obj, scenes.domain_job(addon, obj, choice), assert_is_right)
+        bpy.data.objects.remove(obj)
+
+
+def add_wild(random, points, faces, noise, damage):
+    """An object of these faces, with noise, and damaged in a share of the cases."""
+    points = points + random.normal(0, random.choice([0, 0.02, noise]), points.shape)
+    if random.random() < damage:
+        points, faces = damaged(random, points, faces)
+    return scenes.add_object("Wild", points, faces)

@@ -15,7 +15,6 @@ from pathlib import Path
 
 import bpy
 
-sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "scripts"))
 
 from install_and_test import install  # noqa: E402

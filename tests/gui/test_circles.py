@@ -1,7 +1,7 @@
 """The tool Koebe Circles in the UV Editor: dragged with the mouse, in Edit Mode and in Object Mode."""
 
 import pytest
-from window import HEIGHT, xdotool
+from window import HEIGHT, in_view, xdotool
 
 LOOPS = "[[*l.uv_center, l.uv_radius] for l in bpy.context.window_manager.koebe_uv.islands[0].loops]"
 OBJECT = "bpy.context.view_layer.objects.active"
@@ -14,11 +14,6 @@ uv = np.empty(2 * len(mesh.loops), np.float32); mesh.uv_layers['Koebe'].data.for
 if obj.mode == 'EDIT': obj.to_mesh_clear()
 result = hashlib.sha256(uv.tobytes()).hexdigest()
 """
-IN_UV = """
-window = bpy.context.window_manager.windows[0]
-area = next(a for a in window.screen.areas if a.type == 'IMAGE_EDITOR')
-region = next(r for r in area.regions if r.type == 'WINDOW')
-"""
 
 
 @pytest.fixture(params=["EDIT", "OBJECT"])
@@ -29,22 +24,19 @@ def mapped(window, open_sample, request):
     window.workspace("UV Editing")
     window.run("bpy.ops.object.mode_set(mode='EDIT'); bpy.ops.mesh.select_all(action='SELECT');"
                f"bpy.ops.object.mode_set(mode={request.param!r})")  # fmt: skip
-    window.run(IN_UV + "with bpy.context.temp_override(window=window, area=area, region=region):\n"
-               "    bpy.ops.wm.tool_set_by_id(name='koebe_uv.circles', space_type='IMAGE_EDITOR')\n"
-               "    bpy.ops.image.view_all(fit_view=True)\n"
-               "    area.spaces.active.show_region_ui = False; area.spaces.active.show_region_toolbar = True\n"
-               "area = next(a for a in window.screen.areas if a.type == 'VIEW_3D')\n"
-               "region = next(r for r in area.regions if r.type == 'WINDOW')\n"
-               "with bpy.context.temp_override(window=window, area=area, region=region):\n"
-               "    bpy.ops.view3d.view_axis(type='FRONT'); bpy.ops.view3d.view_selected()")  # fmt: skip
+    window.run(in_view("bpy.ops.wm.tool_set_by_id(name='koebe_uv.circles', space_type='IMAGE_EDITOR')\n"
+                       "bpy.ops.image.view_all(fit_view=True)\n"
+                       "area.spaces.active.show_region_ui = False; area.spaces.active.show_region_toolbar = True",
+                       "IMAGE_EDITOR"))  # fmt: skip
+    window.run(in_view("bpy.ops.view3d.view_axis(type='FRONT'); bpy.ops.view3d.view_selected()"))
     window.show_textures()
     return request.param
 
 
 def pixel(window, u, v):
     """Where a place of the UVs is on the screen."""
-    x, y = window.run(IN_UV + f"result = [c + o for c, o in zip("
-                      f"region.view2d.view_to_region({u}, {v}, clip=False), (region.x, region.y))]")  # fmt: skip
+    x, y = window.run(in_view(f"result = [c + o for c, o in zip(region.view2d.view_to_region({u}, {v}, clip=False), "
+                              "(region.x, region.y))]", "IMAGE_EDITOR"))  # fmt: skip
     return x, HEIGHT - 1 - y
 
 
@@ -119,6 +111,5 @@ def test_a_click_beside_the_holes_changes_nothing(window, mapped):
 
 
 def test_the_tool_is_in_the_toolbar(window, mapped):
-    tool = window.run(IN_UV + "result = bpy.context.window_manager.windows[0].workspace.tools"
-                      ".from_space_image_mode('UV').idname")  # fmt: skip
+    tool = window.ask("bpy.context.window_manager.windows[0].workspace.tools.from_space_image_mode('UV').idname")
     assert tool == "koebe_uv.circles"

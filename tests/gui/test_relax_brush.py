@@ -2,7 +2,7 @@
 
 import math
 
-from window import xdotool
+from window import in_view, xdotool
 
 SHEET = """
 for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
@@ -12,19 +12,11 @@ for vertex in obj.data.vertices: vertex.co.z = 0.5 * vertex.co.x ** 2 + 0.3 * ve
 for loop in obj.data.uv_layers[0].data: loop.uv = (loop.uv.x ** 2, loop.uv.y)
 bpy.context.window_manager.koebe_uv.islands.clear()
 """
-EDIT = """
-window = bpy.context.window_manager.windows[0]
-area = next(a for a in window.screen.areas if a.type == 'VIEW_3D')
-region = next(r for r in area.regions if r.type == 'WINDOW')
-with bpy.context.temp_override(window=window, area=area, region=region):
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.ed.undo_push(message="edit")
-area = next(a for a in window.screen.areas if a.type == 'IMAGE_EDITOR')
-region = next(r for r in area.regions if r.type == 'WINDOW')
-with bpy.context.temp_override(window=window, area=area, region=region):
-    bpy.ops.wm.tool_set_by_id(name="koebe_uv.relax")
-"""
+EDIT = in_view("""
+bpy.ops.object.mode_set(mode="EDIT")
+bpy.ops.mesh.select_all(action="SELECT")
+bpy.ops.ed.undo_push(message="edit")
+""") + in_view('bpy.ops.wm.tool_set_by_id(name="koebe_uv.relax")', "IMAGE_EDITOR")
 PLACES = """
 import bmesh
 mesh = bmesh.from_edit_mesh(bpy.context.view_layer.objects.active.data)

@@ -1,5 +1,7 @@
 """Sew and Live by hand: a cut is closed by a button, and seams that are marked and cleared are followed at once."""
 
+from window import in_view
+
 SHEET = """
 for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
 bpy.ops.mesh.primitive_grid_add(x_subdivisions=12, y_subdivisions=12)
@@ -26,17 +28,6 @@ mesh = bmesh.from_edit_mesh(bpy.context.view_layer.objects.active.data)
 layer = mesh.loops.layers.uv.active
 result = sum(len({tuple(c[layer].uv) for c in v.link_loops}) > 1 for v in mesh.verts)
 """
-
-
-def in_view(code):
-    """The code with the 3D View as context."""
-    lines = "".join(f"    {line}\n" for line in code.strip().splitlines())
-    return (
-        "window = bpy.context.window_manager.windows[0]\n"
-        "area = next(a for a in window.screen.areas if a.type == 'VIEW_3D')\n"
-        "region = next(r for r in area.regions if r.type == 'WINDOW')\n"
-        f"with bpy.context.temp_override(window=window, area=area, region=region):\n{lines}"
-    )
 
 
 def test_a_cut_is_sewn_by_the_button(window):

@@ -1,21 +1,15 @@
 """Unwrap to Sphere by its button, in both layouts, and the button that helps where there is a handle."""
 
 from test_tiles import MODEL
-from window import DONE, ENTRY
+from window import DONE, ENTRY, only
 
-BODY = """
-import math
-for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
-bpy.ops.mesh.primitive_cube_add(size=2.0)
-obj = bpy.context.object
-while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
+BODY = "import math\n" + only("primitive_cube_add(size=2.0)", """
 obj.modifiers.new("Finer", "SUBSURF").levels = 5
 bpy.ops.object.modifier_apply(modifier="Finer")
 for vertex in obj.data.vertices:
     x, y, z = vertex.co
     vertex.co = (x * (1.3 + 0.5 * math.sin(2.5 * z)), y * (1.1 + 0.4 * math.cos(2.0 * z)), 1.6 * z + 0.3 * x * x)
-bpy.ops.object.shade_smooth()
-"""
+""")  # fmt: skip
 
 
 def test_a_body_by_its_button_in_both_layouts(window):

@@ -1,23 +1,11 @@
 """Unwrap to Torus Tile and Unwrap to Cylinder, by their buttons, and the button that helps where there is no handle."""
 
-from window import DONE, ENTRY
+from window import DONE, ENTRY, only
 
-MODEL = """
-for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
-bpy.ops.mesh.primitive_torus_add(major_segments=48, minor_segments=24, major_radius=1.0, minor_radius=0.45)
-obj = bpy.context.object
-while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
-bpy.ops.object.shade_smooth()
-"""
-TUBE = """
-for obj in list(bpy.data.objects): bpy.data.objects.remove(obj)
-bpy.ops.mesh.primitive_cylinder_add(vertices=48, depth=2.5, end_fill_type="NOTHING")
-obj = bpy.context.object
-while obj.data.uv_layers: obj.data.uv_layers.remove(obj.data.uv_layers[0])
-obj.modifiers.new("Finer", "SUBSURF").levels = 2
-obj.modifiers["Finer"].subdivision_type = "SIMPLE"
-bpy.ops.object.modifier_apply(modifier="Finer")
-"""
+MODEL = only("primitive_torus_add(major_segments=48, minor_segments=24, major_radius=1.0, minor_radius=0.45)")
+TUBE = only('primitive_cylinder_add(vertices=48, depth=2.5, end_fill_type="NOTHING")',
+            'obj.modifiers.new("Finer", "SUBSURF").levels = 2', 'obj.modifiers["Finer"].subdivision_type = "SIMPLE"',
+            'bpy.ops.object.modifier_apply(modifier="Finer")')  # fmt: skip
 
 
 def test_a_torus_by_its_button(window):

@@ -2,7 +2,7 @@
 
 import pytest
 from test_escape import HOLD
-from window import HEIGHT, IN_VIEW, xdotool
+from window import HEIGHT, in_view, xdotool
 
 REPORT = "[(i.object_name, i.mapped) for i in bpy.context.window_manager.koebe_uv.islands]"
 LAYERS = "{o.name: [u.name for u in o.data.uv_layers] for o in bpy.data.objects if o.type == 'MESH'}"
@@ -26,7 +26,7 @@ def uniformize(window, count=1):
 def test_in_local_view_only_what_is_in_it(window, open_sample):
     open_sample("suzanne_mask")
     window.run(TWO)
-    window.run(IN_VIEW.format(window=0) + "    bpy.ops.view3d.localview()")  # with the first object alone
+    window.run(in_view("bpy.ops.view3d.localview()"))  # with the first object alone
     window.settle()
     window.run(TWO.split("other =")[0] + "bpy.data.objects['other'].select_set(True)")
     window.picture("30_local_view")

@@ -24,14 +24,19 @@ SETTLE = 0.4  # seconds until a click or a key has had its effect on the screen
 ENTRY = "bpy.context.window_manager.koebe_uv.islands[0]"
 DONE = "not heart.computing and len(bpy.context.window_manager.koebe_uv.islands) == 1"
 LAYERS = "len(bpy.context.view_layer.objects.active.data.uv_layers)"
-IN_VIEW = """
-window = bpy.context.window_manager.windows[{window}]
-area = next(a for a in window.screen.areas if a.type == 'VIEW_3D')
-region = next(r for r in area.regions if r.type == 'WINDOW')
-with bpy.context.temp_override(window=window, area=area, region=region):
-"""
 TAB_OPEN = """next((r.active_panel_category for a in bpy.context.window_manager.windows[0].screen.areas
     if a.type == '{area}' for r in a.regions if r.type == 'UI' and hasattr(r, 'active_panel_category')), '')"""
+
+
+def in_view(code, kind="VIEW_3D", window=0):
+    """The code with an editor's main region as context."""
+    return "\n".join([
+        f"window = bpy.context.window_manager.windows[{window}]",
+        f"area = next(a for a in window.screen.areas if a.type == '{kind}')",
+        "region = next(r for r in area.regions if r.type == 'WINDOW')",
+        "with bpy.context.temp_override(window=window, area=area, region=region):",
+        *(f"    {line}" for line in code.strip().splitlines()), "",
+    ])  # fmt: skip
 
 
 def only(make, *finish):
@@ -131,8 +136,8 @@ class Window:
         Returns the error that it reports at once, if it does.
         """
         given = ", ".join(f"{name}={value!r}" for name, value in options.items())
-        call = f"    try: bpy.ops.{operator}('INVOKE_DEFAULT', {given})\n"
-        return self.run(f"{IN_VIEW.format(window=window)}{call}    except RuntimeError as error: result = str(error)")
+        call = f"try: bpy.ops.{operator}('INVOKE_DEFAULT', {given})\nexcept RuntimeError as error: result = str(error)"
+        return self.run(in_view(call, window=window))
 
     def key(self, *keys):
         """Press keys, one after the other."""

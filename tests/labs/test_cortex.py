@@ -12,6 +12,7 @@ import pytest
 from koebe.labs import cortex_command
 from nibabel import freesurfer
 from nilearn.datasets import fetch_surf_fsaverage
+from uv_measures import signed_areas, triangle_areas
 
 FILES = fetch_surf_fsaverage("fsaverage5")
 SIDES = {"left": "lh", "right": "rh"}
@@ -19,15 +20,6 @@ SIDES = {"left": "lh", "right": "rh"}
 
 def arrays(name, side):
     return [array.data for array in nibabel.load(FILES[f"{name}_{side}"]).darrays]
-
-
-def areas(corners):
-    return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-
-
-def signed(corners):
-    (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
-    return 0.5 * (ux * vy - uy * vx)
 
 
 def cortex_of(side):
@@ -64,9 +56,9 @@ def own(subject):
 def is_right(flat):
     """No face turned over, of the surface's area, upright; angles and areas as bounds of fsaverage5's say."""
     corners, points = flat.places[flat.map.triangles], flat.map.vertices[flat.map.triangles]
-    signs = signed(corners)
+    signs = signed_areas(corners)
     assert (signs > 0).all() and flat.map.flipped == 0
-    assert signs.sum() == pytest.approx(areas(points).sum(), rel=1e-9)
+    assert signs.sum() == pytest.approx(triangle_areas(points).sum(), rel=1e-9)
     assert flat.map.angle_error_deg["mean"] < 11 and flat.map.area_distortion["log_sd"] < 0.2
     assert not (flat.wall & flat.cuts).any()
     assert np.array_equal(np.isfinite(flat.places[:, 0]), ~(flat.wall | flat.cuts))
@@ -225,4 +217,4 @@ def test_a_lesion_stays_open_and_no_face_turns_over(subject):
     points = arrays("white", "left")[0]
     region = cortex_of("left") & (np.linalg.norm(points - (-50.0, 18.0, 12.0), axis=1) > 12.0)
     flat = koebe.cortex(subject, "lh", region=region)
-    assert (signed(flat.places[flat.map.triangles]) > 0).all() and not np.isfinite(flat.places[~region]).any()
+    assert (signed_areas(flat.places[flat.map.triangles]) > 0).all() and not np.isfinite(flat.places[~region]).any()

@@ -2,17 +2,14 @@
 
 import re
 import shutil
-import sys
 from pathlib import Path
 
 import koebe
 import nbformat
+import notebooks
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
-
-import notebooks  # noqa: E402
 
 
 def test_the_blocks_of_the_page_run(tmp_path, monkeypatch):

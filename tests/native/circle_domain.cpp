@@ -10,14 +10,6 @@
 namespace koebe::test {
 namespace {
 
-VectorXcd circle_points(const Circle& circle, Index count)
-{
-    VectorXcd points(count);
-    for (Index i = 0; i < count; ++i)
-        points[i] = circle.center + std::polar(circle.radius, 2.0 * std::numbers::pi * i / count);
-    return points;
-}
-
 /// Consecutive indices from begin; the points run counter-clockwise, so a hole's loop runs backwards.
 VertexLoop loop_indices(Index begin, Index count, bool outer)
 {
@@ -27,6 +19,23 @@ VertexLoop loop_indices(Index begin, Index count, bool outer)
 }
 
 }  // namespace
+
+VectorXcd points_on(const Circle& circle, Index count, double skew, int turn)
+{
+    VectorXcd points(count);
+    for (Index i = 0; i < count; ++i) {
+        const double t = turn * 2.0 * std::numbers::pi * i / count;
+        points[i] = circle.center + std::polar(circle.radius, t + skew * std::sin(t));
+    }
+    return points;
+}
+
+Index vertex_near(const CircleDomain& domain, Complex place)
+{
+    Index nearest = 0;
+    (domain.points.array() - place).abs().minCoeff(&nearest);
+    return nearest;
+}
 
 std::vector<Circle> five_circles()
 {
@@ -48,7 +57,7 @@ CircleDomain make_circle_domain(const std::vector<Circle>& circles, Index target
     for (std::size_t k = 0; k < circles.size(); ++k) {
         const Index count =
             std::max(Index{8}, static_cast<Index>(std::lround(2.0 * std::numbers::pi * circles[k].radius / h)));
-        polygons.push_back(circle_points(circles[k], count));
+        polygons.push_back(points_on(circles[k], count));
         domain.loops.push_back(loop_indices(begin, count, k == 0));
         begin += count;
     }
@@ -70,7 +79,7 @@ CircleDomain make_round_annulus(double inner, Index sectors, Index rings)
     domain.points.resize(sectors * (rings + 1));
     for (Index ring = 0; ring <= rings; ++ring)
         domain.points.segment(ring * sectors, sectors) =
-            circle_points({{0.0, 0.0}, std::pow(inner, static_cast<double>(ring) / rings)}, sectors);
+            points_on({{0.0, 0.0}, std::pow(inner, static_cast<double>(ring) / rings)}, sectors);
     domain.triangles.resize(2 * sectors * rings, 3);
     Index f = 0;
     for (Index ring = 0; ring < rings; ++ring)

@@ -18,6 +18,10 @@ struct CircleDomain {
     std::vector<VertexLoop> loops;  ///< as `circles`; the domain on the left
 };
 
+/// Points of a circle, in order: even, or crowded at angle pi the more the nearer `skew` is to 1.
+/// @param turn -1: clockwise
+VectorXcd points_on(const Circle& circle, Index count, double skew = 0.0, int turn = 1);
+
 /// Four holes of different sizes in the unit disk: five circles.
 std::vector<Circle> five_circles();
 
@@ -49,6 +53,9 @@ struct LiftedDomain {
     CircleDomain domain;
     Vertices vertices;
 };
+
+/// The vertex nearest to a place.
+Index vertex_near(const CircleDomain& domain, Complex place);
 
 /// Largest relative error of the inversive distances of all pairs: what no Moebius map changes.
 double inversive_distance_error(const std::vector<Circle>& found, const std::vector<Circle>& expected);

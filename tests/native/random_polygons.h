@@ -25,4 +25,12 @@ inline PolygonMesh random_polygons(Index vertex_count, Index face_count)
     return mesh;
 }
 
+/// 400 points, some beyond the unit circle by rounding.
+inline PlanarPoints points_of_the_disk()
+{
+    PlanarPoints points = PlanarPoints::Random(400, 2) * 0.7;
+    points.topRows(3) << 1.0 + 1e-12, 0.0, 0.0, -1.0 - 1e-12, 1.0 / 3.0, -1.0 / 7.0;
+    return points;
+}
+
 }  // namespace koebe::test

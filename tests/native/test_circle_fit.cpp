@@ -1,6 +1,8 @@
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
 
+#include "circle_domain.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,17 +13,7 @@ using namespace koebe;
 namespace {
 
 using std::numbers::pi;
-
-/// n points of a circle; skew 0 spaces them evenly, skew towards 1 crowds them at angle pi.
-VectorXcd points_on(const Circle& circle, int n, double skew = 0.0)
-{
-    VectorXcd points(n);
-    for (int i = 0; i < n; ++i) {
-        const double t = 2.0 * pi * i / n;
-        points[i] = circle.center + std::polar(circle.radius, t + skew * std::sin(t));
-    }
-    return points;
-}
+using test::points_on;
 
 void expect_equal(const Circle& found, const Circle& expected, double tolerance)
 {

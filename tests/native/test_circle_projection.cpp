@@ -1,28 +1,18 @@
 #include "circles/circle_projection.h"
 
-#include <gtest/gtest.h>
+#include "circle_domain.h"
 
-#include <numbers>
+#include <gtest/gtest.h>
 
 using namespace koebe;
 
-namespace {
-
-VectorXcd circle_points(const Circle& circle, Index count, int turn)
-{
-    VectorXcd points(count);
-    for (Index i = 0; i < count; ++i)
-        points[i] = circle.center + std::polar(circle.radius, turn * 2.0 * std::numbers::pi * i / count);
-    return points;
-}
-
-}  // namespace
+using test::points_on;
 
 TEST(CircleProjection, points_in_order_go_radially)
 {
     const Circle circle{{0.3, -0.1}, 0.2};
     for (const int turn : {1, -1}) {
-        VectorXcd points = circle_points(circle, 40, turn);
+        VectorXcd points = points_on(circle, 40, 0.0, turn);
         const VectorXcd expected = points;
         for (Index i = 0; i < 40; ++i) points[i] += 0.05 * std::sin(3.0 * i) * (points[i] - circle.center);
         EXPECT_LT((project_onto_circle(circle, points, turn) - expected).cwiseAbs().maxCoeff(), 1e-15);
@@ -34,7 +24,7 @@ TEST(CircleProjection, points_that_turn_back_are_put_in_order_and_the_others_sta
     const Circle circle{{0.3, -0.1}, 0.2};
     for (const int turn : {1, -1})
         for (const Index place : {0, 17, 38}) {
-            VectorXcd points = circle_points(circle, 40, turn);
+            VectorXcd points = points_on(circle, 40, 0.0, turn);
             const VectorXcd even = points;
             std::swap(points[place], points[place + 1]);
             const VectorXcd result = project_onto_circle(circle, points, turn);
@@ -54,7 +44,7 @@ TEST(CircleProjection, a_rim_that_turns_back_or_runs_round_twice_does_not_run_on
 {
     const Circle unit;
     for (const int turn : {1, -1}) {
-        VectorXcd points = circle_points(unit, 12, turn);
+        VectorXcd points = points_on(unit, 12, 0.0, turn);
         EXPECT_TRUE(run_once_round(points, turn));
         EXPECT_FALSE(run_once_round(points, -turn));
         // All on a part of the circle: the last step is more than half of it.
@@ -63,7 +53,7 @@ TEST(CircleProjection, a_rim_that_turns_back_or_runs_round_twice_does_not_run_on
         std::swap(points[4], points[5]);
         EXPECT_FALSE(run_once_round(points, turn));
         VectorXcd twice(24);
-        twice << circle_points(unit, 12, turn), circle_points(unit, 12, turn);
+        twice << points_on(unit, 12, 0.0, turn), points_on(unit, 12, 0.0, turn);
         EXPECT_FALSE(run_once_round(twice, turn));
     }
 }

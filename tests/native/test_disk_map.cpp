@@ -23,13 +23,6 @@ DiskMap map_of(const CircleDomain& domain, Lift kind, const DiskMapOptions& opti
                     static_cast<Index>(domain.points.size()), domain.loops[0], options);
 }
 
-Index vertex_nearest(const CircleDomain& domain, Complex place)
-{
-    Index nearest = 0;
-    (domain.points.array() - place).abs().minCoeff(&nearest);
-    return nearest;
-}
-
 /// Largest distance from the automorphism of the disk that takes the domain's point p to the origin, which Riemann's
 /// map is for every conformal lift, the best rotation taken out.
 double error_of(const CircleDomain& domain, const DiskMap& map)
@@ -48,7 +41,7 @@ TEST(DiskMap, is_riemanns_map_with_second_order_under_every_conformal_lift)
         double first = 0.0, last = 0.0;
         for (const Index faces : {1000, 16000}) {
             const CircleDomain domain = disk(faces);
-            last = error_of(domain, map_of(domain, kind, {.center = vertex_nearest(domain, {0.3, -0.2})}));
+            last = error_of(domain, map_of(domain, kind, {.center = vertex_near(domain, {0.3, -0.2})}));
             if (first == 0.0) first = last;
         }
         EXPECT_LT(last, 1e-3) << to_string(kind);
@@ -59,7 +52,7 @@ TEST(DiskMap, is_riemanns_map_with_second_order_under_every_conformal_lift)
 TEST(DiskMap, puts_p_at_the_origin_and_the_boundary_on_the_circle)
 {
     const CircleDomain domain = disk(1000);
-    const Index p = vertex_nearest(domain, {-0.5, 0.1});
+    const Index p = vertex_near(domain, {-0.5, 0.1});
     const DiskMap map = map_of(domain, Lift::enneper, {.center = p});
     EXPECT_EQ(map.center, p);
     EXPECT_LT(std::abs(map.positions[p]), 1e-15);
@@ -70,7 +63,7 @@ TEST(DiskMap, the_annulus_grows_to_the_disk_as_the_removed_disk_shrinks)
 {
     // Each halving of D_n halves the inner radius, and the maps approach a limit.
     const CircleDomain domain = disk(1000);
-    const Index p = vertex_nearest(domain, {0.3, -0.2});
+    const Index p = vertex_near(domain, {0.3, -0.2});
     VectorXcd before;
     double radius = 0.0, change = 0.0;
     for (const int halvings : {1, 2, 3, 4, 5, 6}) {

@@ -31,13 +31,6 @@ SurfacePoint at_vertex(const Triangles& triangles, Index v)
     return {};
 }
 
-Index vertex_near(const CircleDomain& domain, Complex place)
-{
-    Eigen::Index nearest = 0;
-    (domain.points.array() - place).abs().minCoeff(&nearest);
-    return static_cast<Index>(nearest);
-}
-
 /// The vertex of the outer rim nearest to an angle.
 Index rim_vertex(const CircleDomain& domain, double angle)
 {

@@ -100,8 +100,7 @@ TEST(HoleFilling, a_planar_hole_is_filled_by_its_own_area)
 TEST(HoleFilling, a_planar_patch_matches_the_edge_length_of_its_polygon)
 {
     for (const int m : {12, 60, 240}) {
-        VectorXcd polygon(m);
-        for (int i = 0; i < m; ++i) polygon[i] = std::polar(2.0, 2.0 * std::numbers::pi * i / m);
+        const VectorXcd polygon = test::points_on({0.0, 2.0}, m);
         const double h = std::abs(polygon[1] - polygon[0]);
         const PlanarMesh patch = planar_patch(polygon);
         EXPECT_EQ(patch.points.head(m), polygon);

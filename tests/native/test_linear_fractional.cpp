@@ -3,6 +3,8 @@
 #include "schottky/group_word.h"
 #include "schottky/linear_fractional.h"
 
+#include "circle_domain.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,14 +14,6 @@ namespace koebe {
 namespace {
 
 const LinearFractional some_map = linear_fractional({2.0, 1.0}, {0.3, -1.0}, {1.5, 0.5}, {-0.7, 2.0});
-
-VectorXcd points_of(const Circle& circle, int count)
-{
-    VectorXcd points(count);
-    for (int i = 0; i < count; ++i)
-        points[i] = circle.center + std::polar(circle.radius, 2.0 * std::numbers::pi * i / count);
-    return points;
-}
 
 TEST(LinearFractional, is_undone_by_its_inverse_and_of_determinant_1)
 {
@@ -34,7 +28,7 @@ TEST(LinearFractional, takes_circles_to_circles)
     for (const Circle circle :
          {Circle{{0.3, 0.1}, 0.2}, Circle{{-3.0, 2.0}, 1.5}, Circle{-some_map.d / some_map.c, 0.4}}) {
         const Circle image = some_map(circle);
-        for (const Complex z : points_of(circle, 7))
+        for (const Complex z : test::points_on(circle, 7))
             EXPECT_NEAR(std::abs(some_map(z) - image.center), image.radius, 1e-12 * image.radius);
     }
 }
@@ -43,7 +37,7 @@ TEST(LinearFractional, takes_the_outside_of_its_isometric_circle_to_the_inside_o
 {
     const Circle first = some_map.isometric_circle(), second = some_map.inverse().isometric_circle();
     EXPECT_DOUBLE_EQ(first.radius, second.radius);
-    for (const Complex z : points_of(first, 5))
+    for (const Complex z : test::points_on(first, 5))
         EXPECT_NEAR(std::abs(some_map(z) - second.center), second.radius, 1e-13);
     EXPECT_LT(std::abs(some_map(first.center + 3.0 * first.radius) - second.center), second.radius);
 }
@@ -67,12 +61,12 @@ TEST(LinearFractional, is_exact_beside_a_small_isometric_circle)
     const double r = 1e-7;
     const Complex i(0.0, 1.0);
     const LinearFractional map{i / r, i / r * (1.0 + r * r), i / r, i / r};
-    for (const Complex z : points_of({-1.0, r}, 6)) EXPECT_NEAR(std::abs(map(z) - 1.0) / r, 1.0, 1e-8);
+    for (const Complex z : test::points_on({-1.0, r}, 6)) EXPECT_NEAR(std::abs(map(z) - 1.0) / r, 1.0, 1e-8);
 }
 
 TEST(LinearFractional, is_found_again_from_points)
 {
-    const VectorXcd from = points_of({{5.0, 1.0}, 0.3}, 9);
+    const VectorXcd from = test::points_on({{5.0, 1.0}, 0.3}, 9);
     const LinearFractional found = fitted_map(from, some_map(from));
     EXPECT_LT((found(from) - some_map(from)).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_LT(std::abs(found(Complex(5.0, 1.4)) - some_map(Complex(5.0, 1.4))), 1e-10);

@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "execution/thread_share.h"
 #include "io/mesh_reader.h"
+#include "io/mesh_writer.h"
 #include "io/text_writer.h"
 #include "random_polygons.h"
 #include "temporary_folder.h"
@@ -12,7 +13,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <sstream>
 #include <string_view>
@@ -22,6 +22,7 @@ namespace koebe {
 namespace {
 
 using test::bytes_of;
+using test::points_of_the_disk;
 using test::random_polygons;
 using test::TemporaryFolder;
 
@@ -31,18 +32,6 @@ std::string written_with_uvs(const TemporaryFolder& folder, const PolygonMesh& m
     write_obj_with_uvs(file, mesh, points);
     file.commit();
     return bytes_of(folder.path() / "out.obj");
-}
-
-TEST(ObjWriter, ReadsBackToTheLastBitInTheSameOrder)
-{
-    const TemporaryFolder folder;
-    PolygonMesh mesh = random_polygons(5000, 3000);  // several buffers full
-    mesh.vertices.row(0) << -0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max();
-    written_with_uvs(folder, mesh, PlanarPoints::Zero(5000, 2));
-    const PolygonMesh read = read_mesh(folder.path() / "out.obj");
-    EXPECT_TRUE(read.vertices == mesh.vertices);
-    EXPECT_EQ(read.corners, mesh.corners);
-    EXPECT_EQ(read.face_begin, mesh.face_begin);
 }
 
 /// All numbers of few decimals are written on a way of their own.
@@ -68,8 +57,7 @@ TEST(ObjWriter, NumbersAreTheShortestThatReadBack)
 TEST(ObjWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquare)
 {
     const TemporaryFolder folder;
-    PlanarPoints points = PlanarPoints::Random(400, 2) * 0.7;
-    points.topRows(3) << 1.0 + 1e-12, 0.0, 0.0, -1.0 - 1e-12, 1.0 / 3.0, -1.0 / 7.0;
+    const PlanarPoints points = points_of_the_disk();
     std::istringstream lines(written_with_uvs(folder, random_polygons(400, 2), points));
     Index v = 0;
     for (std::string line; std::getline(lines, line);) {
@@ -152,19 +140,16 @@ TEST(ObjWriter, GroupsAreNamedWhereTheyChange)
     PolygonMesh mesh = random_polygons(3, 0);
     mesh.corners = {0, 1, 2, 1, 2, 0, 2, 0, 1};
     mesh.face_begin = {0, 3, 6, 9};
-    AtomicFile file(folder.path() / "out.obj");
-    write_obj_with_groups(file, mesh, {0, 0, 2}, {"surface", "patch_0", "patch_1"});
-    file.commit();
-    const std::string text = bytes_of(folder.path() / "out.obj");
+    AtomicFile named(folder.path() / "named.obj"), numbered(folder.path() / "numbered.obj");
+    write_obj_with_groups(named, mesh, {0, 0, 2}, {"surface", "patch_0", "patch_1"});
+    named.commit();
+    const std::string text = bytes_of(folder.path() / "named.obj");
     EXPECT_TRUE(text.ends_with("\ng surface\nf 1 2 3\nf 2 3 1\ng patch_1\nf 3 1 2\n")) << text;
     EXPECT_EQ(text.find("patch_0"), std::string::npos);
-}
-
-TEST(ObjWriter, NeedsAPointForEachVertex)
-{
-    const TemporaryFolder folder;
-    AtomicFile file(folder.path() / "out.obj");
-    EXPECT_THROW(write_obj_with_uvs(file, random_polygons(4, 1), PlanarPoints::Zero(3, 2)), InputError);
+    write_with_patches(numbered, *io::mesh_format(".obj"), mesh, {-1, 1, 1}, {MeshFile{}});
+    numbered.commit();
+    const std::string by_number = bytes_of(folder.path() / "numbered.obj");
+    EXPECT_TRUE(by_number.ends_with("\ng surface\nf 1 2 3\ng patch_1\nf 2 3 1\nf 3 1 2\n")) << by_number;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "core/errors.h"
 #include "planar/planar_mesh.h"
 
+#include "circle_domain.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,16 +15,7 @@ using namespace koebe;
 namespace {
 
 using std::numbers::pi;
-
-VectorXcd regular_polygon(Complex center, double radius, int n, double skew = 0.0)
-{
-    VectorXcd points(n);
-    for (int i = 0; i < n; ++i) {
-        const double t = 2.0 * pi * i / n;
-        points[i] = center + std::polar(radius, t + skew * std::sin(t));
-    }
-    return points;
-}
+using test::points_on;
 
 /// A star of n long spikes: far from convex.
 VectorXcd spiked_star(int n)
@@ -91,11 +84,11 @@ void expect_fills(const PlanarMesh& mesh, const std::vector<VectorXcd>& polygons
 TEST(PlanarMesh, fills_polygons_without_touching_their_edges)
 {
     for (const int n : {3, 4, 5, 8, 30, 200}) {
-        const VectorXcd polygon = regular_polygon({2.0, -1.0}, 3.0, n);
+        const VectorXcd polygon = points_on({{2.0, -1.0}, 3.0}, n);
         expect_fills(planar_mesh({polygon}), {polygon});
     }
     for (const double skew : {0.5, 0.9, 0.99}) {
-        const VectorXcd polygon = regular_polygon({0.0, 0.0}, 1.0, 100, skew);
+        const VectorXcd polygon = points_on({{0.0, 0.0}, 1.0}, 100, skew);
         expect_fills(planar_mesh({polygon}), {polygon});
     }
     expect_fills(planar_mesh({spiked_star(9)}), {spiked_star(9)});
@@ -103,21 +96,21 @@ TEST(PlanarMesh, fills_polygons_without_touching_their_edges)
 
 TEST(PlanarMesh, leaves_holes_open)
 {
-    const std::vector<VectorXcd> polygons{regular_polygon({0.0, 0.0}, 1.0, 120), regular_polygon({0.4, 0.3}, 0.2, 25),
-                                          regular_polygon({-0.4, 0.2}, 0.3, 37).reverse()};
+    const std::vector<VectorXcd> polygons{points_on({{0.0, 0.0}, 1.0}, 120), points_on({{0.4, 0.3}, 0.2}, 25),
+                                          points_on({{-0.4, 0.2}, 0.3}, 37).reverse()};
     expect_fills(planar_mesh(polygons, {.longest = 0.05}), polygons);
 }
 
 TEST(PlanarMesh, clockwise_polygons_give_counter_clockwise_triangles)
 {
-    const VectorXcd polygon = regular_polygon({0.0, 0.0}, 1.0, 40).reverse();
+    const VectorXcd polygon = points_on({{0.0, 0.0}, 1.0}, 40).reverse();
     expect_fills(planar_mesh({polygon}), {polygon});
 }
 
 TEST(PlanarMesh, edges_have_the_wanted_length_and_triangles_are_good)
 {
     const double h = 2.0 * pi / 200;
-    const PlanarMesh mesh = planar_mesh({regular_polygon({0.0, 0.0}, 1.0, 200)}, {.longest = h});
+    const PlanarMesh mesh = planar_mesh({points_on({{0.0, 0.0}, 1.0}, 200)}, {.longest = h});
     double sum = 0.0, longest = 0.0;
     for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k) {
@@ -133,7 +126,7 @@ TEST(PlanarMesh, edges_have_the_wanted_length_and_triangles_are_good)
 
 TEST(PlanarMesh, gradation_coarsens_away_from_the_boundary)
 {
-    const VectorXcd polygon = regular_polygon({0.0, 0.0}, 1.0, 300);
+    const VectorXcd polygon = points_on({{0.0, 0.0}, 1.0}, 300);
     const auto faces = [&](double gradation) {
         return planar_mesh({polygon}, {.gradation = gradation}).triangles.rows();
     };
@@ -143,7 +136,7 @@ TEST(PlanarMesh, gradation_coarsens_away_from_the_boundary)
 
 TEST(PlanarMesh, does_not_depend_on_the_unit_and_reruns_are_identical)
 {
-    const VectorXcd polygon = regular_polygon({0.0, 0.0}, 1.0, 60, 0.4);
+    const VectorXcd polygon = points_on({{0.0, 0.0}, 1.0}, 60, 0.4);
     const PlanarMesh mesh = planar_mesh({polygon}), again = planar_mesh({polygon});
     EXPECT_EQ(mesh.points, again.points);
     EXPECT_EQ(mesh.triangles, again.triangles);
@@ -160,7 +153,7 @@ TEST(PlanarMesh, polygons_that_are_not_simple_are_refused_with_the_place)
     bow << Complex(0, 0), Complex(1, 1), Complex(1, 0), Complex(0, 1);
     EXPECT_THROW(planar_mesh({bow}), InputError);
 
-    VectorXcd doubled = regular_polygon({0.0, 0.0}, 1.0, 6);
+    VectorXcd doubled = points_on({{0.0, 0.0}, 1.0}, 6);
     doubled[3] = doubled[1];
     try {
         planar_mesh({doubled});
@@ -168,15 +161,15 @@ TEST(PlanarMesh, polygons_that_are_not_simple_are_refused_with_the_place)
     } catch (const InputError& error) {
         EXPECT_FALSE(error.elements().empty());
     }
-    EXPECT_THROW(planar_mesh({regular_polygon({0.0, 0.0}, 1.0, 2)}), InputError);
-    VectorXcd broken = regular_polygon({0.0, 0.0}, 1.0, 6);
+    EXPECT_THROW(planar_mesh({points_on({{0.0, 0.0}, 1.0}, 2)}), InputError);
+    VectorXcd broken = points_on({{0.0, 0.0}, 1.0}, 6);
     broken[2] = Complex(std::nan(""), 0.0);
     EXPECT_THROW(planar_mesh({broken}), InputError);
 }
 
 TEST(PlanarMesh, takes_polygons_of_any_size)
 {
-    const VectorXcd polygon = regular_polygon({0.1, -0.2}, 0.7, 30, 0.5);
+    const VectorXcd polygon = points_on({{0.1, -0.2}, 0.7}, 30, 0.5);
     const PlanarMesh mesh = planar_mesh({polygon});
     for (const int exponent : {-900, -300, 300, 1000}) {
         const double scale = std::ldexp(1.0, exponent);
@@ -188,7 +181,7 @@ TEST(PlanarMesh, takes_polygons_of_any_size)
 
 TEST(PlanarMesh, bare_it_has_the_polygons_points_only)
 {
-    const std::vector<VectorXcd> polygons = {spiked_star(9), regular_polygon({0.0, 0.0}, 0.1, 12)};
+    const std::vector<VectorXcd> polygons = {spiked_star(9), points_on({{0.0, 0.0}, 0.1}, 12)};
     const PlanarMesh mesh = planar_mesh(polygons, {.bare = true});
     EXPECT_EQ(mesh.points.size(), 18 + 12);
     ASSERT_EQ(mesh.triangles.rows(), 18 + 12);  // Euler: points + 2 (holes - 1)

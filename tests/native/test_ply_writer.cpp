@@ -20,6 +20,7 @@ namespace koebe {
 namespace {
 
 using test::bytes_of;
+using test::points_of_the_disk;
 using test::random_polygons;
 using test::TemporaryFolder;
 
@@ -45,16 +46,20 @@ std::vector<std::vector<double>> rows(const std::string& text)
     return result;
 }
 
-TEST(PlyWriter, ReadsBackToTheLastBitInTheSameOrder)
+TEST(MeshWriter, ReadsBackToTheLastBitInTheSameOrder)
 {
     const TemporaryFolder folder;
     PolygonMesh mesh = random_polygons(5000, 3000);  // several buffers full
     mesh.vertices.row(0) << -0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max();
-    written(folder, [&](AtomicFile& file) { write_ply_with_uvs(file, mesh, PlanarPoints::Zero(5000, 2)); });
-    const PolygonMesh read = read_mesh(folder.path() / "out.ply");
-    EXPECT_TRUE(read.vertices == mesh.vertices);
-    EXPECT_EQ(read.corners, mesh.corners);
-    EXPECT_EQ(read.face_begin, mesh.face_begin);
+    for (const std::string extension : {".obj", ".ply"}) {
+        AtomicFile file(folder.path() / ("out" + extension));
+        write_with_uvs(file, *io::mesh_format(extension), mesh, PlanarPoints::Zero(5000, 2), {MeshFile{}});
+        file.commit();
+        const PolygonMesh read = read_mesh(folder.path() / ("out" + extension));
+        EXPECT_TRUE(read.vertices == mesh.vertices);
+        EXPECT_EQ(read.corners, mesh.corners);
+        EXPECT_EQ(read.face_begin, mesh.face_begin);
+    }
 }
 
 TEST(PlyWriter, CgalReadsTheSame)
@@ -78,8 +83,7 @@ TEST(PlyWriter, CgalReadsTheSame)
 TEST(PlyWriter, TextureCoordinatesAreTheDiskMovedIntoTheUnitSquareUnderBothNames)
 {
     const TemporaryFolder folder;
-    PlanarPoints points = PlanarPoints::Random(400, 2) * 0.7;
-    points.topRows(3) << 1.0 + 1e-12, 0.0, 0.0, -1.0 - 1e-12, 1.0 / 3.0, -1.0 / 7.0;
+    const PlanarPoints points = points_of_the_disk();
     const std::string text =
         written(folder, [&](AtomicFile& file) { write_ply_with_uvs(file, random_polygons(400, 2), points); });
     EXPECT_NE(
@@ -178,11 +182,14 @@ TEST(PlyWriter, PolygonsOfManyCornersHaveAWiderCount)
     }
 }
 
-TEST(PlyWriter, NeedsAPointForEachVertex)
+TEST(MeshWriter, NeedsAPointForEachVertex)
 {
     const TemporaryFolder folder;
-    AtomicFile file(folder.path() / "out.ply");
-    EXPECT_THROW(write_ply_with_uvs(file, random_polygons(4, 1), PlanarPoints::Zero(3, 2)), InputError);
+    AtomicFile file(folder.path() / "out");
+    for (const char* extension : {".obj", ".ply"})
+        EXPECT_THROW(write_with_uvs(file, *io::mesh_format(extension), random_polygons(4, 1), PlanarPoints::Zero(3, 2),
+                                    {MeshFile{}}),
+                     InputError);
 }
 
 TEST(MeshWriter, TheExtensionNamesTheFormat)
@@ -193,18 +200,6 @@ TEST(MeshWriter, TheExtensionNamesTheFormat)
     EXPECT_EQ(written_format("/dev/null"), io::mesh_format(".obj"));
     for (const char* other : {"a.off", "a.stl", "a.glb", "a.gltf", "a", ".obj", "a.obj.", "a.obj ", "a.plyx", ""})
         EXPECT_FALSE(written_format(folder.path() / other)) << other;
-}
-
-TEST(MeshWriter, ObjPatchesAreGroupsByNumber)
-{
-    const TemporaryFolder folder;
-    PolygonMesh mesh = random_polygons(3, 0);
-    mesh.corners = {0, 1, 2, 1, 2, 0, 2, 0, 1};
-    mesh.face_begin = {0, 3, 6, 9};
-    const std::string text = written(folder, [&](AtomicFile& file) {
-        write_with_patches(file, *io::mesh_format(".obj"), mesh, {-1, 1, 1}, {MeshFile{}});
-    });
-    EXPECT_TRUE(text.ends_with("\ng surface\nf 1 2 3\ng patch_1\nf 2 3 1\nf 3 1 2\n")) << text;
 }
 
 }  // namespace

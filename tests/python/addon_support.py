@@ -1,4 +1,4 @@
-"""The modules of the add-on that need no bpy, imported from this checkout."""
+"""The add-on's modules, imported from this checkout: in Blender all, elsewhere those that need no bpy."""
 
 import importlib
 import importlib.util
@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 ADDON = Path(__file__).resolve().parents[2] / "addon"
-NAME = "addon_without_bpy"
+NAME = "koebe_uv"
 # Code for another process: makes `addon_module` there.
 LOAD = f"import sys\nsys.path.insert(0, {str(Path(__file__).parent)!r})\nfrom addon_support import addon_module\n"
 
@@ -20,6 +20,13 @@ def addon_module(name):
         sys.modules[NAME] = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(sys.modules[NAME])
     return importlib.import_module(f"{NAME}.{name}")
+
+
+def registered_addon():
+    """Register the add-on of this checkout in Blender. @return the native package"""
+    native_package = addon_module("jobs.native_package")
+    sys.modules[NAME].register()
+    return native_package.load()
 
 
 def maps_module(name):

@@ -21,11 +21,25 @@ def koebe(*args, **options):
     return subprocess.run([COMMAND, *map(str, args)], capture_output=True, text=True, timeout=120, **options)
 
 
+def succeeded(*args, **options):
+    """The finished process of a call that has to succeed."""
+    run = koebe(*args, **options)
+    assert run.returncode == 0, run.stderr
+    return run
+
+
 def lasting(value):
     """A report without what is measured anew in each run."""
     if isinstance(value, dict):
         return {key: lasting(one) for key, one in value.items() if key not in ("seconds", "peak_memory_mb")}
     return [lasting(one) for one in value] if isinstance(value, list) else value
+
+
+def same_as_package(report, result):
+    """Whether a command's report is the package's, but for the file and what is measured anew in each run."""
+    of_file = ("input", "input_sha256")
+    own, said = (lasting({k: v for k, v in one.items() if k not in of_file}) for one in (result.to_dict(), report))
+    return own == said
 
 
 def contents(folder):
@@ -72,6 +86,12 @@ def triangles_of(quads):
     return quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
 
 
+def triangulated_plate(*shape, **options):
+    """As `perforated`, in triangles."""
+    vertices, quads = perforated(*shape, **options)
+    return vertices, triangles_of(quads).astype(np.int32)
+
+
 def obj_text(vertices, faces):
     lines = ["v " + " ".join(repr(float(x)) for x in v) for v in vertices]
     lines += ["f " + " ".join(str(i + 1) for i in f) for f in faces]
@@ -101,6 +121,25 @@ def stl_text(vertices, triangles):
         corners = "".join(f"vertex {x!r} {y!r} {z!r}\n" for x, y, z in vertices[triangle].tolist())
         facets.append(f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
     return "solid a\n" + "".join(facets) + "endsolid a\n"
+
+
+def write_obj(path, vertices, faces):
+    path.write_text(obj_text(vertices, faces))
+
+
+def obj_rows(path, keyword):
+    """The numbers of all lines of an OBJ that begin with the keyword."""
+    lines = [line.split() for line in path.read_text(encoding="utf-8").splitlines()]
+    return np.array([words[1:] for words in lines if words and words[0] == keyword], float)
+
+
+def read_corners(path):
+    """Vertices, faces, and (u, v) of each corner of each face of an OBJ."""
+    places = obj_rows(path, "vt").tolist()
+    words = [line.split()[1:] for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("f ")]
+    pairs = [[[int(number) - 1 for number in word.split("/")[:2]] for word in face] for face in words]
+    faces, corners = [[v for v, _ in face] for face in pairs], [[places[t][:2] for _, t in face] for face in pairs]
+    return obj_rows(path, "v"), faces, corners
 
 
 class Obj:

@@ -5,6 +5,7 @@ import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 
 import numpy as np
+from uv_measures import signed_areas
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -87,15 +88,10 @@ def inside(point, rings):
     return count % 2 == 1
 
 
-def areas(uv):
-    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
-    return 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-
-
 def require_sound(result, allowance=0.0):
     """What holds for every pattern: pieces are one to one, apart, whole, and true to the report."""
     mapped = result.part >= 0
-    assert (areas(result.uv[mapped]) > 0).all()
+    assert (signed_areas(result.uv[mapped]) > 0).all()
     polylines, texts, unit = dxf_entities(result.dxf)
     assert unit == "4"
     cuts = [points for layer, closed, points in polylines if layer == "CUT"]
@@ -107,7 +103,8 @@ def require_sound(result, allowance=0.0):
         for j in range(i):
             if (boxes[i][0] <= boxes[j][1]).all() and (boxes[j][0] <= boxes[i][1]).all():
                 assert crossings(first, cuts[j]) == 0
-    assert abs(sum(map(enclosed, seams)) - areas(result.uv[mapped]).sum()) <= 1e-9 * areas(result.uv[mapped]).sum()
+    area = signed_areas(result.uv[mapped]).sum()
+    assert abs(sum(map(enclosed, seams)) - area) <= 1e-9 * area
     total = sum(piece["outline_mm"] for piece in result.pieces)
     assert abs(sum(lengths(points).sum() for points in seams) - total) <= 1e-9 * total
     numbers = [text for _, text in texts if not text.startswith("P")]

@@ -28,7 +28,9 @@ from cli_support import (
     perforated,
     ply_bytes,
     stl_text,
+    succeeded,
     triangles_of,
+    triangulated_plate,
 )
 
 HOSTILE = sorted((ROOT.parent / "shared" / "meshes" / "hostile").glob("*"))
@@ -39,8 +41,7 @@ HOSTILE = sorted((ROOT.parent / "shared" / "meshes" / "hostile").glob("*"))
 
 def test_out_has_the_same_vertices_and_polygons_and_circles_for_holes(mesh):
     vertices, quads = perforated()
-    run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json")
-    assert run.returncode == 0, run.stderr
+    succeeded("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json")
     out = Obj(mesh / "out.obj")
     assert np.array_equal(out.vertices, vertices)  # to the last bit
     assert out.faces == [tuple(q) for q in quads]
@@ -117,8 +118,7 @@ def test_every_format_gives_the_same_map(mesh):
 def test_stl_corners_become_shared_vertices(mesh):
     vertices, quads = perforated()
     (mesh / "in.STL").write_text(stl_text(vertices, triangles_of(quads)))
-    run = koebe("uniformize", mesh / "in.STL", mesh / "out.obj")
-    assert run.returncode == 0, run.stderr
+    succeeded("uniformize", mesh / "in.STL", mesh / "out.obj")
     out = Obj(mesh / "out.obj")
     assert len(out.vertices) == len(vertices)
     assert np.array_equal(out.vertices[np.array(out.faces)], vertices[triangles_of(quads)])
@@ -127,8 +127,7 @@ def test_stl_corners_become_shared_vertices(mesh):
 def test_outer_picks_the_loop_of_the_unit_circle(mesh):
     koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json")
     hole = json.loads((mesh / "report.json").read_text())["loops"][2]["vertices"]
-    run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json", "--outer", hole[1])
-    assert run.returncode == 0, run.stderr
+    run = succeeded("uniformize", mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json", "--outer", hole[1])
     report = json.loads((mesh / "report.json").read_text())
     assert set(report["loops"][0]["vertices"]) == set(hole)
     uv = disk(Obj(mesh / "out.obj").uv)
@@ -150,8 +149,7 @@ def test_center_goes_to_0_and_point_to_1(mesh, command):
     rim = {v for loop in plain["loops"] for v in loop["vertices"]}
     inside = next(v for v in range(len(perforated()[0])) if v not in rim)
     places = ["--center", inside, "--point", hole[1]]
-    run = koebe(command, mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json", *places)
-    assert run.returncode == 0, run.stderr
+    run = succeeded(command, mesh / "in.obj", mesh / "out.obj", "--json", mesh / "report.json", *places)
     uv, report = Obj(mesh / "out.obj").uv, json.loads((mesh / "report.json").read_text())
     assert uv[inside].tolist() == [0.5, 0.5] and uv[hole[1]].tolist() == [1.0, 0.5]
     assert (report["center"], report["point"], report["flipped"]) == (inside, hole[1], 0)
@@ -174,8 +172,7 @@ def test_vertices_of_no_face_and_faces_of_no_area_stay_in_the_file(tmp_path):
     vertices, quads = perforated()
     text = "v 9 9 9\n" + obj_text(vertices, quads + 1) + "v 8 8 8\n" + "f 2 2 3\n"
     (tmp_path / "in.obj").write_text(text)
-    run = koebe("uniformize", tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "report.json")
-    assert run.returncode == 0, run.stderr
+    succeeded("uniformize", tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "report.json")
     out = Obj(tmp_path / "out.obj")
     assert np.array_equal(out.vertices, [[9, 9, 9], *vertices, [8, 8, 8]])
     assert out.faces[-1] == (1, 1, 2) and len(out.faces) == len(quads) + 1
@@ -185,8 +182,7 @@ def test_vertices_of_no_face_and_faces_of_no_area_stay_in_the_file(tmp_path):
 
 
 def test_svg_shows_every_circle(mesh):
-    run = koebe("uniformize", mesh / "in.obj", mesh / "out.obj", "--svg", mesh / "picture.svg")
-    assert run.returncode == 0, run.stderr
+    succeeded("uniformize", mesh / "in.obj", mesh / "out.obj", "--svg", mesh / "picture.svg")
     svg = ElementTree.parse(mesh / "picture.svg").getroot()
     tag = "{http://www.w3.org/2000/svg}"
     assert svg.get("viewBox")
@@ -271,8 +267,8 @@ def test_wrong_usage_is_2_and_writes_nothing(mesh, arguments):
     "arguments", [["--help"], ["--version"], ["uniformize", "--help"], ["fill", "--help"], ["ricci", "--help"]]
 )
 def test_help_and_version_are_0(arguments):
-    run = koebe(*arguments)
-    assert run.returncode == 0 and run.stdout and not run.stderr
+    run = succeeded(*arguments)
+    assert run.stdout and not run.stderr
 
 
 def test_not_converged_is_4_and_all_files_are_written(mesh):
@@ -336,8 +332,7 @@ def tube(n=12, m=5, twist=False, close=False):
 
 def hostile_meshes():
     """Name, file and bytes, and what the error line starts with."""
-    vertices, quads = perforated(8, ((0.5, 0.5, 0.2),))
-    triangles = triangles_of(quads)
+    vertices, triangles = triangulated_plate(8, ((0.5, 0.5, 0.2),))
     good = obj_text(vertices, triangles)
     two = obj_text(np.concatenate([vertices, vertices + 5]), np.concatenate([triangles, triangles + len(vertices)]))
     closed = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
@@ -467,8 +462,7 @@ def test_an_error_on_a_terminal_is_one_clean_line(mesh):
 
 def test_ricci_has_the_files_and_the_report_of_uniformize(mesh):
     files = lambda name: ("--json", mesh / f"{name}.json", "--svg", mesh / f"{name}.svg")  # noqa: E731
-    run = koebe("ricci", mesh / "in.obj", mesh / "ricci.obj", *files("ricci"))
-    assert run.returncode == 0, run.stderr
+    run = succeeded("ricci", mesh / "in.obj", mesh / "ricci.obj", *files("ricci"))
     assert re.fullmatch(r".*ricci\.obj: 4 loops, \d+ sweeps, roundness .*, 0 flipped, [0-9.]+ s\n", run.stdout)
     assert koebe("uniformize", mesh / "in.obj", mesh / "koebe.obj", *files("koebe")).returncode == 0
     ricci, gk = (json.loads((mesh / f"{name}.json").read_text()) for name in ("ricci", "koebe"))

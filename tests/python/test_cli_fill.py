@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from cli_support import USAGE, Obj, koebe, names, obj_text, perforated
+from cli_support import USAGE, Obj, koebe, names, obj_text, perforated, succeeded
 
 
 def border_of(faces):
@@ -14,8 +14,7 @@ def border_of(faces):
 
 def test_fill_leaves_the_longest_loop_open_and_labels_the_patches(mesh):
     vertices, quads = perforated()
-    run = koebe("fill", mesh / "in.obj", mesh / "out.obj")
-    assert run.returncode == 0, run.stderr
+    run = succeeded("fill", mesh / "in.obj", mesh / "out.obj")
     assert re.fullmatch(r".*out\.obj: 3 loops filled, \d+ faces added, [0-9.]+ s\n", run.stdout), run.stdout
     out = Obj(mesh / "out.obj")
     assert np.array_equal(out.vertices[: len(vertices)], vertices)
@@ -28,13 +27,12 @@ def test_fill_leaves_the_longest_loop_open_and_labels_the_patches(mesh):
 
 
 def test_fill_all_closes_the_surface(mesh):
-    run = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--all")
-    assert run.returncode == 0 and ": 4 loops filled, " in run.stdout, run
+    run = succeeded("fill", mesh / "in.obj", mesh / "out.obj", "--all")
+    assert ": 4 loops filled, " in run.stdout, run
     out = Obj(mesh / "out.obj")
     assert border_of(out.faces) == set()
     assert [name for name, _ in out.groups] == ["surface", "patch_0", "patch_1", "patch_2", "patch_3"]
-    again = koebe("fill", mesh / "out.obj", mesh / "again.obj")  # nothing is left
-    assert again.returncode == 0, again.stderr
+    again = succeeded("fill", mesh / "out.obj", mesh / "again.obj")  # nothing is left
     assert re.search(r"again\.obj: 0 loops filled, 0 faces added, \S+ s, 1 warning: there is no hole", again.stdout)
     assert Obj(mesh / "again.obj").faces == out.faces
 
@@ -42,8 +40,7 @@ def test_fill_all_closes_the_surface(mesh):
 def test_fill_leaves_the_loop_of_a_vertex_open(mesh):
     vertices, quads = perforated()
     ring = np.flatnonzero(np.abs(np.linalg.norm(vertices[:, :2] - [0.7, 0.35], axis=1) - 0.1) < 1e-9)
-    run = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--outer", ring[3])
-    assert run.returncode == 0, run.stderr
+    run = succeeded("fill", mesh / "in.obj", mesh / "out.obj", "--outer", ring[3])
     assert {v for edge in border_of(Obj(mesh / "out.obj").faces) for v in edge} == set(ring)
     inner = int(np.argmin(np.linalg.norm(vertices[:, :2] - [0.5, 0.5], axis=1)))
     for bad in (inner, len(vertices)):
@@ -54,8 +51,7 @@ def test_fill_leaves_the_loop_of_a_vertex_open(mesh):
 
 def test_fill_of_chosen_loops_leaves_the_others_open(mesh):
     _, quads = perforated()
-    run = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--loops", "1,3")
-    assert run.returncode == 0, run.stderr
+    succeeded("fill", mesh / "in.obj", mesh / "out.obj", "--loops", "1,3")
     out = Obj(mesh / "out.obj")
     assert [name for name, _ in out.groups] == ["surface", "patch_1", "patch_3"]
     still_open = border_of(out.faces)
@@ -72,8 +68,8 @@ def test_fill_keeps_polygons_that_lie_the_wrong_way_round_and_names_them(mesh):
     vertices, quads = perforated()
     text = obj_text(vertices, [q[::-1] if i == 7 else q for i, q in enumerate(quads)])
     (mesh / "in.obj").write_text(text)
-    run = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--all")
-    assert run.returncode == 0 and "kept in the other orientation" in run.stdout and "is 7" in run.stdout
+    run = succeeded("fill", mesh / "in.obj", mesh / "out.obj", "--all")
+    assert "kept in the other orientation" in run.stdout and "is 7" in run.stdout
     kept = [line for line in (mesh / "out.obj").read_text().splitlines() if line.startswith("f ")]
     assert kept[: len(quads)] == [line for line in text.splitlines() if line.startswith("f ")]
     faces = Obj(mesh / "out.obj").faces
@@ -87,8 +83,7 @@ def test_fill_is_finite_at_the_ends_of_the_numbers(mesh, scale):
     with np.errstate(over="ignore"):
         huge = np.clip((2.0 * vertices - 1.0) * scale, -1.7e308, 1.7e308)
     (mesh / "in.obj").write_text(obj_text(huge, quads))
-    run = koebe("fill", mesh / "in.obj", mesh / "out.obj", "--all")
-    assert run.returncode == 0, run.stderr
+    succeeded("fill", mesh / "in.obj", mesh / "out.obj", "--all")
     out = Obj(mesh / "out.obj").vertices
     assert np.isfinite(out).all()
     assert (out.min(axis=0) >= huge.min(axis=0)).all() and (out.max(axis=0) <= huge.max(axis=0)).all()

@@ -9,7 +9,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, COMMAND, USAGE, Obj, koebe, names, obj_text, perforated
+from cli_support import CANNOT_BE_MAPPED, COMMAND, USAGE, Obj, koebe, names, obj_text, perforated, succeeded
 
 
 @pytest.fixture
@@ -49,8 +49,7 @@ def test_ply_has_the_map_of_obj_in_the_same_order(folder):
     assert np.array_equal(vertices[:, :3], obj.vertices)  # to the last bit
     assert np.array_equal(vertices[:, 3:5], obj.uv) and np.array_equal(vertices[:, 5:7], obj.uv)
     assert polygons == obj.faces
-    again = koebe("uniformize", "out.PLY", "again.obj", cwd=folder)  # it is read back
-    assert again.returncode == 0, again.stderr
+    succeeded("uniformize", "out.PLY", "again.obj", cwd=folder)  # it is read back
     back = Obj(folder / "again.obj")
     assert np.array_equal(back.vertices, obj.vertices) and np.array_equal(back.uv, obj.uv) and back.faces == obj.faces
 
@@ -86,8 +85,8 @@ def test_pipes_without_an_extension_take_obj(folder):
     os.mkfifo(folder / "pipe")
     with open(os.open(folder / "pipe", os.O_RDWR), "rb") as pipe:  # there is a reader from the start
         fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, 1 << 20)
-        run = koebe("uniformize", "in.obj", "pipe", cwd=folder)
-        assert run.returncode == 0 and run.stdout.startswith("pipe: 4 loops"), run
+        run = succeeded("uniformize", "in.obj", "pipe", cwd=folder)
+        assert run.stdout.startswith("pipe: 4 loops"), run
         assert os.read(pipe.fileno(), 1 << 20) == expected
     assert stat.S_ISFIFO(os.stat(folder / "pipe").st_mode)
     assert names(folder) == {"in.obj", "out.obj", "pipe"}
@@ -196,8 +195,7 @@ def test_a_link_stays_and_its_target_is_replaced(folder):
     koebe("uniformize", "in.obj", "out.obj", cwd=folder)
     expected = (folder / "out.obj").read_bytes()
     for name, target in (("dangling.obj", "new.obj"), ("link.obj", "in.obj")):
-        run = koebe("uniformize", "in.obj", name, cwd=folder)
-        assert run.returncode == 0, run.stderr
+        succeeded("uniformize", "in.obj", name, cwd=folder)
         assert (folder / name).is_symlink() and (folder / target).read_bytes() == expected
     assert (folder / "hard.obj").read_text() == obj_text(*perforated())  # the other name keeps the old file
 
@@ -348,8 +346,7 @@ def test_a_large_obj_keeps_all_whatever_the_threads(tmp_path):
     assert (tmp_path / "in.obj").stat().st_size > 2**21
     texts = []
     for threads in ("1", "2", "3"):
-        run = koebe("uniformize", "in.obj", "out.obj", "--threads", threads, cwd=tmp_path)
-        assert run.returncode == 0, run.stderr
+        succeeded("uniformize", "in.obj", "out.obj", "--threads", threads, cwd=tmp_path)
         texts.append((tmp_path / "out.obj").read_text())
     assert kept_lines(texts[0]) == kept_lines((tmp_path / "in.obj").read_text())
     assert texts[0] == texts[1] == texts[2]

@@ -5,12 +5,11 @@ import pickle
 import koebe
 import numpy as np
 import pytest
-from cli_support import perforated, triangles_of
+from cli_support import triangulated_plate
 from koebe import _option_table
 
 HOLES = ((0.3, 0.3, 0.14), (0.7, 0.35, 0.1), (0.5, 0.72, 0.12))
-VERTICES, QUADS = perforated(16, HOLES)
-FACES = triangles_of(QUADS).astype(np.int32)
+VERTICES, FACES = triangulated_plate(16, HOLES)
 PLAIN = koebe.uniformize(VERTICES, FACES)
 OTHER = koebe.uniformize(VERTICES * [1, 1.4, 1] + 0.1 * np.sin(5 * VERTICES[:, [1, 0, 2]]), FACES)
 INSIDE = int(np.setdiff1d(np.arange(len(VERTICES)), np.concatenate(PLAIN.loops))[7])

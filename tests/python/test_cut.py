@@ -5,8 +5,9 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, read_corners, succeeded, triangles_of
 from cli_support import koebe as command
+from uv_measures import signed_areas
 
 
 def torus(m=16, n=8, thick=0.35):
@@ -23,33 +24,15 @@ def torus(m=16, n=8, thick=0.35):
     return vertices, quads
 
 
-def read_corners(path):
-    """Vertices, faces, and (u, v) of each corner of each face of an OBJ."""
-    vertices, places, faces, corners = [], [], [], []
-    for line in path.read_text().splitlines():
-        keyword, *words = line.split() or [""]
-        if keyword == "v":
-            vertices.append([float(w) for w in words])
-        elif keyword == "vt":
-            places.append([float(w) for w in words])
-        elif keyword == "f":
-            pairs = [tuple(int(x) - 1 for x in w.split("/")) for w in words]
-            faces.append([v for v, _ in pairs])
-            corners.append([places[t] for _, t in pairs])
-    return np.array(vertices), faces, corners
-
-
 def areas(uv):
     """Signed areas of (F, 3, 2), the coordinates rounded to 32 bits."""
-    a, b, c = np.moveaxis(uv.astype(np.float32).astype(float), 1, 0)
-    return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (c - a)[:, 0] * (b - a)[:, 1])
+    return signed_areas(uv.astype(np.float32).astype(float))
 
 
 def test_a_torus_of_quadrilaterals_keeps_its_faces_and_gets_seams(tmp_path):
     vertices, quads = torus()
     (tmp_path / "in.obj").write_text(obj_text(vertices, quads))
-    done = command("uniformize", "in.obj", "out.obj", "--cut", "--json", "r.json", "--svg", "p.svg", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    done = succeeded("uniformize", "in.obj", "out.obj", "--cut", "--json", "r.json", "--svg", "p.svg", cwd=tmp_path)
     assert done.stdout.startswith("out.obj: 1 piece, 2 cuts, angle error")
     positions, faces, corners = read_corners(tmp_path / "out.obj")
     assert np.array_equal(positions, vertices) and faces == quads.tolist()
@@ -93,8 +76,7 @@ def test_faces_without_a_place_stay_in_the_file(tmp_path):
     vertices, quads = perforated()
     faces = [*triangles_of(quads).tolist(), [0, 0, 1], quads[0].tolist()[:3], [2, 2, 2]]
     (tmp_path / "in.obj").write_text(obj_text(vertices, faces))
-    done = command("uniformize", "--cut", "in.obj", "out.obj", "--json", "r.json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("uniformize", "--cut", "in.obj", "out.obj", "--json", "r.json", cwd=tmp_path)
     _, written, corners = read_corners(tmp_path / "out.obj")
     assert written == faces
     assert corners[-2] == corners[0]  # drawn over the face that it repeats
@@ -119,8 +101,7 @@ def test_a_polygon_that_is_none_is_left_out(tmp_path):
     faces = [*quads.tolist(), [0, 1, 0, 2]]
     (tmp_path / "in.obj").write_text(obj_text(vertices, faces))
     assert command("uniformize", "in.obj", "out.obj", cwd=tmp_path).returncode == CANNOT_BE_MAPPED
-    done = command("uniformize", "--cut", "in.obj", "out.obj", "--json", "r.json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("uniformize", "--cut", "in.obj", "out.obj", "--json", "r.json", cwd=tmp_path)
     _, written, corners = read_corners(tmp_path / "out.obj")
     assert written == faces and len({tuple(c) for c in corners[-1]}) == 1
     first = json.loads((tmp_path / "r.json").read_text())["warnings"][0]
@@ -170,20 +151,6 @@ def test_python_takes_degenerate_faces_with_cut_alone():
     assert result.piece[-2:].tolist() == [-1, -1] and result.left_out[-1]["like"] == 0
     assert np.array_equal(result.uv[-1], result.uv[0][[1, 0, 2]])
     assert np.isfinite(result.uv).all()
-
-
-def test_progress_and_cancel_of_many_pieces():
-    vertices, quads = torus()
-    triangles = triangles_of(quads)
-    many = np.concatenate([vertices + [3.0 * k, 0, 0] for k in range(5)])
-    faces = np.concatenate([triangles + k * len(vertices) for k in range(5)])
-    seen = []
-    result = koebe.uniformize(many, faces, cut=True, progress=lambda fraction, stage: seen.append(fraction))
-    assert len(result.pieces) == 5 and seen == sorted(seen) and seen[-1] == 1.0
-    token = koebe.CancelToken()
-    token.cancel()
-    with pytest.raises(koebe.Cancelled):
-        koebe.uniformize(many, faces, cut=True, cancel=token)
 
 
 def test_a_batch_cuts_too_and_knows_what_it_has_done(tmp_path):

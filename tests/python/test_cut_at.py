@@ -5,7 +5,7 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import koebe as run
+from cli_support import succeeded
 from glb_support import GlbBuilder
 
 FACES = [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]]
@@ -24,8 +24,7 @@ def cube(before=("",) * 6, normals=None):
 
 def parts(tmp_path, text, *words):
     (tmp_path / "i.obj").write_text(text)
-    done = run("parts", tmp_path / "i.obj", tmp_path / "o.obj", "--json", tmp_path / "j.json", *words)
-    assert done.returncode == 0, done.stderr
+    succeeded("parts", tmp_path / "i.obj", tmp_path / "o.obj", "--json", tmp_path / "j.json", *words)
     return json.loads((tmp_path / "j.json").read_text())["parts"]
 
 
@@ -112,6 +111,5 @@ def test_materials_of_glb_cut(tmp_path):
                     "indices": glb.accessor(faces.ravel(), "SCALAR")}
                    for faces, material in zip(halves, materials, strict=True)])  # fmt: skip
         (tmp_path / "i.glb").write_bytes(glb.bytes())
-        done = run("parts", tmp_path / "i.glb", tmp_path / "o.glb", "--json", tmp_path / "j.json", "--cut-at=materials")
-        assert done.returncode == 0, done.stderr
+        succeeded("parts", tmp_path / "i.glb", tmp_path / "o.glb", "--json", tmp_path / "j.json", "--cut-at=materials")
         assert len(json.loads((tmp_path / "j.json").read_text())["parts"]) == expected

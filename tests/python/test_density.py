@@ -6,7 +6,7 @@ import re
 import koebe
 import numpy as np
 import pytest
-from cli_support import cells, obj_text, triangles_of
+from cli_support import cells, obj_text, succeeded, triangles_of
 from cli_support import koebe as command
 
 
@@ -68,8 +68,7 @@ def test_two_meshes_get_one_density():
 
 def test_the_command_has_it(tmp_path):
     (tmp_path / "in.obj").write_text(obj_text(*sheet()))
-    done = command("parts", "in.obj", "out.obj", "--density", "90", "--pixels", "512", "--json", "r.json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("parts", "in.obj", "out.obj", "--density", "90", "--pixels", "512", "--json", "r.json", cwd=tmp_path)
     report = json.loads((tmp_path / "r.json").read_text())
     assert report["density"] == pytest.approx(90.0, rel=1e-4) and report["options"]["pixels"] == 512
     refused = command("parts", "in.obj", "no.obj", "--density", "1e9", cwd=tmp_path)

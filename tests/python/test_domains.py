@@ -1,12 +1,12 @@
 """Maps to flat tori and cylinders: against exact solutions, in exact arithmetic, and under random damage."""
 
 import json
-import subprocess
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import COMMAND
+from cli_support import CANNOT_BE_MAPPED, obj_rows, same_as_package, succeeded, write_obj
+from cli_support import koebe as run
 from domain_surfaces import damaged, holed_ring, holed_torus, opened_slit_ring, renumbered
 
 GRID = 2.0**24
@@ -372,57 +372,25 @@ def test_polygons_stay_whole(closed, seed):
 def test_the_command_tears_no_polygon(tmp_path):
     vertices, faces, _, _ = quads(17, 9, True)
     write_obj(tmp_path / "in.obj", vertices, faces)
-    call = [COMMAND, "torus", tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "out.json"]
-    assert subprocess.run(call, capture_output=True, check=False).returncode == 0
+    succeeded("torus", "in.obj", "out.obj", "--json", "out.json", cwd=tmp_path)
     lines = [line.split() for line in (tmp_path / "out.obj").read_text().splitlines()]
-    uv = np.array([words[1:] for words in lines if words and words[0] == "vt"], float)
     corners = [[int(word.split("/")[1]) - 1 for word in words[1:]] for words in lines if words and words[0] == "f"]
     periods = np.array(json.loads((tmp_path / "out.json").read_text())["periods"])
-    points = uv[corners]
+    points = obj_rows(tmp_path / "out.obj", "vt")[corners]
     areas = 0.5 * cross(points[:, 2] - points[:, 0], points[:, 3] - points[:, 1])
     assert (areas > 0).all() and abs(areas.sum() - cross(*periods)) < 1e-9
-
-
-def test_progress_and_cancel():
-    vertices, triangles, _, _ = holed_torus(6)
-    heard = []
-    koebe.torus_map(vertices, triangles, progress=lambda share, stage: heard.append(share))
-    assert heard == sorted(heard) and heard[-1] == 1.0
-    token = koebe.CancelToken()
-    token.cancel()
-    for run in (koebe.torus_map, koebe.ring_map):
-        with pytest.raises(koebe.Cancelled):
-            run(vertices, triangles, cancel=token)
-
-
-def write_obj(path, vertices, triangles):
-    lines = ["v " + " ".join(repr(float(x)) for x in v) for v in vertices]
-    lines += ["f " + " ".join(str(i + 1) for i in f) for f in triangles]
-    path.write_text("\n".join(lines) + "\n")
 
 
 @pytest.mark.parametrize("command", ["torus", "ring"])
 def test_the_command_says_what_python_says(command, tmp_path):
     surface = holed_torus(5)[:2] if command == "torus" else holed_ring(5, holes=HOLES)[:2]
     write_obj(tmp_path / "in.obj", *surface)
-    call = [COMMAND, command, tmp_path / "in.obj", tmp_path / "out.obj", "--json", tmp_path / "out.json",
-            "--svg", tmp_path / "out.svg"]  # fmt: skip
-    done = subprocess.run(call, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    done = succeeded(command, "in.obj", "out.obj", "--json", "out.json", "--svg", "out.svg", cwd=tmp_path)
     assert "modulus" in done.stdout and "0 flipped" in done.stdout
-    report = json.loads((tmp_path / "out.json").read_text())
     tile = koebe.torus_map(*surface) if command == "torus" else koebe.ring_map(*surface)
-    own = tile.to_dict()
-    for each in (report, own):
-        for name in ("seconds", "peak_memory_mb", "input", "input_sha256"):
-            each.pop(name, None)
-    assert report == own
-    uv = [line.split()[1:] for line in (tmp_path / "out.obj").read_text().splitlines() if line.startswith("vt ")]
-    assert np.isin(np.unique(tile.uv.reshape(-1, 2), axis=0), np.array(uv, float)).all()
+    assert same_as_package(json.loads((tmp_path / "out.json").read_text()), tile)
+    assert np.isin(np.unique(tile.uv.reshape(-1, 2), axis=0), obj_rows(tmp_path / "out.obj", "vt")).all()
     assert (tmp_path / "out.svg").read_text().startswith("<svg")
-    refused = subprocess.run(
-        [COMMAND, "ring" if command == "torus" else "torus", tmp_path / "in.obj", tmp_path / "no.obj"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert refused.returncode == 3 and "TopologyError" in refused.stderr
+    refused = run("ring" if command == "torus" else "torus", "in.obj", "no.obj", cwd=tmp_path)
+    assert refused.returncode == CANNOT_BE_MAPPED and "TopologyError" in refused.stderr
     assert not (tmp_path / "no.obj").exists()

@@ -2,22 +2,18 @@
 
 import contextlib
 import json
-import sys
 from itertools import pairwise
-from pathlib import Path
 
 import koebe
 import numpy as np
+import promises
 import pytest
+import random_surfaces
 from cli_support import USAGE, obj_text
 from cli_support import koebe as command
 from domain_surfaces import holed_ring, holed_torus
 from test_domains import HOLES, assert_tile
 from test_parts import TRIANGLES, VERTICES, areas
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import promises  # noqa: E402
-import random_surfaces  # noqa: E402
 
 DIAL = (0.0, 0.1, 0.5, 1.0)
 

@@ -3,21 +3,20 @@
 import koebe
 import numpy as np
 import pytest
-from cli_support import perforated, triangles_of
+from cli_support import triangulated_plate
+from uv_measures import signed_areas
 
 
 def panel(n=20):
     """A bent plate with holes, and its map."""
-    vertices, quads = perforated(n)
-    vertices, triangles = np.asarray(vertices, dtype=float), triangles_of(quads)
+    vertices, triangles = triangulated_plate(n)
     return vertices, triangles, koebe.uniformize(vertices, triangles)
 
 
 def spread(vertices, triangles, uv):
     """Ratio of texel densities at 95 % and 5 % of the faces."""
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    one, two = uv[triangles[:, 1]] - uv[triangles[:, 0]], uv[triangles[:, 2]] - uv[triangles[:, 0]]
-    in_plane = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    in_plane = 2 * signed_areas(uv[triangles])
     assert in_plane.min() > 0
     low, high = np.percentile(np.sqrt(in_plane / np.linalg.norm(np.cross(b - a, c - a), axis=1)), [5, 95])
     return high / low
@@ -142,8 +141,7 @@ def test_a_step_for_an_earlier_place_does_not_end_the_drag(addon):
 
 
 def upright(uv, triangles):
-    one, two = uv[triangles[:, 1]] - uv[triangles[:, 0]], uv[triangles[:, 2]] - uv[triangles[:, 0]]
-    return bool((one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] > 0).all())
+    return bool((signed_areas(uv[triangles]) > 0).all())
 
 
 def outline_crossings(uv, triangles):

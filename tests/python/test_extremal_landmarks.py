@@ -1,23 +1,19 @@
 """Extremal maps that keep landmarks, and the match of least K: against affine maps, which are extremal, and laws."""
 
 import json
-import sys
 import types
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import USAGE, obj_text
+from cli_support import USAGE, obj_text, succeeded
 from cli_support import koebe as command
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-from stretched_rectangles import pair, rectangle  # noqa: E402
+from stretched_rectangles import pair, rectangle
+from uv_measures import signed_areas
 
 
 def upright(faces, uv):
-    a, b = uv[faces[:, 1]] - uv[faces[:, 0]], uv[faces[:, 2]] - uv[faces[:, 0]]
-    return bool((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] > 0).all())
+    return bool((signed_areas(uv[faces]) > 0).all())
 
 
 def bent(holes, rng, strength=0.15):
@@ -144,8 +140,7 @@ def test_the_command(tmp_path):
     found = {}
     for flags in ([], ["--extremal"]):
         out = tmp_path / "report.json"
-        run = command("transfer", *paths, "--landmarks", marks, "--json", out, *flags)
-        assert run.returncode == 0, run.stderr
+        succeeded("transfer", *paths, "--landmarks", marks, "--json", out, *flags)
         found[len(flags)] = json.loads(out.read_text())["beltrami"]["max"]
     assert found[1] < found[0]
     assert command("transfer", *paths, "--extremal").returncode == USAGE

@@ -5,14 +5,13 @@ import csv
 import koebe
 import numpy as np
 import pytest
-from cli_support import perforated, triangles_of
+from cli_support import perforated, triangles_of, triangulated_plate
 
 HOLES = np.array([(0.3, 0.3, 0.17), (0.75, 0.35, 0.08), (0.4, 0.72, 0.12)])  # no symmetry to mistake
 
 
 def shape(change, order=(0, 1, 2)):
-    vertices, quads = perforated(24, (HOLES + change)[list(order)])
-    return koebe.uniformize(vertices, triangles_of(quads).astype(np.int32))
+    return koebe.uniformize(*triangulated_plate(24, (HOLES + change)[list(order)]))
 
 
 RNG = np.random.default_rng(5)

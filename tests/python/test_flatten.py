@@ -1,18 +1,14 @@
 """Flat patterns: true to size in the written files, whole, apart, and refused where they cannot be."""
 
 import json
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text
+import random_models
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, succeeded
 from cli_support import koebe as command
 from pattern_files import crossings, dxf_entities, enclosed, inside, lengths, require_sound, svg_page
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import random_models  # noqa: E402
 
 
 def grid(points, around=False):
@@ -211,8 +207,8 @@ def test_the_command_writes_what_the_package_returns(tmp_path):
     source = tmp_path / "in.obj"
     source.write_text(obj_text(3 * vertices, triangles), encoding="utf-8")
     result = koebe.flatten(3 * vertices, triangles, page="A4", allowance=6)
-    done = command("flatten", source, tmp_path / "out.svg", "--allowance", 6, "--json", tmp_path / "out.json")
-    assert done.returncode == 0 and f"1 piece on {result.pages} pages" in done.stdout
+    done = succeeded("flatten", source, tmp_path / "out.svg", "--allowance", 6, "--json", tmp_path / "out.json")
+    assert f"1 piece on {result.pages} pages" in done.stdout
     files = ["out.svg", *(f"out-{k}.svg" for k in range(2, result.pages + 1))]
     assert [(tmp_path / name).read_text(encoding="utf-8") for name in files] == result.svg
     assert command("flatten", source, tmp_path / "out.dxf", "--allowance", 6).returncode == 0

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, koebe, obj_text, perforated
+from cli_support import CANNOT_BE_MAPPED, USAGE, koebe, obj_rows, obj_text, perforated, succeeded
 from glb_support import GlbBuilder, GlbReader
 
 
@@ -39,8 +39,7 @@ def kinds_in(report):
 def mapped(folder, data, *words):
     """The result of a command on a GLB file, and its report."""
     (folder / "in.glb").write_bytes(data)
-    run = koebe(*words[:1], "in.glb", "out.glb", "--json", "out.json", *words[1:], cwd=folder)
-    assert run.returncode == 0, run.stderr
+    succeeded(*words[:1], "in.glb", "out.glb", "--json", "out.json", *words[1:], cwd=folder)
     return GlbReader((folder / "out.glb").read_bytes()), json.loads((folder / "out.json").read_text())
 
 
@@ -243,9 +242,7 @@ def test_a_vertex_without_a_cut_keeps_its_place_and_has_the_uvs_of_obj(tmp_path)
     new, report = mapped(tmp_path, scene.bytes(), "uniformize")
     (tmp_path / "in.obj").write_text(obj_text(vertices.astype(float), faces))
     assert koebe("uniformize", "in.obj", "out.obj", cwd=tmp_path).returncode == 0
-    uv = np.array(
-        [line.split()[1:] for line in (tmp_path / "out.obj").read_text().splitlines() if line[:3] == "vt "], float
-    )
+    uv = obj_rows(tmp_path / "out.obj", "vt")
     primitive = new.json["meshes"][0]["primitives"][0]
     assert primitive["indices"] == 0 and primitive["attributes"]["POSITION"] == 1
     expected = np.stack([uv[:, 0], 1 - uv[:, 1]], 1)
@@ -325,8 +322,7 @@ def test_a_scene_of_one_mesh_is_an_input_of_every_command(tmp_path):
     scene = GlbBuilder()
     scene.mesh({"attributes": {"POSITION": scene.positions(vertices[faces].reshape(-1, 3))}})
     (tmp_path / "in.glb").write_bytes(scene.bytes())
-    run = koebe("uniformize", "in.glb", "out.obj", "--json", "out.json", cwd=tmp_path)
-    assert run.returncode == 0, run.stderr
+    succeeded("uniformize", "in.glb", "out.obj", "--json", "out.json", cwd=tmp_path)
     lines = (tmp_path / "out.obj").read_text().splitlines()
     assert sum(line.startswith("v ") for line in lines) == len(vertices)
     assert kinds_in(json.loads((tmp_path / "out.json").read_text())) == {"ears", "not_kept"}
@@ -344,8 +340,8 @@ def test_wrong_usage_is_refused(tmp_path):
     ):
         run = koebe(*words, cwd=tmp_path)
         assert run.returncode == USAGE and sentence in run.stderr, run.stderr
-    run = koebe("fill", "in.glb", "out.obj", cwd=tmp_path)
-    assert run.returncode == 0 and sorted(path.name for path in tmp_path.iterdir()) == ["in.glb", "in.obj", "out.obj"]
+    run = succeeded("fill", "in.glb", "out.obj", cwd=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["in.glb", "in.obj", "out.obj"]
 
 
 def broken(change):

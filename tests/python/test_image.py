@@ -1,14 +1,10 @@
 """Fields as images of the domain: there and back, one template for two surfaces, labels, NaN, refusals."""
 
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-from atrium_templates import TEMPLATE, atrium  # noqa: E402
+from atrium_templates import TEMPLATE, atrium
 
 MILLIMETRES = 30.0  # radius of the atrium
 

@@ -5,20 +5,18 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import USAGE, obj_text, perforated, triangles_of
+from cli_support import USAGE, obj_text, succeeded, triangles_of, triangulated_plate
 from cli_support import koebe as command
+from uv_measures import signed_areas
 
 
 def panel(n=24):
     """A bent plate with holes, as triangles."""
-    vertices, quads = perforated(n)
-    return np.asarray(vertices, dtype=float), triangles_of(quads)
+    return triangulated_plate(n)
 
 
 def uv_area(triangles, uv, chosen):
-    a, b, c = (uv[triangles[chosen, k]] for k in range(3))
-    one, two = b - a, c - a
-    return 0.5 * np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum()
+    return np.abs(signed_areas(uv[triangles[chosen]])).sum()
 
 
 def region(vertices, triangles, axis, sign):
@@ -91,17 +89,12 @@ def two_squares(n=8):
     return np.vstack([grid, grid + [3.0, 0.0, 0.0]]), np.vstack([triangles, triangles + len(grid)])
 
 
-def corner_area(uv):
-    one, two = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
-    return 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
-
-
 @pytest.mark.parametrize("even", [None, 0.0, 0.3, 1.0])
 def test_parts_have_the_sizes_that_importance_asks_for(even):
     vertices, triangles = two_squares()
     half = len(vertices) // 2
     result = koebe.parts(vertices, triangles, even=even, importance=np.repeat([0.5, 0.0], half))
-    area = corner_area(result.uv)
+    area = signed_areas(result.uv)
     first = np.arange(len(triangles)) < len(triangles) // 2
     assert area[first].sum() == pytest.approx(4.0 * area[~first].sum(), rel=1e-5)
     assert result.flipped == 0 and result.options["importance"] is True
@@ -121,10 +114,10 @@ def test_a_strip_is_twice_as_wide_where_it_counts_four_times(even, tolerance):
     importance = 0.5 * (vertices[:, 0] < 8.0)
     result = koebe.parts(vertices, triangles, even=even, darts=0.0, importance=importance)
     middle = vertices[triangles].mean(axis=1)[:, 0]
-    area = corner_area(result.uv)
+    area = signed_areas(result.uv)
     assert area[middle < 4.0].sum() == pytest.approx(4.0 * area[middle > 12.0].sum(), rel=tolerance)
     plain = koebe.parts(vertices, triangles, even=even, darts=0.0)
-    assert corner_area(plain.uv)[middle < 4.0].sum() == pytest.approx(corner_area(plain.uv)[middle > 12.0].sum())
+    assert signed_areas(plain.uv)[middle < 4.0].sum() == pytest.approx(signed_areas(plain.uv)[middle > 12.0].sum())
 
 
 def tube(around=24, along=12):
@@ -164,7 +157,7 @@ def test_important_faces_are_larger_in_even_maps(of):
     shares = []
     for result in (made(vertices, triangles), made(vertices, triangles, importance=chosen.astype(float))):
         uv = result.uv if result.uv.ndim == 3 else result.uv[triangles]
-        area = corner_area(uv)
+        area = signed_areas(uv)
         assert result.flipped == 0 and result.overlaps == 0 and area.min() > 0
         shares.append(area[chosen[triangles].all(axis=1)].sum() / area.sum())
     assert shares[1] > 1.3 * shares[0]
@@ -197,16 +190,14 @@ def test_the_command_takes_a_file(tmp_path):
     importance, _ = region(vertices, triangles, 0, 1)
     (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
     (tmp_path / "w.txt").write_text("\n".join(f"{w:g}" for w in importance))
-    done = command("uniformize", "in.obj", "a.obj", "--balance", "area", "--importance", "w.txt", "--json", "r.json",
+    succeeded("uniformize", "in.obj", "a.obj", "--balance", "area", "--importance", "w.txt", "--json", "r.json",
                    cwd=tmp_path)  # fmt: skip
-    assert done.returncode == 0, done.stderr
     assert json.loads((tmp_path / "r.json").read_text())["options"]["importance"] is True
     command("uniformize", "in.obj", "b.obj", "--balance", "area", cwd=tmp_path)
     assert (tmp_path / "a.obj").read_text() != (tmp_path / "b.obj").read_text()
-    parts = command("parts", "in.obj", "p.obj", "--importance", "w.txt", "--json", "p.json", cwd=tmp_path)
-    assert parts.returncode == 0 and json.loads((tmp_path / "p.json").read_text())["options"]["importance"] is True
-    even = command("uniformize", "in.obj", "e.obj", "--importance", "w.txt", "--even", "0.3", cwd=tmp_path)
-    assert even.returncode == 0, even.stderr
+    succeeded("parts", "in.obj", "p.obj", "--importance", "w.txt", "--json", "p.json", cwd=tmp_path)
+    assert json.loads((tmp_path / "p.json").read_text())["options"]["importance"] is True
+    succeeded("uniformize", "in.obj", "e.obj", "--importance", "w.txt", "--even", "0.3", cwd=tmp_path)
     refused = command("uniformize", "in.obj", "c.obj", "--importance", "w.txt", cwd=tmp_path)
     assert refused.returncode == USAGE and "balance" in refused.stderr
     for text in ("0.5 2", "x", "", "0.5"):

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 
-@pytest.mark.parametrize("count", [2, 3, 7, 16, 17, 60])
+@pytest.mark.parametrize("count", [2, 3, 5, 7, 9, 16, 17, 24, 25, 60])
 @pytest.mark.parametrize("margin", [0.0, 0.02, 0.4])
 def test_disks_keep_their_proportions_their_distance_and_to_the_square(count, margin):
     sizes = np.random.default_rng(count).uniform(0.2, 3.0, count)

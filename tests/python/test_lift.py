@@ -8,8 +8,9 @@ from xml.etree import ElementTree
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, succeeded, triangulated_plate
 from cli_support import koebe as command
+from uv_measures import signed_areas
 
 AROUND, ROWS = 60, 20
 
@@ -40,9 +41,7 @@ def loops_of(triangles):
 
 
 def stored_areas(uv):
-    u = uv.astype(np.float32).astype(float)
-    a, b = u[:, 1] - u[:, 0], u[:, 2] - u[:, 0]
-    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return signed_areas(uv.astype(np.float32).astype(float))
 
 
 @pytest.mark.parametrize("pattern", ["circles", "hexagons", "triangles", "diamonds", "stripes", "truchet", "voronoi"])
@@ -124,8 +123,7 @@ def test_the_same_seed_gives_the_same_pattern():
 
 @pytest.mark.parametrize("pattern", ["circles", "hexagons", "truchet"])
 def test_rows_follow_a_hole(pattern):
-    vertices, quads = perforated(48, holes=((0.42, 0.45, 0.12),))
-    faces = triangles_of(quads)
+    vertices, faces = triangulated_plate(48, holes=((0.42, 0.45, 0.12),))
     (vertex,) = {int(loop[0]) for loop in loops_of(faces)} - {0}
     result = koebe.lift(vertices, faces, pattern, around=vertex, repeats=12, perforate=True)
     in_a_row = 24 if pattern == "truchet" else 12
@@ -219,8 +217,7 @@ def test_it_is_told_where_each_corner_lies_on_the_surface(shape, options):
 
 
 def test_holes_stay_as_they_are():
-    vertices, quads = perforated(32)
-    faces = triangles_of(quads)
+    vertices, faces = triangulated_plate(32)
     result = koebe.lift(vertices, faces, "hexagons", size=0.06, perforate=True)
     assert result.left_out["at_border"] > 0 and result.loops["before"] == 4
     (warning,) = [one for one in result.warnings if one.kind == "left_out"]
@@ -261,8 +258,8 @@ def test_the_command_writes_obj_ply_and_stl(tmp_path):
     vertices, triangles = tube()
     (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
     options = ["--shape", "ring", "--size", "0.4", "--perforate"]
-    run = command("lift", "in.obj", "hexagons", "out.obj", *options, "--json", "r.json", cwd=tmp_path)
-    assert run.returncode == 0 and "outlines cut out" in run.stdout, run.stderr
+    run = succeeded("lift", "in.obj", "hexagons", "out.obj", *options, "--json", "r.json", cwd=tmp_path)
+    assert "outlines cut out" in run.stdout, run.stderr
     report = json.loads((tmp_path / "r.json").read_text())
     lines = [line.split() for line in (tmp_path / "out.obj").read_text().splitlines()]
     points = np.array([line[1:] for line in lines if line[:1] == ["v"]], float)
@@ -271,8 +268,8 @@ def test_the_command_writes_obj_ply_and_stl(tmp_path):
     assert report["loops"]["after"] == 2 + report["outlines"]
     result = koebe.lift(vertices, triangles, "hexagons", shape="ring", size=0.4, perforate=True)
     assert np.array_equal(points, result.vertices)
-    run = command("lift", "in.obj", "hexagons", "out.stl", *options, "--thickness", "0.1", cwd=tmp_path)
-    assert run.returncode == 0 and "closed" in run.stdout, run.stderr
+    run = succeeded("lift", "in.obj", "hexagons", "out.stl", *options, "--thickness", "0.1", cwd=tmp_path)
+    assert "closed" in run.stdout, run.stderr
     data = (tmp_path / "out.stl").read_bytes()
     (count,) = struct.unpack_from("<I", data, 80)
     assert len(data) == 84 + 50 * count
@@ -281,8 +278,8 @@ def test_the_command_writes_obj_ply_and_stl(tmp_path):
     assert (edges_of(index)[0] == 2).all() and (edges_of(index)[1] == 1).all()
     sides = facets["p"][:, 1] - facets["p"][:, 0], facets["p"][:, 2] - facets["p"][:, 0]
     assert (np.einsum("fd,fd->f", np.cross(*sides), facets["n"]) >= 0).all()
-    run = command("lift", "in.obj", "hexagons", "out.3mf", *options, "--thickness", "0.1", cwd=tmp_path)
-    assert run.returncode == 0 and "closed" in run.stdout, run.stderr
+    run = succeeded("lift", "in.obj", "hexagons", "out.3mf", *options, "--thickness", "0.1", cwd=tmp_path)
+    assert "closed" in run.stdout, run.stderr
     with zipfile.ZipFile(tmp_path / "out.3mf") as archive:
         assert archive.testzip() is None and "[Content_Types].xml" in archive.namelist()
         model = ElementTree.fromstring(archive.read("3D/3dmodel.model"))

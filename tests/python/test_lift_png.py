@@ -6,7 +6,7 @@ import zlib
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, obj_text
+from cli_support import CANNOT_BE_MAPPED, obj_text, succeeded
 from cli_support import koebe as command
 from test_lift import edges_of, euler, loops_of, stored_areas, tube
 
@@ -165,8 +165,8 @@ def test_the_command_reads_an_image(tmp_path):
     (tmp_path / "in.obj").write_text(obj_text(*tube()))
     (tmp_path / "a.png").write_bytes(SOUND)
     options = ["--shape", "ring", "--height", "0.05"]
-    run = command("lift", "in.obj", "a.png", "out.obj", *options, cwd=tmp_path)
-    assert run.returncode == 0 and "relief, " in run.stdout, run.stderr
+    run = succeeded("lift", "in.obj", "a.png", "out.obj", *options, cwd=tmp_path)
+    assert "relief, " in run.stdout, run.stderr
     (tmp_path / "b.png").write_bytes(SOUND[:-3])
     run = command("lift", "in.obj", "b.png", "no.obj", *options, cwd=tmp_path)
     assert run.returncode == CANNOT_BE_MAPPED and not (tmp_path / "no.obj").exists()

@@ -6,11 +6,10 @@ import struct
 import numpy as np
 import pytest
 from cli_support import koebe as run
-from cli_support import perforated, triangles_of
+from cli_support import succeeded, triangulated_plate
 from koebe import _koebe
 
-VERTICES, QUADS = perforated(8, holes=((0.5, 0.5, 0.2),))
-TRIANGLES = triangles_of(QUADS)
+VERTICES, TRIANGLES = triangulated_plate(8, holes=((0.5, 0.5, 0.2),))
 SINGLE = VERTICES.astype(np.float32)
 
 
@@ -39,8 +38,7 @@ def test_binary_stl_may_begin_like_a_text_and_go_on_behind_its_facets(header, be
 
 def test_bytes_behind_the_facets_are_told_of(tmp_path):
     (tmp_path / "in.stl").write_bytes(binary_stl(len(TRIANGLES) - 2))
-    done = run("uniformize", "in.stl", "out.obj", "--cut", "--json", "out.json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("uniformize", "in.stl", "out.obj", "--cut", "--json", "out.json", cwd=tmp_path)
     said = [one["text"] for one in json.loads((tmp_path / "out.json").read_text())["warnings"]]
     assert any("100 bytes behind" in text for text in said)
 
@@ -98,8 +96,7 @@ def test_triangle_strips_of_ply_are_triangles(tmp_path, form):
     normals = np.cross(*np.moveaxis(np.array(faces)[:, 1:] - np.array(faces)[:, :1], 1, 0))
     assert (normals[:, 2] > 0).all() or (normals[:, 2] < 0).all()
     (tmp_path / "in.ply").write_bytes(data)
-    done = run("uniformize", "in.ply", "out.ply", "--json", "out.json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("uniformize", "in.ply", "out.ply", "--json", "out.json", cwd=tmp_path)
     report = json.loads((tmp_path / "out.json").read_text())
     assert report["flipped"] == 0 and report["faces"] == len(faces)
     assert len(parsed((tmp_path / "out.ply").read_bytes(), ".ply")[0]) == len(faces)

@@ -5,7 +5,15 @@ import csv
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, cells, obj_text, perforated, triangles_of
+from cli_support import (
+    CANNOT_BE_MAPPED,
+    USAGE,
+    cells,
+    obj_text,
+    succeeded,
+    triangles_of,
+    triangulated_plate,
+)
 from cli_support import koebe as command
 
 
@@ -83,8 +91,7 @@ HOLES = np.array([(0.3, 0.3, 0.17), (0.75, 0.35, 0.08), (0.4, 0.72, 0.12)])
 
 
 def shape(change, n=20):
-    vertices, quads = perforated(n, HOLES + change)
-    return vertices, triangles_of(quads).astype(np.int32)
+    return triangulated_plate(n, HOLES + change)
 
 
 def test_the_bar_falls_with_the_mesh_width_and_knows_no_size():
@@ -139,8 +146,7 @@ def test_the_command_makes_the_table_of_a_family(folder, tmp_path):
 def test_the_command_makes_the_table_of_distances(folder, tmp_path):
     names = list(SURFACES)
     family = koebe.family([koebe.uniformize(*s) for s in SURFACES.values()], reference=1, error=True)
-    done = command("compare", folder, "--csv", tmp_path / "far.csv", "--reference", names[1], "--error")
-    assert done.returncode == 0
+    succeeded("compare", folder, "--csv", tmp_path / "far.csv", "--reference", names[1], "--error")
     rows = rows_of(tmp_path / "far.csv")
     assert [(row["a"], row["b"]) for row in rows] == [(names[0], names[1]), (names[0], names[2]), (names[1], names[2])]
     pairs = ([0, 0, 1], [1, 2, 2])
@@ -164,8 +170,7 @@ def test_shapes_that_cannot_be_mapped_have_a_row_that_says_so(folder, tmp_path):
 
 
 def flat_ring():
-    vertices, quads = perforated(12, HOLES[:1])
-    return vertices, triangles_of(quads)
+    return triangulated_plate(12, HOLES[:1])
 
 
 def test_tables_are_asked_for_in_the_right_words(folder, tmp_path):

@@ -41,10 +41,6 @@ def test_what_is_no_mesh_is_refused():
         koebe.open_surface([[0, 0, 0]], [[0, 0, 0]])
     with pytest.raises(koebe.InputError, match="polygon"):
         koebe.open_surface(np.eye(3), [[0, 1, 2]], polygon=[0, 1])
-    token = koebe.CancelToken()
-    token.cancel()
-    with pytest.raises(koebe.Cancelled):
-        koebe.open_surface(*triangles_of_torus()[:2], cancel=token)
 
 
 def test_a_cut_result_survives_a_file_and_a_pickle(tmp_path):

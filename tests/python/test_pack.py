@@ -8,7 +8,7 @@ from itertools import combinations
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED
+from cli_support import CANNOT_BE_MAPPED, succeeded
 from cli_support import koebe as run
 from glb_support import GlbBuilder, GlbReader
 
@@ -150,9 +150,8 @@ def test_the_command_locks_faces_of_a_file(tmp_path):
     lines += [f"v {x} {y} 0\nvt {x} {y}\n" for x, y in ((3, 3), (3.5, 3), (3.5, 3.4), (3, 3.4))]
     (tmp_path / "i.obj").write_text("".join(lines) + "f 1/1 2/2 3/3 4/4\nf 5/5 6/6 7/7 8/8\n")
     (tmp_path / "locked.txt").write_text("1\n0\n")
-    done = run("pack", tmp_path / "i.obj", tmp_path / "o.obj", "--locked", tmp_path / "locked.txt", "--json",
+    done = succeeded("pack", tmp_path / "i.obj", tmp_path / "o.obj", "--locked", tmp_path / "locked.txt", "--json",
                tmp_path / "j.json")  # fmt: skip
-    assert done.returncode == 0, done.stderr
     report = json.loads((tmp_path / "j.json").read_text())
     assert [island["locked"] for island in report["islands"]] == [True, False] and report["scale"] > 0.99
     assert report["options"]["locked"] is True
@@ -275,8 +274,7 @@ def test_the_command_packs_the_uvs_of_all_formats_alike(tmp_path):
     for suffix, write in ((".obj", write_obj), (".ply", write_ply), (".glb", write_glb)):
         given, out = tmp_path / f"given{suffix}", tmp_path / f"out{suffix}"
         write(given)
-        done = run("pack", given, out, "--margin", 4, "--pixels", 256, "--json", tmp_path / "report.json")
-        assert done.returncode == 0, done.stderr
+        succeeded("pack", given, out, "--margin", 4, "--pixels", 256, "--json", tmp_path / "report.json")
         report = json.loads((tmp_path / "report.json").read_text())
         assert len(report["islands"]) == 2 and report["margin"] == 4 and report["overlaps"] == 0
         sides = first_sides(out)

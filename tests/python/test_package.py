@@ -1,6 +1,5 @@
 """The Python package: arrays in any legal form, typed errors, progress, cancel and the report."""
 
-import threading
 
 import koebe
 import numpy as np
@@ -80,28 +79,6 @@ def test_polish_lowers_the_angle_error_and_leaves_the_circles():
     assert before == plain.angle_error_deg["mean"] > polished.angle_error_deg["mean"]
     assert "before_polish" not in plain.to_dict()["angle_error_deg"]
     assert np.array_equal(plain.centers, polished.centers) and np.array_equal(plain.radii, polished.radii)
-
-
-def test_progress_is_on_the_calling_thread_and_never_goes_back():
-    seen = []
-    koebe.uniformize(VERTICES, FACES, progress=lambda f, s: seen.append((f, s, threading.get_ident())))
-    fractions = [f for f, _, _ in seen]
-    assert fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] == 1
-    assert {t for _, _, t in seen} == {threading.get_ident()}
-    assert "factor" in {s for _, s, _ in seen}
-
-
-def test_cancel_and_an_exception_from_progress_end_the_call():
-    token = koebe.CancelToken()
-    threading.Thread(target=token.cancel).run()
-    with pytest.raises(koebe.Cancelled):
-        koebe.uniformize(VERTICES, FACES, cancel=token)
-
-    def interrupt(fraction, stage):
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        koebe.uniformize(VERTICES, FACES, progress=interrupt)
 
 
 def test_the_report_is_the_contract():

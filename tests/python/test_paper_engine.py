@@ -5,11 +5,10 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, NOT_CONVERGED, USAGE, obj_text, perforated, triangles_of
+from cli_support import CANNOT_BE_MAPPED, NOT_CONVERGED, USAGE, obj_text, triangulated_plate
 from cli_support import koebe as command
 
-VERTICES, QUADS = perforated()
-FACES = triangles_of(QUADS).astype(np.int32)
+VERTICES, FACES = triangulated_plate()
 LOOPS = 4
 
 

@@ -1,20 +1,15 @@
 """Parts: the package's function and the command, on the same surfaces."""
 
 import json
-import sys
-import threading
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated
+import random_models
+import random_surfaces
+import uv_measures
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, read_corners, succeeded
 from cli_support import koebe as command
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import random_models  # noqa: E402
-import random_surfaces  # noqa: E402
-import uv_measures  # noqa: E402
 
 
 def finger(around=24, rings=40):
@@ -38,11 +33,6 @@ def triangulated(faces):
     return np.array([[f[0], f[k], f[k + 1]] for f in faces for k in range(1, len(f) - 1)])
 
 
-def areas(uv):
-    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
-    return 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-
-
 VERTICES, FACES = finger()
 TRIANGLES = triangulated(FACES)
 
@@ -54,7 +44,7 @@ def test_a_finger_is_a_tube_and_a_cap():
     assert (result.uv >= 0).all() and (result.uv <= 1).all()
     assert sorted(np.concatenate([part["faces"] for part in result.parts])) == list(range(len(TRIANGLES)))
     assert all((result.part[part["faces"]] == k).all() for k, part in enumerate(result.parts))
-    assert (areas(result.uv.astype(np.float32).astype(float)) > 0).all()
+    assert (uv_measures.signed_areas(result.uv.astype(np.float32).astype(float)) > 0).all()
     assert result.flipped == 0 and len(result.flipped_faces) == 0
     assert result.density_ratio_5_95 < 2 and result.even_area > 0.99
     assert 0 < result.slit_length < result.cut_length
@@ -76,12 +66,12 @@ def test_the_report_is_true_of_the_uvs():
     stored = result.uv.astype(np.float32).astype(float)
     a, b = (VERTICES[TRIANGLES[:, k]] - VERTICES[TRIANGLES[:, 0]] for k in (1, 2))
     surface = 0.5 * np.linalg.norm(np.cross(a, b), axis=1)
-    u = 0.5 * np.log(areas(stored) / surface)
+    u = 0.5 * np.log(uv_measures.signed_areas(stored) / surface)
     order = np.argsort(u)
     below = np.cumsum(surface[order]) / surface.sum()
     low, high = (u[order][np.searchsorted(below, share)] for share in (0.05, 0.95))
     assert result.density_ratio_5_95 == pytest.approx(np.exp(high - low), rel=1e-6)
-    assert result.coverage == pytest.approx(areas(stored).sum(), rel=1e-9)
+    assert result.coverage == pytest.approx(uv_measures.signed_areas(stored).sum(), rel=1e-9)
 
     seams = 0.0
     sides = {}
@@ -181,29 +171,10 @@ def test_degenerate_faces_are_taken():
         koebe.parts(VERTICES, more, cut=False)
 
 
-def test_progress_and_cancel():
-    seen = []
-    koebe.parts(VERTICES, TRIANGLES, progress=lambda fraction, stage: seen.append((fraction, stage)))
-    fractions = [fraction for fraction, _ in seen]
-    assert fractions == sorted(fractions) and {"topology", "split", "pack"} <= {stage for _, stage in seen}
-    token = koebe.CancelToken()
-    threading.Timer(0.02, token.cancel).start()
-    with pytest.raises(koebe.Cancelled):
-        while True:
-            koebe.parts(VERTICES, TRIANGLES, cancel=token)
-
-
-def read_obj(path):
-    vertices, places, faces = [], [], []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        word, *rest = line.split()
-        if word == "v":
-            vertices.append([float(x) for x in rest])
-        elif word == "vt":
-            places.append([float(x) for x in rest])
-        elif word == "f":
-            faces.append([[int(i) - 1 for i in corner.split("/")] for corner in rest])
-    return np.array(vertices), np.array(places), faces
+def test_its_stages_have_names():
+    seen = set()
+    koebe.parts(VERTICES, TRIANGLES, progress=lambda fraction, stage: seen.add(stage))
+    assert {"topology", "split", "pack"} <= seen
 
 
 @pytest.mark.parametrize("model", ["large", "small", "hard"])
@@ -241,12 +212,12 @@ def test_the_command_keeps_vertices_and_polygons(tmp_path, surface):
     vertices, faces = surface
     source, target, report = tmp_path / "in.obj", tmp_path / "out.obj", tmp_path / "out.json"
     source.write_text(obj_text(vertices, faces), encoding="utf-8")
-    done = command("parts", source, target, "--json", report, "--svg", tmp_path / "out.svg")
-    assert done.returncode == 0 and done.stderr == "" and done.stdout.count("\n") == 1
-    found, places, corners = read_obj(target)
+    done = succeeded("parts", source, target, "--json", report, "--svg", tmp_path / "out.svg")
+    assert done.stderr == "" and done.stdout.count("\n") == 1
+    found, written, corners = read_corners(target)
     assert np.array_equal(found, vertices)
-    assert [[v for v, _ in face] for face in corners] == [list(face) for face in faces]
-    assert (places >= 0).all() and (places <= 1).all()
+    assert written == [list(face) for face in faces]
+    assert all(0 <= place <= 1 for face in corners for uv in face for place in uv)
 
     result = json.loads(report.read_text(encoding="utf-8"))
     assert list(result)[:4] == ["version", "input", "vertices", "faces"] and result["converged"]
@@ -295,7 +266,7 @@ def test_slits_that_are_no_edges_are_an_error(slits):
 def lost_area(vertices, triangles, uv):
     """The share of the area in faces without area as stored."""
     area = uv_measures.triangle_areas(vertices[triangles])
-    return area[areas(uv.astype(np.float32).astype(float)) <= 0].sum() / area.sum()
+    return area[uv_measures.signed_areas(uv.astype(np.float32).astype(float)) <= 0].sum() / area.sum()
 
 
 @pytest.mark.parametrize(

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import koebe
 import numpy as np
 import pytest
+from cli_support import succeeded
 from koebe import _koebe, _option_table
 from test_certified import grid, ratio, square_in_square
 from test_cli import CANNOT_BE_MAPPED, USAGE
@@ -207,8 +208,7 @@ def test_command(tmp_path):
     file = tmp_path / "ring.json"
     file.write_text(json.dumps({"rims": [{"points": corners}, circle(0.5j, 0.7)]}))
     (tmp_path / "points.json").write_text("[[1.5, 0.25]]")
-    done = command("planar", file, "--points", tmp_path / "points.json")
-    assert done.returncode == 0, done.stderr
+    done = succeeded("planar", file, "--points", tmp_path / "points.json")
     report = json.loads(done.stdout)
     found = koebe.planar(file)
     assert report["module"] == found.module.tolist() and report["errors"] == found.module_errors.tolist()
@@ -232,8 +232,7 @@ def test_command(tmp_path):
 def test_slits_of_the_command_are_pythons(tmp_path):
     file = tmp_path / "plate.json"
     file.write_text(json.dumps({"rims": [circle(0j, 3.0), circle(1 + 0j, 0.5), circle(-1 + 0.5j, 0.7)]}))
-    done = command("planar", file, "--slits", "parallel", "--pole", "0", "-1.5", "--slit-angle", "30")
-    assert done.returncode == 0, done.stderr
+    done = succeeded("planar", file, "--slits", "parallel", "--pole", "0", "-1.5", "--slit-angle", "30")
     report = json.loads(done.stdout)["slits"]
     found = koebe.planar(file, slits="parallel", pole=(0, -1.5), slit_angle=30)
     assert [rim["begin"] for rim in report["rims"]] == pairs(found.slits[:, 0]).tolist()

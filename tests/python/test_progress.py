@@ -1,4 +1,4 @@
-"""Progress and cancel of the long calls beside the maps: transfer, fits, extremal maps, families and error bars."""
+"""Progress and cancel of every long call."""
 
 import contextlib
 import signal
@@ -10,6 +10,8 @@ from pathlib import Path
 import koebe
 import numpy as np
 import pytest
+from domain_surfaces import holed_ring, holed_torus
+from handle_surfaces import double_ring
 from sphere_surfaces import icosphere
 
 SAMPLES = Path(__file__).resolve().parents[2] / "blend_samples"
@@ -25,6 +27,12 @@ def disk(name):
 def ball(frequency, height=1.2):
     points, triangles = icosphere(frequency)
     return koebe.sphere_map(points * [1.0, 1.0, height], triangles)
+
+
+def five_tori():
+    vertices, triangles = holed_torus(3, holes={})[:2]
+    return (np.concatenate([vertices + [3.0 * k, 0, 0] for k in range(5)]),
+            np.concatenate([triangles + k * len(vertices) for k in range(5)]))  # fmt: skip
 
 
 def depths(*spheres):
@@ -56,6 +64,14 @@ CALLS = {
     "fit_circles, extremal": lambda: partial(koebe.fit_circles, SAMPLES / "face.obj", *CIRCLES, extremal=True),
     "certified_moduli": lambda: partial(koebe.certified_moduli, SAMPLES / "face.obj"),
     "planar": lambda: partial(koebe.planar, [[(-2, -2), (2, -2), (0, 2)], [(0, 0), (0.5, -1), (-0.5, -1)]]),
+    "uniformize": lambda: partial(koebe.uniformize, SAMPLES / "face.obj"),
+    "uniformize, many pieces": lambda: partial(koebe.uniformize, *five_tori(), cut=True),
+    "torus_map": lambda: partial(koebe.torus_map, *holed_torus(6)[:2]),
+    "ring_map": lambda: partial(koebe.ring_map, *holed_ring(6)[:2]),
+    "sphere_map": lambda: partial(koebe.sphere_map, *icosphere(10)),
+    "sphere_map, holes": lambda: partial(koebe.sphere_map, *holed_ring(6)[:2]),
+    "schottky_map": lambda: partial(koebe.schottky_map, *double_ring(4)[:2]),
+    "parts": lambda: partial(koebe.parts, *icosphere(10)),
     "open_surface": lambda: partial(koebe.open_surface, SAMPLES / "face.obj"),
     "module_error": lambda: partial(koebe.module_error, fresh(disk("face"))),
     "noise_error": lambda: partial(koebe.noise_error, disk("face"), noise=0.01, samples=3),

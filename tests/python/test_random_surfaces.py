@@ -1,16 +1,13 @@
 """Random surfaces whose maps once broke a promise (`make reliability` names them), and a few of each kind."""
 
-import sys
 from pathlib import Path
 
+import commands
 import koebe
 import numpy as np
+import promises
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import commands  # noqa: E402
-import promises  # noqa: E402
-import random_surfaces  # noqa: E402
+import random_surfaces
 
 
 @pytest.mark.parametrize("kind", random_surfaces.KINDS)

@@ -9,10 +9,9 @@ from xml.etree import ElementTree
 import koebe
 import numpy as np
 import pytest
-from cli_support import perforated, triangles_of
+from cli_support import triangulated_plate
 
-VERTICES, QUADS = perforated()
-FACES = triangles_of(QUADS).astype(np.int32)
+VERTICES, FACES = triangulated_plate()
 RESULT = koebe.uniformize(VERTICES, FACES)
 RECORDED = koebe.uniformize(VERTICES, FACES, engine="mesh", max_sweeps=1, record_steps=True)
 

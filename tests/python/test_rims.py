@@ -2,8 +2,6 @@
 
 import json
 import math
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
@@ -12,13 +10,10 @@ from cli_support import USAGE, obj_text, triangles_of
 from cli_support import koebe as command
 from koebe._native import _koebe
 from koebe.labs.shapes import mapped_surface
+from planar_oracle import confocal, confocal_rims, matched, plate_rims
+from planar_oracle import plate as oracle_plate
 from test_certified import square_in_square
 from test_module_error import round_domain
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "bench"))
-
-from planar_oracle import confocal, confocal_rims, matched, plate_rims  # noqa: E402
-from planar_oracle import plate as oracle_plate  # noqa: E402
 
 HOLES = [(0.45, 0.25, 0.18), (-0.4, 0.35, 0.2), (-0.1, -0.5, 0.15)]
 

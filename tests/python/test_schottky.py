@@ -1,12 +1,12 @@
 """Maps of surfaces with handles: against exact groups, and what is promised of every result."""
 
 import json
-import subprocess
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import COMMAND
+from cli_support import CANNOT_BE_MAPPED, obj_rows, succeeded, write_obj
+from cli_support import koebe as run
 from domain_surfaces import holed_ring, holed_torus
 from handle_surfaces import double_group, double_ring, invariants, plate
 
@@ -239,37 +239,19 @@ def test_polygons_stay_whole():
             assert corner.setdefault((number, v), tuple(point)) == tuple(point)
 
 
-def test_it_can_be_cancelled():
-    vertices, triangles, _ = double_ring(4)
-    token = koebe.CancelToken()
-    token.cancel()
-    with pytest.raises(koebe.Cancelled):
-        koebe.schottky_map(vertices, triangles, cancel=token)
-
-
-def write_obj(path, vertices, triangles):
-    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()]
-    path.write_text("\n".join(lines + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in triangles.tolist()]) + "\n")
-
-
 def test_the_command_writes_what_the_package_returns(tmp_path):
     vertices, triangles, _ = double_ring(2)
     write_obj(tmp_path / "in.obj", vertices, triangles)
-    files = [str(tmp_path / name) for name in ("in.obj", "out.obj", "report.json", "picture.svg")]
-    run = subprocess.run(
-        [COMMAND, "schottky", *files[:2], "--json", files[2], "--svg", files[3]], capture_output=True, text=True
-    )
-    assert run.returncode == 0, run.stderr
-    assert "2 handles, 0 loops" in run.stdout
+    done = succeeded("schottky", "in.obj", "out.obj", "--json", "report.json", "--svg", "picture.svg", cwd=tmp_path)
+    assert "2 handles, 0 loops" in done.stdout
     report = json.loads((tmp_path / "report.json").read_text())
     result = koebe.schottky_map(vertices, triangles)
     mine = result.to_dict()
     for name in ("handles", "loops", "by_circles", "changes", "angle_error_deg", "options", "warnings"):
         assert report[name] == mine[name], name
     lines = (tmp_path / "out.obj").read_text().splitlines()
-    coordinates = np.array([line.split()[1:] for line in lines if line.startswith("vt ")], float)
     corners = [c.split("/") for line in lines if line.startswith("f ") for c in line.split()[1:]]
-    written = coordinates[[int(c[1]) - 1 for c in corners]].reshape(-1, 3, 2)
+    written = obj_rows(tmp_path / "out.obj", "vt")[[int(c[1]) - 1 for c in corners]].reshape(-1, 3, 2)
     assert abs(written - result.uv).max() < 1e-7
     assert (tmp_path / "picture.svg").read_text().count("<circle") >= 4
 
@@ -277,8 +259,6 @@ def test_the_command_writes_what_the_package_returns(tmp_path):
 def test_a_surface_without_handles_ends_the_command_with_3(tmp_path):
     vertices, triangles, *_ = holed_ring(4)
     write_obj(tmp_path / "in.obj", vertices, triangles)
-    run = subprocess.run(
-        [COMMAND, "schottky", tmp_path / "in.obj", tmp_path / "out.obj"], capture_output=True, text=True
-    )
-    assert run.returncode == 3 and "no handle" in run.stderr
+    refused = run("schottky", "in.obj", "out.obj", cwd=tmp_path)
+    assert refused.returncode == CANNOT_BE_MAPPED and "no handle" in refused.stderr
     assert not (tmp_path / "out.obj").exists()

@@ -1,19 +1,15 @@
 """Show: where cuts and darts keep away."""
 
 import json
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, obj_text
+import random_models
+from cli_support import CANNOT_BE_MAPPED, obj_text, succeeded
 from cli_support import koebe as command
 from koebe._native import _koebe
 from test_parts import TRIANGLES, VERTICES
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import random_models  # noqa: E402
 
 
 def creature():
@@ -112,8 +108,7 @@ def test_the_command_reads_a_file(tmp_path):
     show = front(VERTICES, axis=0)
     (tmp_path / "in.obj").write_text(obj_text(VERTICES, TRIANGLES))
     (tmp_path / "w.txt").write_text("\n".join(f"{w:g}" for w in show))
-    done = command("parts", "in.obj", "a.obj", "--show", "w.txt", "--json", "r.json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("parts", "in.obj", "a.obj", "--show", "w.txt", "--json", "r.json", cwd=tmp_path)
     report = json.loads((tmp_path / "r.json").read_text())
     turned = koebe.parts(VERTICES, TRIANGLES, show=show)
     assert report["options"]["show"] is True and turned.options["show"] is True

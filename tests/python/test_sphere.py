@@ -1,13 +1,13 @@
 """Maps to the sphere: against exact solutions, in exact arithmetic, and under random damage."""
 
 import json
-import subprocess
 from fractions import Fraction
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import COMMAND
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_rows, same_as_package, succeeded, write_obj
+from cli_support import koebe as run
 from domain_surfaces import damaged, holed_ring, holed_torus, renumbered
 from sphere_surfaces import (
     areas_around,
@@ -21,6 +21,7 @@ from sphere_surfaces import (
     moved_sphere,
     spheroid_map,
 )
+from uv_measures import signed_areas
 
 HOLES = {(1, 0): ((0.5, 0.5), 0.3), (3, 1): ((0.5, 0.6), 0.25)}
 
@@ -67,8 +68,7 @@ def assert_sphere(sphere, triangles):
         assert abs(np.linalg.norm(cap[:3]) - 1) < 1e-12 and 0 <= cap[3] <= np.pi
     stored = sphere.uv.astype(np.float32).astype(float)
     assert np.array_equal(stored, sphere.uv)
-    a, b = (stored[:, k] - stored[:, 0] for k in (1, 2))
-    areas = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    areas = signed_areas(stored)
     areas[sphere.turned] *= -1
     assert np.array_equal(np.flatnonzero(areas <= 0), sphere.layout["flipped"])
     assert sphere.layout["flipped"] == sphere.flipped_faces.tolist() and len(sphere.flipped_faces) == sphere.flipped
@@ -460,57 +460,20 @@ def test_a_coarse_surface_that_would_be_turned_over_is_opened_at_a_vertex():
     assert "opened at a vertex" in " ".join(warning.text for warning in sphere.warnings)
 
 
-def test_progress_and_cancel():
-    vertices, triangles = icosphere(10)
-    for surface in ((vertices, triangles), holed_ring(6)[:2]):
-        heard = []
-        koebe.sphere_map(*surface, progress=lambda share, stage: heard.append(share))  # noqa: B023
-        assert heard == sorted(heard) and heard[-1] == 1.0
-        token = koebe.CancelToken()
-        token.cancel()
-        with pytest.raises(koebe.Cancelled):
-            koebe.sphere_map(*surface, cancel=token)
-
-
-def write_obj(path, vertices, triangles):
-    lines = ["v " + " ".join(repr(float(x)) for x in v) for v in vertices]
-    lines += ["f " + " ".join(str(i + 1) for i in f) for f in triangles]
-    path.write_text("\n".join(lines) + "\n")
-
-
-def read_numbers(path, kind):
-    lines = [line.split() for line in path.read_text().splitlines()]
-    return np.array([line[1:] for line in lines if line and line[0] == kind], float)
-
-
 @pytest.mark.parametrize("layout", ["equirectangular", "octahedral"])
 def test_the_command_says_what_python_says(layout, tmp_path):
     surface = icosphere(6) if layout == "octahedral" else holed_ring(5, holes=HOLES)[:2]
     write_obj(tmp_path / "in.obj", *surface)
-    call = [COMMAND, "sphere", tmp_path / "in.obj", tmp_path / "out.obj", "--layout", layout,
-            "--json", tmp_path / "out.json", "--svg", tmp_path / "out.svg",
-            "--sphere", tmp_path / "sphere.obj"]  # fmt: skip
-    done = subprocess.run(call, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert "0 flipped" in done.stdout
-    report = json.loads((tmp_path / "out.json").read_text())
+    words = ("sphere", "in.obj", "out.obj", "--layout", layout, "--json", "out.json", "--svg", "out.svg", "--sphere")
+    assert "0 flipped" in succeeded(*words, "sphere.obj", cwd=tmp_path).stdout
     sphere = koebe.sphere_map(*surface, layout=layout)
-    own = sphere.to_dict()
-    for each in (report, own):
-        for name in ("seconds", "peak_memory_mb", "input", "input_sha256"):
-            each.pop(name, None)
-    assert report == own
-    uv = read_numbers(tmp_path / "out.obj", "vt")
-    assert np.isin(np.unique(sphere.uv.reshape(-1, 2), axis=0), uv).all()
-    assert np.allclose(read_numbers(tmp_path / "out.obj", "v"), surface[0])
-    assert np.abs(read_numbers(tmp_path / "sphere.obj", "v") - sphere.points).max() < 1e-9
+    assert same_as_package(json.loads((tmp_path / "out.json").read_text()), sphere)
+    assert np.isin(np.unique(sphere.uv.reshape(-1, 2), axis=0), obj_rows(tmp_path / "out.obj", "vt")).all()
+    assert np.allclose(obj_rows(tmp_path / "out.obj", "v"), surface[0])
+    assert np.abs(obj_rows(tmp_path / "sphere.obj", "v") - sphere.points).max() < 1e-9
     assert (tmp_path / "out.svg").read_text().startswith("<svg")
     write_obj(tmp_path / "torus.obj", *holed_torus(3)[:2])
-    refused = subprocess.run(
-        [COMMAND, "sphere", tmp_path / "torus.obj", tmp_path / "no.obj", "--sphere", tmp_path / "no2.obj"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert refused.returncode == 3 and "TopologyError" in refused.stderr
+    refused = run("sphere", "torus.obj", "no.obj", "--sphere", "no2.obj", cwd=tmp_path)
+    assert refused.returncode == CANNOT_BE_MAPPED and "TopologyError" in refused.stderr
     assert not (tmp_path / "no.obj").exists() and not (tmp_path / "no2.obj").exists()
-    wrong = subprocess.run([*call[:-1], tmp_path / "sphere.stl"], capture_output=True, text=True, check=False)
-    assert wrong.returncode == 2
+    assert run(*words, "sphere.stl", cwd=tmp_path).returncode == USAGE

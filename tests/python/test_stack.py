@@ -5,8 +5,8 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import cells, obj_text, triangles_of
-from cli_support import koebe as command
+from cli_support import cells, obj_text, succeeded, triangles_of
+from uv_measures import signed_areas
 
 
 def sheet(n=8, bend=0.9):
@@ -31,11 +31,6 @@ def family(same_diagonals=False):
     count = len(points)
     faces = np.concatenate([quads, backwards + count, quads + 2 * count])
     return vertices, triangles_of(faces), np.repeat(np.arange(len(faces)), 2)
-
-
-def signed_areas(uv):
-    a, b = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
-    return 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
 def of_vertices(uv, triangles, count):
@@ -105,8 +100,7 @@ def test_the_command_has_it(tmp_path):
     vertices, triangles, _ = family(same_diagonals=True)
     (tmp_path / "in.obj").write_text(obj_text(vertices, triangles))
     words = "--stack --stack-mirrored --darts 0 --price 1 --json r.json".split()
-    done = command("parts", "in.obj", "out.obj", *words, cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("parts", "in.obj", "out.obj", *words, cwd=tmp_path)
     report = json.loads((tmp_path / "r.json").read_text())
     assert len(report["stacked"]) == 2 and report["flipped"] == 0 and report["tiles"] == 1
     assert report["options"]["stack"] is True

@@ -1,16 +1,11 @@
 """Noise, its error bars, and the permutation test."""
 
 import itertools
-import sys
-from pathlib import Path
 
 import koebe
+import noisy_shapes
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-
-import noisy_shapes  # noqa: E402
 
 POINTS, TRIANGLES = noisy_shapes.plate(20)
 

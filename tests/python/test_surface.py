@@ -6,7 +6,7 @@ import threading
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of
 from cli_support import koebe as command
 
 VERTICES, QUADS = perforated(24)
@@ -129,8 +129,7 @@ def write_frames(folder, amounts):
 
 def test_a_sequence_of_files_is_mapped_and_laid_over_the_first(tmp_path):
     files = write_frames(tmp_path, [0.0, 0.01, 0.02])
-    made = command("sequence", *files, "--output", tmp_path / "out")
-    assert made.returncode == 0, made.stderr
+    succeeded("sequence", *files, "--output", tmp_path / "out")
     reports = [json.loads((tmp_path / "out" / f"frame{k:03}.json").read_text()) for k in range(3)]
     assert [report["flipped"] for report in reports] == [0, 0, 0]
     assert all(report["options"]["method"] == "gk" for report in reports)

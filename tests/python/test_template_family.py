@@ -1,22 +1,17 @@
 """Families of surfaces with holes: corresponding points, mean shape and matrices of fields, over one template."""
 
 import pickle
-import sys
 import warnings
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import perforated, triangles_of
+from cli_support import perforated, triangles_of, triangulated_plate
 from domain_surfaces import renumbered
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-from noisy_shapes import bent  # noqa: E402
+from noisy_shapes import bent
 
 HOLES = ((0.3, 0.3, 0.17), (0.75, 0.35, 0.08), (0.4, 0.72, 0.12))  # no symmetry to mistake
-VERTICES, QUADS = perforated(20, HOLES)
-FACES = triangles_of(QUADS).astype(np.int32)
+VERTICES, FACES = triangulated_plate(20, HOLES)
 RANDOM = np.random.default_rng(11)
 POINTS = [bent(VERTICES[:, :2], RANDOM, 0.05) for _ in range(4)]
 SHAPES = [koebe.uniformize(points, FACES) for points in POINTS]

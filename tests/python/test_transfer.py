@@ -1,21 +1,16 @@
 """Points of one surface on another: laws on surfaces whose correspondence is known."""
 
 import json
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, triangles_of
+from atrium_templates import atrium
+from cli_support import CANNOT_BE_MAPPED, USAGE, obj_text, perforated, succeeded, triangles_of, triangulated_plate
 from cli_support import koebe as command
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-from atrium_templates import atrium  # noqa: E402
-
 HOLES = ((0.3, 0.3, 0.12), (0.7, 0.35, 0.1), (0.5, 0.72, 0.14))
-VERTICES, QUADS = perforated(32, HOLES)
-FACES = triangles_of(QUADS).astype(np.int32)
+VERTICES, FACES = triangulated_plate(32, HOLES)
 A = koebe.uniformize(VERTICES, FACES)
 
 
@@ -86,8 +81,7 @@ def test_tubes_are_fitted_too():
 
 
 def flattened(holes):
-    vertices, quads = perforated(28, holes)
-    return vertices, triangles_of(quads).astype(np.int32)
+    return triangulated_plate(28, holes)
 
 
 @pytest.mark.parametrize(
@@ -112,8 +106,7 @@ def test_the_command_writes_the_points_of_a_on_b(tmp_path):
     (tmp_path / "a.obj").write_text(obj_text(VERTICES, FACES))
     (tmp_path / "b.obj").write_text(obj_text(other, faces))
     files = (tmp_path / "a.obj", tmp_path / "b.obj", tmp_path / "out.obj", "--json", tmp_path / "places.json")
-    done = command("transfer", *files)
-    assert done.returncode == 0
+    done = succeeded("transfer", *files)
     assert done.stdout.startswith(f"{tmp_path / 'out.obj'}: {len(VERTICES)} points, holes miss by")
     lines = [line.split() for line in (tmp_path / "out.obj").read_text().splitlines()]
     points = np.array([line[1:4] for line in lines if line[:1] == ["v"]], dtype=float)

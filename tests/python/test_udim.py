@@ -6,8 +6,7 @@ import re
 import koebe
 import numpy as np
 import pytest
-from cli_support import koebe as command
-from cli_support import obj_text, triangles_of
+from cli_support import obj_text, succeeded, triangles_of
 from test_even import covered_at_most_once
 
 
@@ -75,8 +74,7 @@ def test_what_does_not_fit_is_refused_with_the_largest_density_that_does():
 
 def test_the_command_draws_the_tiles(tmp_path):
     (tmp_path / "in.obj").write_text(obj_text(*strips(SIZES)))
-    done = command("parts", "in.obj", "out.obj", "--tiles", 11, "--json", "r.json", "--svg", "p.svg", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("parts", "in.obj", "out.obj", "--tiles", 11, "--json", "r.json", "--svg", "p.svg", cwd=tmp_path)
     assert json.loads((tmp_path / "r.json").read_text())["tiles"] == 11
     picture = (tmp_path / "p.svg").read_text()
     assert 'viewBox="0 0 100000 20000"' in picture and ">1011<" in picture and ">1012<" not in picture

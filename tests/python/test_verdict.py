@@ -1,19 +1,15 @@
 """One verdict on every map: what is lost of the surface, and the angle error, as the UVs are stored."""
 
 import json
-import sys
-from pathlib import Path
 
 import koebe
 import numpy as np
+import promises
 import pytest
 from cli_support import NOT_CONVERGED, obj_text
 from cli_support import koebe as command
 from domain_surfaces import holed_ring, holed_torus
 from sphere_surfaces import icosphere
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "surfaces"))
-import promises  # noqa: E402
 
 
 def with_finger(vertices, triangles, rings):

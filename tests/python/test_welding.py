@@ -5,7 +5,7 @@ import json
 import koebe
 import numpy as np
 import pytest
-from cli_support import CANNOT_BE_MAPPED, obj_text, perforated, triangles_of
+from cli_support import CANNOT_BE_MAPPED, obj_rows, obj_text, perforated, read_corners, succeeded, triangles_of
 from cli_support import koebe as run
 
 VERTICES, QUADS = perforated(12, holes=((0.5, 0.5, 0.2),))
@@ -22,16 +22,6 @@ def soup(faces, apart=0.0):
 
 def coincident(report):
     return [warning for warning in report["warnings"] if warning["kind"] == "coincident"]
-
-
-def written(path):
-    """Vertices, and for each corner of the faces its vertex and its texture coordinates, as they stand in OBJ."""
-    rows = [line.split() for line in path.read_text().splitlines()]
-    uv = np.array([row[1:3] for row in rows if row[:1] == ["vt"]], float)
-    corners = [[word.split("/") for word in row[1:]] for row in rows if row[:1] == ["f"]]
-    vertices = np.array([row[1:] for row in rows if row[:1] == ["v"]], float)
-    return vertices, [[int(v) - 1 for v, _ in face] for face in corners], uv[
-        [[int(t) - 1 for _, t in face] for face in corners]]  # fmt: skip
 
 
 @pytest.mark.parametrize("distance", [0.0, 0.03, 0.2, 5.0])
@@ -58,9 +48,8 @@ def test_the_map_of_a_soup_is_that_of_its_surface(tmp_path, command, apart, face
     (tmp_path / "soup.obj").write_text(obj_text(points, own))
     (tmp_path / "whole.obj").write_text(obj_text(VERTICES, faces))
     for name, words in (("soup", ["--weld", apart]), ("whole", [])):
-        done = run(command, f"{name}.obj", f"{name}_uv.obj", "--json", f"{name}.json", *words, cwd=tmp_path)
-        assert done.returncode == 0, done.stderr
-    vertices, corners, uv = written(tmp_path / "soup_uv.obj")
+        succeeded(command, f"{name}.obj", f"{name}_uv.obj", "--json", f"{name}.json", *words, cwd=tmp_path)
+    vertices, corners, uv = map(np.array, read_corners(tmp_path / "soup_uv.obj"))
     assert np.array_equal(vertices, points) and np.array_equal(corners, own)
     found, wanted = (json.loads((tmp_path / f"{name}.json").read_text()) for name in ("soup", "whole"))
     assert found["options"]["weld"] == apart and wanted["options"]["weld"] is None
@@ -81,8 +70,7 @@ def test_the_map_of_a_soup_is_that_of_its_surface(tmp_path, command, apart, face
 def test_a_warning_says_how_many_vertices_lie_in_one_place_and_what_joins_them(tmp_path, apart):
     points, own = soup(TRIANGLES, apart)
     (tmp_path / "soup.obj").write_text(obj_text(points, own))
-    done = run("parts", "soup.obj", "out.obj", "--json", "out.json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("parts", "soup.obj", "out.obj", "--json", "out.json", cwd=tmp_path)
     (said,) = coincident(json.loads((tmp_path / "out.json").read_text()))
     shared = np.flatnonzero(np.bincount(TRIANGLES.ravel())[TRIANGLES.ravel()] > 1)
     assert said["elements"] == shared.tolist()
@@ -121,8 +109,7 @@ def test_only_vertices_of_no_face_count_as_unused(tmp_path):
     points, own = soup(TRIANGLES)
     points = np.concatenate([points, [[9, 9, 9]]])
     (tmp_path / "soup.obj").write_text(obj_text(points, own))
-    done = run("uniformize", "soup.obj", "out.obj", "--weld", 0, "--json", "out.json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("uniformize", "soup.obj", "out.obj", "--weld", 0, "--json", "out.json", cwd=tmp_path)
     for report in (json.loads((tmp_path / "out.json").read_text()), koebe.uniformize(points, own, weld=0).to_dict()):
         (said,) = [one for one in report["warnings"] if one["kind"] == "unused_vertices"]
         assert said["elements"] == [len(points) - 1]
@@ -142,8 +129,8 @@ def test_places_where_three_faces_meet_are_refused_or_split(tmp_path):
     (tmp_path / "fins.obj").write_text(obj_text(fins, np.arange(9).reshape(3, 3)))
     done = run("uniformize", "fins.obj", "out.obj", "--weld", 0, cwd=tmp_path)
     assert done.returncode == CANNOT_BE_MAPPED and done.stderr.startswith("TopologyError(nonmanifold_edge)")
-    done = run("parts", "fins.obj", "out.obj", "--weld", 0, "--json", "out.json", cwd=tmp_path)
-    assert done.returncode == 0 and json.loads((tmp_path / "out.json").read_text())["flipped"] == 0
+    done = succeeded("parts", "fins.obj", "out.obj", "--weld", 0, "--json", "out.json", cwd=tmp_path)
+    assert json.loads((tmp_path / "out.json").read_text())["flipped"] == 0
 
 
 def test_a_saved_result_keeps_the_vertices(tmp_path):
@@ -153,7 +140,7 @@ def test_a_saved_result_keeps_the_vertices(tmp_path):
     loaded = koebe.load(tmp_path / "soup.npz")
     assert np.array_equal(loaded.uv, result.uv) and len(coincident(loaded.to_dict())) == 1
     loaded.export(tmp_path / "out.obj")
-    vertices, corners, _ = written(tmp_path / "out.obj")
+    vertices, corners, _ = read_corners(tmp_path / "out.obj")
     assert len(vertices) == len(points) and np.array_equal(corners, own)
 
 
@@ -169,8 +156,7 @@ def test_shapes_are_those_of_the_joined_surface(tmp_path):
     weld = ["--weld", 2 * CRACK]
 
     def said(*words):
-        done = run(*words, cwd=tmp_path)
-        assert done.returncode == 0, done.stderr
+        done = succeeded(*words, cwd=tmp_path)
         return done.stdout
 
     modules = [json.loads(said("module", f"{name}.obj", *weld))["module"] for name in ("soup", "whole")]
@@ -179,18 +165,14 @@ def test_shapes_are_those_of_the_joined_surface(tmp_path):
     assert bounds["upper"] - bounds["lower"] < 0.1 and len(bounds) == 2
     assert float(said("compare", "soup.obj", "whole.obj", *weld).split()[1]) < 1e-3
     said("transfer", "soup.obj", "whole.obj", "moved.obj", "--landmarks", "marks.txt", *weld)
-    assert np.abs(written_vertices(tmp_path / "moved.obj") - points).max() < 0.02  # of edges of 1/12
+    assert np.abs(obj_rows(tmp_path / "moved.obj", "v") - points).max() < 0.02  # of edges of 1/12
     said("fit", "soup.obj", "template.json", "fit.obj", *weld)
     said("sequence", "soup.obj", "--output", "all", *weld)
     for file in ("fit.obj", "all/soup.obj"):
-        vertices, corners, uv = written(tmp_path / file)
+        vertices, corners, uv = map(np.array, read_corners(tmp_path / file))
         assert np.array_equal(vertices, points) and np.array_equal(corners, own)
         flat = uv.reshape(-1, 2)[np.argsort(own.ravel())]
         assert np.array_equal(flat, flat[koebe.weld(points, 2 * CRACK)])
-
-
-def written_vertices(path):
-    return np.array([line.split()[1:4] for line in path.read_text().splitlines() if line.startswith("v ")], float)
 
 
 def test_a_sequence_keeps_the_joins_of_its_first_file(tmp_path):
@@ -199,11 +181,10 @@ def test_a_sequence_keeps_the_joins_of_its_first_file(tmp_path):
     apart = shear + RANDOM.uniform(-0.01, 0.01, shear.shape)  # none of them in one place
     for name, place in (("a", points), ("b", shear), ("c", apart)):
         (tmp_path / f"{name}.obj").write_text(obj_text(place, own))
-    done = run("sequence", "a.obj", "b.obj", "c.obj", "--output", "all", "--weld", 0, cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+    succeeded("sequence", "a.obj", "b.obj", "c.obj", "--output", "all", "--weld", 0, cwd=tmp_path)
     surface = koebe.Surface(points, own, weld=0)
     for name, place in (("a", None), ("b", shear), ("c", apart)):
-        uv = written(tmp_path / "all" / f"{name}.obj")[2].reshape(-1, 2)
+        uv = np.reshape(read_corners(tmp_path / "all" / f"{name}.obj")[2], (-1, 2))
         result = surface.uniformize(place)
         assert np.array_equal(uv, uv[koebe.weld(points)]) and result.flipped == 0
         assert np.allclose(2 * uv - 1, result.uv, atol=1e-6)
@@ -224,9 +205,9 @@ def test_holes_of_the_joined_surface_are_filled_and_the_file_stays(tmp_path, fai
     if fair:
         return
     (tmp_path / "soup.obj").write_text(obj_text(points, thin))
-    done = run("fill", "soup.obj", "out.obj", "--all", "--weld", 2 * CRACK, cwd=tmp_path)
-    assert done.returncode == 0 and "2 loops filled" in done.stdout, done.stderr + done.stdout
-    assert np.allclose(written_vertices(tmp_path / "out.obj"), vertices)
+    done = succeeded("fill", "soup.obj", "out.obj", "--all", "--weld", 2 * CRACK, cwd=tmp_path)
+    assert "2 loops filled" in done.stdout, done.stderr + done.stdout
+    assert np.allclose(obj_rows(tmp_path / "out.obj", "v"), vertices)
 
 
 def test_python_has_it_where_surfaces_are_read():

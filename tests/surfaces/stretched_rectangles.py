@@ -13,7 +13,7 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parents[2] / "build" / "python"))
 
 import koebe  # noqa: E402
-from stretched_cylinders import cells_without, halved  # noqa: E402
+from stretched_cylinders import FIGURES, cells_without, figures, halved  # noqa: E402
 
 WIDE, HIGH = 18, 12  # cells
 HOLES = {0: [], 1: [(3, 7, 3, 7)], 3: [(3, 7, 3, 7), (10, 14, 5, 9), (4, 9, 9, 11)]}  # cells from, to, up from, to
@@ -52,9 +52,7 @@ ROWS = {
         ({"c": 1, "m": 2, "f": 4}[one], {"c": "coarse", "m": "medium", "f": "fine"}[one]) for one in sizes
     ]
 }
-HEAD = [
-    "rectangle", "faces", "K", "error of K", "lower", "largest", "K backwards", "mean µ, exact", "spread",
-]  # fmt: skip
+HEAD = ["rectangle", *FIGURES]
 
 
 def cells(row):
@@ -63,11 +61,7 @@ def cells(row):
     a, b, match, corners = pair(holes, stretch, finer)
     there = koebe.teichmueller(a, b, match=match, landmarks=corners)
     back = koebe.teichmueller(b, a, match=np.argsort(match), landmarks=corners)
-    return [
-        f"{a.face_count:,}", f"{there.K:.4f}", f"{100 * abs(there.K / stretch - 1):.2f} %", f"{there.lower:.3f}",
-        f"{there.largest:.3f}", f"{back.K:.4f}", f"{there.mu.mean():.4f}, {(stretch - 1) / (stretch + 1):.4f}",
-        f"{there.mu.std():.4f}",
-    ]  # fmt: skip
+    return figures(a, there, back, stretch)
 
 
 if __name__ == "__main__":

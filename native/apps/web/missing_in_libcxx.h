@@ -164,12 +164,6 @@ bool binary_search(Range&& range, const Value& value, Compare compare = {}, Proj
     return at != std::end(range) && !std::invoke(compare, value, std::invoke(project, *at));
 }
 
-template <class Range, class Equal = equal_to>
-auto adjacent_find(Range&& range, Equal equal = {})
-{
-    return std::adjacent_find(std::begin(range), std::end(range), equal);
-}
-
 template <class Range>
 auto min(Range&& range)
 {
@@ -201,53 +195,28 @@ void nth_element(Range&& range, Iterator nth, Compare compare = {}, Project proj
     std::nth_element(std::begin(range), nth, std::end(range), koebe_detail::projected_order(compare, project));
 }
 
-template <class Range, class Output>
-void copy(Range&& range, Output output)
-{
-    std::copy(std::begin(range), std::end(range), output);
-}
-
 template <class Range, class Output, class Test>
 void copy_if(Range&& range, Output output, Test test)
 {
     std::copy_if(std::begin(range), std::end(range), output, [&](auto&& a) -> bool { return std::invoke(test, a); });
 }
 
-template <class Range, class Output>
-void move(Range&& range, Output output)
-{
-    std::move(std::begin(range), std::end(range), output);
-}
-
-template <class Range, class Output, class Function>
-void transform(Range&& range, Output output, Function function)
-{
-    std::transform(std::begin(range), std::end(range), output, function);
-}
-
-template <class Range, class Value>
-void fill(Range&& range, const Value& value)
-{
-    std::fill(std::begin(range), std::end(range), value);
-}
-
-template <class Range, class Value>
-void replace(Range&& range, const Value& old_value, const Value& new_value)
-{
-    std::replace(std::begin(range), std::end(range), old_value, new_value);
-}
-
-template <class Range, class Test, class Value>
-void replace_if(Range&& range, Test test, const Value& value)
-{
-    std::replace_if(std::begin(range), std::end(range), test, value);
-}
-
-template <class Range>
-void reverse(Range&& range)
-{
-    std::reverse(std::begin(range), std::end(range));
-}
+// Algorithms of a whole range.
+#define KOEBE_OF_RANGE(name)                                                                                           \
+    template <class Range, class... Words>                                                                             \
+    auto name(Range&& range, Words&&... words)                                                                         \
+    {                                                                                                                  \
+        return std::name(std::begin(range), std::end(range), std::forward<Words>(words)...);                           \
+    }
+KOEBE_OF_RANGE(adjacent_find)
+KOEBE_OF_RANGE(copy)
+KOEBE_OF_RANGE(move)
+KOEBE_OF_RANGE(transform)
+KOEBE_OF_RANGE(fill)
+KOEBE_OF_RANGE(replace)
+KOEBE_OF_RANGE(replace_if)
+KOEBE_OF_RANGE(reverse)
+#undef KOEBE_OF_RANGE
 
 template <class Range, class Iterator>
 void rotate(Range&& range, Iterator middle)

@@ -1,23 +1,130 @@
 #include "linear/sparse_cholesky.h"
 
 #include "execution/memory_limit.h"
+#include "execution/profile.h"
 #include "execution/thread_share.h"
+#include "linear/dense_blas.h"
 #include "linear/dense_spd.h"
 #include "linear/factor/analysis.h"
 #include "linear/factor/multifrontal_factor.h"
 #include "linear/factor/part_substitution.h"
-#include "linear/factor/selected_inverse.h"
+#include "linear/factor/subtrees.h"
 #include "linear/factor/supernodal_factor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace koebe {
 
 using namespace detail;
 
 namespace {
+
+/// The inverse on the pattern of some supernodes. Each has a block like its block in L: first the rows of its columns
+/// J, lower triangle, then R.
+class PatternInverse {
+public:
+    explicit PatternInverse(const SupernodalFactor& l) : l_(l), blocks_(l.count()) {}
+
+    void compute(Index s)
+    {
+        const int width = l_.width(s), height = l_.height(s), below = height - width;
+        const Index* rows = l_.rows_of(s) + width;
+        MatrixXd& z = blocks_[s];
+        z = Eigen::Map<const MatrixXd>(l_.values(s), height, width);
+        const MatrixXd y = below_times_inverse(s);
+        int info = 0;
+        dpotri_("L", &width, z.data(), &height, &info);  // L_JJ^-T L_JJ^-1
+        if (below == 0) return;
+
+        MatrixXd corner(below, below);  // Z_RR, lower triangle
+        std::vector<Index> place(below);
+        for (int c = 0; c < below;) {
+            // Rows of R that are columns of one supernode stand side by side.
+            const Index owner = l_.supernode[rows[c]];
+            int end = c;
+            while (end < below && l_.supernode[rows[end]] == owner) ++end;
+            locate(owner, rows, c, place);
+            for (int column = c; column < end; ++column) {
+                const double* from = &blocks_[owner](0, rows[column] - l_.first[owner]);
+                for (int r = column; r < below; ++r) corner(r, column) = from[place[r]];
+            }
+            c = end;
+        }
+        const double one = 1.0, minus_one = -1.0, zero = 0.0;
+        double* lower_part = z.data() + width;
+        dsymm_("L", "L", &below, &width, &minus_one, corner.data(), &below, y.data(), &below, &zero, lower_part,
+               &height);
+        dgemm_("T", "N", &width, &width, &below, &minus_one, y.data(), &below, lower_part, &height, &one, z.data(),
+               &height);
+    }
+
+    /// The entry at two rows of L; row is not above column.
+    double entry(Index row, Index column) const
+    {
+        const Index s = l_.supernode[column];
+        const Index* rows = l_.rows_of(s);
+        return blocks_[s](std::lower_bound(rows, rows + l_.height(s), row) - rows, column - l_.first[s]);
+    }
+
+private:
+    /// L_RJ L_JJ^-1.
+    MatrixXd below_times_inverse(Index s) const
+    {
+        const int width = l_.width(s), height = l_.height(s), below = height - width;
+        MatrixXd y = Eigen::Map<const MatrixXd>(l_.values(s), height, width).bottomRows(below);
+        const double one = 1.0;
+        if (below > 0) dtrsm_("R", "L", "N", "N", &below, &width, &one, l_.values(s), &height, y.data(), &below);
+        return y;
+    }
+
+    /// The places of the rows from number `first` on among a supernode's rows; both ascend.
+    void locate(Index owner, const Index* rows, int first, std::vector<Index>& place) const
+    {
+        const Index* among = l_.rows_of(owner);
+        Index at = 0;
+        for (std::size_t r = first; r < place.size(); ++r) {
+            while (among[at] != rows[r]) ++at;
+            place[r] = at;
+        }
+    }
+
+    const SupernodalFactor& l_;
+    std::vector<MatrixXd> blocks_;
+};
+
+/// Blocks of A^-1, A = L L', for sets of rows; A has an entry between any two rows of a set. Goes from the root of the
+/// elimination tree down: for a supernode of the columns J with the rows R below, Z_RJ = -Z_RR L_RJ L_JJ^-1 and Z_JJ =
+/// L_JJ^-T L_JJ^-1 - (L_RJ L_JJ^-1)' Z_RJ (Takahashi, Fagan and Chin 1973; Erisman and Tinney 1975). Visits only the
+/// supernodes from the sets up to the root.
+/// @return for each set its block, rows and columns in the given order
+std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vector<std::vector<Index>>& sets)
+{
+    const ProfiledStage profiled("invert");
+    std::vector<char> needed(l.count(), 0);
+    for (const std::vector<Index>& set : sets)
+        for (const Index v : set)
+            for (Index s = l.supernode[l.rank[v]]; !needed[s]; s = l.parent(s)) needed[s] = 1;
+    PatternInverse inverse(l);
+    Subtrees(l, needed).downward([&](const std::vector<Index>& supernodes) {
+        std::for_each(supernodes.rbegin(), supernodes.rend(), [&](Index s) { inverse.compute(s); });
+    });
+
+    std::vector<MatrixXd> result(sets.size());
+    each_beside(sets.size(), [&](std::size_t k) {
+        const std::vector<Index>& set = sets[k];
+        MatrixXd& block = result[k];
+        block.resize(static_cast<Eigen::Index>(set.size()), static_cast<Eigen::Index>(set.size()));
+        for (std::size_t i = 0; i < set.size(); ++i)
+            for (std::size_t j = 0; j <= i; ++j) {
+                const Index p = l.rank[set[i]], q = l.rank[set[j]];
+                block(i, j) = block(j, i) = inverse.entry(std::max(p, q), std::min(p, q));
+            }
+    });
+    return result;
+}
 
 constexpr std::size_t solved_at_a_time = 32768;  // rows per thread
 constexpr Index pieces_of_large = 10;            // at least; more pieces take longer to find than they save

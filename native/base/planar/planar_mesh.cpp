@@ -2,15 +2,18 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "core/types.h"
 #include "planar/planar_predicates.h"
 #include "planar/planar_region.h"
-#include "planar/size_field.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace koebe {
 namespace {
@@ -20,6 +23,96 @@ using detail::PlanarRegion;
 using detail::to_complex;
 using detail::to_point;
 using Cdt = PlanarRegion::Cdt;
+
+/// size(x) = min(longest, min_v (h_v + gradation |x - v|)) over the polygons' vertices v, h_v the mean of their two
+/// edges. Vertices are kept in runs along the boundary, and runs in runs of runs, with a bound for each run. So a query
+/// looks at a few runs of each level, and at fewer near the place of the last query: one thread at a time may ask.
+class SizeField {
+public:
+    SizeField(const std::vector<VectorXcd>& polygons, double longest, double gradation);
+    double operator()(Complex place) const;
+
+private:
+    /// Consecutive vertices, or runs of the level below.
+    struct Run {
+        std::size_t begin = 0, end = 0;
+        Complex center;
+        double radius = 0.0;    // of a disk around center that holds the run's vertices
+        double shortest = 0.0;  // least wanted length in the run
+    };
+    double least_in(const Run& run, Complex place) const;
+    void look(std::size_t level, std::size_t begin, std::size_t end, Complex place, double& size) const;
+
+    double longest_, gradation_;
+    mutable Complex last_place_;
+    mutable double last_size_ = std::numeric_limits<double>::infinity();
+    std::vector<std::vector<Run>> levels_;  // vertices, runs of them, and so on; the last level is one short run
+};
+
+constexpr std::size_t run_length = 8;
+
+SizeField::SizeField(const std::vector<VectorXcd>& polygons, double longest, double gradation)
+    : longest_(longest), gradation_(gradation), levels_(1)
+{
+    for (const VectorXcd& polygon : polygons)
+        for (Eigen::Index i = 0, n = polygon.size(); i < n; ++i) {
+            const Complex here = polygon[i];
+            const double length =
+                0.5 * (distance(polygon[(i + 1) % n], here) + distance(here, polygon[(i + n - 1) % n]));
+            levels_[0].push_back({0, 0, here, 0.0, length});
+        }
+    while (levels_.back().size() > run_length) {
+        const std::vector<Run>& below = levels_.back();
+        std::vector<Run> runs;
+        for (std::size_t begin = 0; begin < below.size(); begin += run_length) {
+            Run run = below[begin];
+            run.begin = begin;
+            run.end = std::min(begin + run_length, below.size());
+            for (std::size_t i = begin; i < run.end; ++i) {
+                run.radius = std::max(run.radius, distance(run.center, below[i].center) + below[i].radius);
+                run.shortest = std::min(run.shortest, below[i].shortest);
+            }
+            runs.push_back(run);
+        }
+        levels_.push_back(std::move(runs));
+    }
+}
+
+/// A bound for the sizes wanted by a run's vertices: the size itself for one vertex.
+double SizeField::least_in(const Run& run, Complex place) const
+{
+    return run.shortest + gradation_ * std::max(distance(place, run.center) - run.radius, 0.0);
+}
+
+/// Lowers `size` to the least size wanted by these runs of a level. The runs with the lowest bounds come first.
+void SizeField::look(std::size_t level, std::size_t begin, std::size_t end, Complex place, double& size) const
+{
+    std::array<std::pair<double, std::size_t>, run_length> bounds;
+    std::size_t count = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+        const double bound = least_in(levels_[level][i], place);
+        if (!(bound < size)) continue;
+        if (level == 0)
+            size = bound;
+        else
+            bounds[count++] = {bound, i};
+    }
+    std::sort(bounds.begin(), bounds.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::size_t i = 0; i < count && bounds[i].first < size; ++i) {
+        const Run& run = levels_[level][bounds[i].second];
+        look(level - 1, run.begin, run.end, place, size);
+    }
+}
+
+double SizeField::operator()(Complex place) const
+{
+    // The field is Lipschitz: it bounds its values near the last one.
+    constexpr double rounding = 1e-9;
+    double size = std::min(longest_, (1.0 + rounding) * (last_size_ + gradation_ * distance(place, last_place_)));
+    look(levels_.size() - 1, 0, levels_.back().size(), place, size);
+    last_place_ = place;
+    return last_size_ = size;
+}
 
 /// A triangle is split if its circumradius over the wanted edge length exceeds this. An equilateral triangle of the
 /// wanted size has 0.577; splitting at 0.76 leaves edges whose mean is the wanted length.

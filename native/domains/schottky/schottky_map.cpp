@@ -3,6 +3,7 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "execution/execution.h"
 #include "execution/memory_limit.h"
 #include "foldover/convex_polygons.h"
 #include "linear/dense_spd.h"
@@ -10,15 +11,89 @@
 #include "quality/shared_warnings.h"
 #include "quality/stored_uv.h"
 #include "quality/take_verdict.h"
+#include "schottky/cut_map.h"
 #include "schottky/finer_faces.h"
-#include "schottky/laid_map.h"
+#include "schottky/schottky_tile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace koebe {
 namespace {
+
+/// A map and its UVs.
+struct LaidMap {
+    CutMap map;
+    SchottkyTile tile;
+    SchottkyFaults faults;
+    bool by_circles = false;
+
+    bool tangled() const { return faults.flipped.size() > faults.below_resolution.size(); }
+    /// Whether there are so many flips that repairs would take long and leave some.
+    bool hopeless() const { return faults.flipped.size() > faults.below_resolution.size() + tile.triangles.rows() / 5; }
+};
+
+/// Scales the tile until |x| and |y| are at most 1, and judges it.
+void fit_and_judge(LaidMap& map)
+{
+    const double largest = map.tile.points.cwiseAbs().maxCoeff();
+    if (largest > 1.0 && std::isfinite(largest)) {
+        map.tile.points /= largest;
+        map.map.plane.move(linear_fractional(1.0 / largest, 0.0, 0.0, 1.0));
+        for (auto& pair : map.map.circles.pairs)
+            for (Circle& circle : pair) circle = {circle.center / largest, circle.radius / largest};
+    }
+    map.faults = find_faults(map.tile);
+}
+
+/// Puts a map together. Flipped faces are turned back in tiles with other boundaries, too, as boundaries are held.
+/// @param polygon as in SchottkyOptions
+LaidMap laid_map(CutMap map, const FinerFaces& faces, const std::vector<Index>& polygon, ExecutionContext& context)
+{
+    LaidMap result;
+    result.map = std::move(map);
+    SchottkyPlane& plane = result.map.plane;
+    const FundamentalCircles& circles = result.map.circles;
+    const SchottkyTiling tiling(result.map.cut, faces, polygon);
+    result.by_circles = circles.apart;
+    const auto put_together = [&] {
+        result.tile = circles.apart ? tiling.by_circles(plane, circles) : tiling.as_cut(plane);
+        fit_and_judge(result);
+    };
+    const auto repair = [&](const SchottkyTile& tile) {
+        tiling.turn_back(tile, plane, context);
+        put_together();
+    };
+    put_together();
+    if (result.hopeless()) return result;
+    if (result.tangled()) repair(result.tile);
+    if (circles.apart)
+        for (const double factor : {1.6, 0.6}) {
+            if (!result.tangled()) break;
+            const FundamentalCircles beside = circles_beside(plane, circles, factor);
+            if (beside.apart) repair(tiling.by_circles(plane, beside));
+        }
+    if (!circles.apart || !result.faults.any()) return result;
+    // The boundary of the UVs may have faults for one circle and none for another.
+    for (const double factor : {1.6, 0.6, 2.5, 0.4}) {
+        const FundamentalCircles beside = circles_beside(plane, circles, factor);
+        if (!beside.apart) continue;
+        SchottkyTile tile = tiling.by_circles(plane, beside);
+        if (find_faults(tile).any()) continue;
+        result.tile = std::move(tile);
+        result.map.circles = beside;
+        fit_and_judge(result);
+        return result;
+    }
+    SchottkyTile by_cut = tiling.as_cut(plane);
+    if (find_faults(by_cut).any()) return result;
+    result.tile = std::move(by_cut);
+    result.by_circles = false;
+    fit_and_judge(result);
+    return result;
+}
 
 constexpr double least_circle = 1e-12;  // radius of a circle whose points 64-bit coordinates can tell apart
 constexpr double large_misfit = 0.5;

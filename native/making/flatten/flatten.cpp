@@ -3,16 +3,20 @@
 #include "canonical/corner_map.h"
 #include "core/counted.h"
 #include "core/errors.h"
+#include "core/types.h"
+#include "even/even_map.h"
+#include "execution/execution.h"
 #include "execution/memory_limit.h"
 #include "execution/side_by_side.h"
 #include "flatten/allowance.h"
-#include "flatten/less_stretch.h"
 #include "flatten/notches.h"
 #include "flatten/seams.h"
 #include "flatten/sheets.h"
 #include "flatten/stretch.h"
+#include "flow/flat_layout.h"
 #include "linear/dense_spd.h"
 #include "parts/flat_mesh.h"
+#include "parts/flat_part.h"
 #include "parts/flat_repair.h"
 #include "planar/planar_predicates.h"
 #include "quality/map_clock.h"
@@ -27,6 +31,47 @@
 
 namespace koebe {
 namespace {
+
+constexpr int most_relaxations = 12;         // of further relaxation,
+constexpr double worth_a_relaxation = 0.97;  // of the stretch
+constexpr double negligible = 1e-9;          // stretch
+
+PlanarPoints laid_face_by_face(const FlatPart& part)
+{
+    const Triangles& triangles = part.surface.triangles;
+    const EdgeLengths lengths = edge_lengths(part.vertices, triangles);
+    const VectorXcd z = positions_from_edges(triangles, lengths, unfolded_edges(triangles, lengths, part.surface.twin),
+                                             part.surface.vertex_count);
+    PlanarPoints points(z.size(), 2);
+    points << z.real(), z.imag();
+    return points;
+}
+
+/// Unfolds the part face by face, and takes the result if it is one to one and less stretched. Then relaxes it as long
+/// as that helps.
+void stretch_less(FlatPart& part, ExecutionContext& context)
+{
+    double before = mean_stretch(part);
+    FlatPart other = part;
+    try {
+        other.points = laid_face_by_face(part);
+    } catch (const SolverError&) {  // faces without area
+        other.points.setZero();
+    }
+    if (lies_one_to_one(other, other.points))
+        if (const double now = mean_stretch(other); now < before) {
+            part = std::move(other);
+            before = now;
+        }
+    std::vector<RoundLoop> none;
+    for (int round = 0; round < most_relaxations && before > negligible; ++round) {
+        make_even({part.vertices, part.surface.triangles, part.surface.loops, part.points, none}, 1.0, packed_side,
+                  context);
+        const double now = mean_stretch(part);
+        if (!(now < worth_a_relaxation * before)) return;
+        before = now;
+    }
+}
 
 constexpr double price_true_to_size = 0.0037;          // of a piece: patterns may stretch less than UVs
 constexpr double least_piece = 0.1, most_piece = 1e6;  // mm across

@@ -5,7 +5,6 @@
 #include "cli/options/option_table.h"
 #include "cli/options/wrong_usage.h"
 #include "cli/process/error_line.h"
-#include "cli/process/scarce_memory.h"
 #include "cli/process/standard_streams.h"
 #include "core/numbering.h"
 #include "execution/profile.h"
@@ -13,14 +12,17 @@
 #include "io/atomic_file.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <malloc.h>
 #include <new>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <sys/resource.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -29,6 +31,50 @@ namespace {
 
 using namespace koebe;
 using namespace koebe::cli;
+
+std::atomic<bool> ran_out{false};
+
+/// Prints the error of a command that ran out of memory, and exits. Allocates no memory.
+[[noreturn]] void end_for_memory()
+{
+    std::fputs("OutOfMemory: the mesh needs more memory than there is\n", stderr);
+    std::_Exit(cannot_be_mapped);  // an ordinary exit waits for threads, which wait for memory
+}
+
+[[noreturn]] void note_and_throw()
+{
+    ran_out = true;
+    throw std::bad_alloc();
+}
+
+[[noreturn]] void end_of_exceptions()
+{
+    if (!ran_out) std::abort();
+    AtomicFile::remove_temporary_files();
+    end_for_memory();
+}
+
+/// Makes threads share one arena if the address space is limited: malloc would otherwise ask for new ones of 64 MB with
+/// every allocation.
+void share_arena()
+{
+#if defined(__GLIBC__)
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) ::mallopt(M_ARENA_MAX, 1);
+#endif
+}
+
+/// Whether memory ran out at any time. Then other errors, such as a number that could not be read, come from that.
+bool memory_ran_out() noexcept { return ran_out; }
+
+/// Call before other threads start. Makes end_for_memory end the process where an exception for memory would otherwise
+/// do so, because no exception may pass there.
+void prepare_for_scarce_memory()
+{
+    std::set_new_handler(note_and_throw);  // from here on exceptions are caught
+    std::set_terminate(end_of_exceptions);
+    share_arena();
+}
 
 int fail(const std::string& line, int code)
 {
