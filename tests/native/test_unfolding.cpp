@@ -307,6 +307,28 @@ TEST(Unfolding, ACubeBecomesACrossCutAlongSevenEdges)
     }
 }
 
+TEST(Unfolding, AnEdgeWithoutLengthBetweenTwoSidesCutsNothing)
+{
+    // In the middle of an edge lie two vertices, and each side has a needle between them.
+    Solid solid = box(1.0, 1.0, 1.0, 1);
+    const Index a = solid.polygons[0][0], b = solid.polygons[0][1], middle = static_cast<Index>(solid.points.size());
+    for (int i = 0; i < 2; ++i) solid.points.push_back((solid.points[a] + solid.points[b]) / 2.0);
+    for (auto& polygon : solid.polygons)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Index from = polygon[k], to = polygon[(k + 1) % 4];
+            if (std::minmax(from, to) != std::minmax(a, b)) continue;
+            std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>((k + 2) % 4));
+            polygon.insert(polygon.end() - 1, {middle + (from == b), middle + (from == a)});
+            break;
+        }
+    const CutSurface cube = surface_of(solid);
+    const auto parts = unfold(cube);
+    ASSERT_TRUE(parts);
+    EXPECT_EQ(parts->parts.size(), 1u);
+    EXPECT_NEAR(parts->cut_length, 7.0 / std::sqrt(6.0), 1e-5);
+    for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
+}
+
 TEST(Unfolding, ABoxIsCutAlongItsShortEdges)
 {
     const CutSurface slab = surface_of(box(1.0, 2.0, 4.0, 3));
