@@ -4,6 +4,7 @@
 #include "core/connectivity.h"
 #include "mesh/topology.h"
 #include "parts/regions.h"
+#include "parts/tension.h"
 
 #include <gtest/gtest.h>
 
@@ -230,9 +231,9 @@ TEST(Unfolding, NoiseDoesNotHideTheSidesOfABox)
     EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), 0.0, 1.5 * noise), 8.0 * noise);
 }
 
-TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
+/// A ball cut by a plane: the plate is a fifth of the area.
+Solid ball_with_plate()
 {
-    // A ball cut by a plane: the plate is a fifth of the area.
     constexpr int n = 40;
     Solid ball;
     std::vector<std::vector<Index>> rings;
@@ -259,6 +260,12 @@ TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
             ball.polygons.push_back({rings[i][k], rings[i][next], rings[i + 1][next], rings[i + 1][k]});
         ball.polygons.push_back({rings.back()[k], rings.back()[next], top});
     }
+    return ball;
+}
+
+TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
+{
+    Solid ball = ball_with_plate();
     for (std::size_t v = 0; v < ball.points.size(); ++v)
         for (int axis = 0; axis < 3; ++axis)
             ball.points[v][axis] += 1e-4 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
@@ -268,6 +275,17 @@ TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
     double largest = 0.0;
     for (const RegionPlane& plane : regions.planes) largest = std::max(largest, plane.area);
     EXPECT_NEAR(largest, 0.2, 0.01);
+}
+
+TEST(Unfolding, ASmallPlateOfABallStaysFlat)
+{
+    const CutSurface surface = surface_of(ball_with_plate());
+    const auto parts = unfold_hard(surface);
+    ASSERT_TRUE(parts);
+    ASSERT_EQ(parts->parts.size(), 1u);
+    const FlatPart& plate = parts->parts.front();
+    EXPECT_NEAR(face_areas(plate.vertices, plate.surface.triangles).sum(), 0.2, 0.01);
+    EXPECT_TRUE(is_true_to_size(plate));
 }
 
 TEST(Unfolding, SliversThatNoiseTurnsOverStayInTheirPlanes)
