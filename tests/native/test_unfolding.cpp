@@ -4,7 +4,6 @@
 #include "core/connectivity.h"
 #include "mesh/topology.h"
 #include "parts/regions.h"
-#include "parts/tension.h"
 
 #include <gtest/gtest.h>
 
@@ -275,17 +274,6 @@ TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
     double largest = 0.0;
     for (const RegionPlane& plane : regions.planes) largest = std::max(largest, plane.area);
     EXPECT_NEAR(largest, 0.2, 0.01);
-}
-
-TEST(Unfolding, ASmallPlateOfABallStaysFlat)
-{
-    const CutSurface surface = surface_of(ball_with_plate());
-    const auto parts = unfold_hard(surface);
-    ASSERT_TRUE(parts);
-    ASSERT_EQ(parts->parts.size(), 1u);
-    const FlatPart& plate = parts->parts.front();
-    EXPECT_NEAR(face_areas(plate.vertices, plate.surface.triangles).sum(), 0.2, 0.01);
-    EXPECT_TRUE(is_true_to_size(plate));
 }
 
 TEST(Unfolding, SliversThatNoiseTurnsOverStayInTheirPlanes)

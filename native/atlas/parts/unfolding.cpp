@@ -22,8 +22,7 @@ constexpr double least_border = 0.12;     // of a chart's boundary: a shorter co
 constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
-constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface,
-constexpr double least_plates = 0.05;     // or its plates of three faces and more, such as the base of a round body
+constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
 
 constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut
 constexpr int most_border_fits = 4;   // of a border under noise
@@ -63,18 +62,6 @@ public:
                 }
             }
             sum += at_planar > tolerance::majority * outline ? area : planar;
-        }
-        return sum;
-    }
-
-    /// The area of charts that are planes of more than one quadrilateral, and not small.
-    double plate_area(double least) const
-    {
-        double sum = 0.0;
-        for (const std::vector<Index>& faces : islands_) {
-            const double area = surface_.areas(faces).sum();
-            const auto is_same = [&](Index f) { return charts_.region[f] == charts_.region[faces.front()]; };
-            if (area >= least && faces.size() > 2 && std::ranges::all_of(faces, is_same)) sum += area;
         }
         return sum;
     }
@@ -270,9 +257,7 @@ std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, Executio
 {
     const double area = surface.areas.sum();
     Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options);
-    const double least = tuning::small_area * area;
-    if (!(unfolding.hard_area(least) >= least_hard * area || unfolding.plate_area(least) >= least_plates * area))
-        return {};
+    if (!(unfolding.hard_area(tuning::small_area * area) >= least_hard * area)) return {};
     if (options.roomy) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
     unfolding.attach_rest(context);
