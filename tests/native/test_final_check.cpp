@@ -99,6 +99,16 @@ TEST(BoundaryCrossings, of_a_figure_eight_is_one)
     EXPECT_TRUE(crossing_boundary_edges({{0, 2, 1, 3}}, points, 0.0).empty());
 }
 
+TEST(BoundaryCrossings, edges_beside_a_short_edge_meet_without_crossing)
+{
+    PlanarPoints points(5, 2);
+    points << 0, 0, 1, 0, 1, 1, 1, 1, 0, 1;
+    EXPECT_FALSE(loops_cross({{0, 1, 2, 3, 4}}, points, 1e-7));
+    EXPECT_FALSE(loops_cross({{3, 4, 0, 1, 2}}, points, 1e-7));
+    points.row(4) << 2, 0.5;  // now the edges beside it cross others
+    EXPECT_TRUE(loops_cross({{0, 1, 2, 3, 4}}, points, 1e-7));
+}
+
 TEST(BoundaryCrossings, a_hole_that_runs_as_its_rim_does_is_turned)
 {
     PlanarPoints points(8, 2);

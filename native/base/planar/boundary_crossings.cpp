@@ -11,6 +11,7 @@ namespace {
 
 struct LoopEdge {
     Index from, to;
+    Index begin;  ///< the vertex at which `from` lies: edges that are too short lie between them
 };
 
 using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, LoopEdge>;
@@ -18,25 +19,35 @@ using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, LoopEdge>;
 /// Ends CGAL's search.
 struct CrossingFound : std::exception {};
 
-/// Calls visit(e, f) for all pairs of loop edges that meet without sharing a vertex.
+/// Calls visit(e, f) for all pairs of loop edges that meet without sharing a vertex. The ends of edges that are too
+/// short are one vertex.
 template <typename Visit>
 void visit_crossings(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest,
                      const Visit& visit)
 {
     const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
     std::vector<EdgeBox> boxes;
-    for (const VertexLoop& loop : loops)
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const LoopEdge edge{loop[i], loop[(i + 1) % loop.size()]};
-            const Complex a = at(edge.from), b = at(edge.to);
-            if (!(std::abs(b - a) >= shortest)) continue;
+    for (const VertexLoop& loop : loops) {
+        const std::size_t count = loop.size();
+        const auto is_short = [&](Index a, Index b) { return !(std::abs(at(a) - at(b)) >= shortest); };
+        // Begin with an edge behind one that is not too short.
+        std::size_t start = 0;
+        while (start < count && is_short(loop[(start + count - 1) % count], loop[start])) ++start;
+        Index end = loop[start % count];  // of the edge before
+        for (std::size_t i = start; i < start + count; ++i) {
+            const Index from = loop[i % count], to = loop[(i + 1) % count];
+            if (is_short(from, to)) continue;
+            const LoopEdge edge{from, to, is_short(from, end) ? end : from};
+            const Complex a = at(from), b = at(to);
             double low[2] = {std::min(a.real(), b.real()), std::min(a.imag(), b.imag())};
             double high[2] = {std::max(a.real(), b.real()), std::max(a.imag(), b.imag())};
             boxes.emplace_back(low, high, edge);
+            end = to;
         }
+    }
     detail::visit_meeting_boxes(boxes, [&](const EdgeBox& first, const EdgeBox& second) {
         const LoopEdge e = first.info(), f = second.info();
-        if (e.from == f.from || e.from == f.to || e.to == f.from || e.to == f.to) return;
+        if (e.begin == f.begin || e.begin == f.to || e.to == f.begin || e.to == f.to) return;
         if (segments_meet(at(e.from), at(e.to), at(f.from), at(f.to))) visit(e, f);
     });
 }
