@@ -18,7 +18,7 @@ _handles: dict[tuple[str, str], tuple[object, str]] = {}
 
 
 def add(space: str, name: str, draw: Callable[[], None], when: str = "POST_PIXEL", region: str = "WINDOW") -> None:
-    """Call `draw` whenever a region of an editor has been drawn. @param when "POST_VIEW": in coordinates of the world"""
+    """Call `draw` whenever a region of an editor has been drawn. @param when "POST_VIEW": in the world's coordinates"""
     _handles[space, name] = SPACES[space].draw_handler_add(draw, (), region, when), region
 
 
