@@ -40,6 +40,13 @@ def _uv_collection(layer: bpy.types.MeshUVLoopLayer) -> tuple[Any, str]:
     return layer.data, "uv"
 
 
+def remove_uv_layer(mesh: bpy.types.Mesh, name: str) -> None:
+    """Remove a UV layer. In Edit Mode Blender 5.0 sometimes leaves it at the first call, and says nothing."""
+    for _ in range(2):
+        if name in mesh.uv_layers:
+            mesh.uv_layers.remove(mesh.uv_layers[name])
+
+
 def new_uv_layer(mesh: bpy.types.Mesh, name: str) -> Any:
     """Add a UV layer of zeros, also in Edit Mode. The layer, or None if Blender has no room for it.
 

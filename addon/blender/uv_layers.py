@@ -166,7 +166,7 @@ def _layers(mesh: bpy.types.Mesh) -> tuple[list[str], Any, list[bool], list[bool
 
 def _restore_layers(mesh: bpy.types.Mesh, names: list[str], active: int, render: list[bool], clone: list[bool]) -> None:
     for name in [layer.name for layer in mesh.uv_layers if layer.name not in names]:
-        mesh.uv_layers.remove(mesh.uv_layers[name])
+        compat.remove_uv_layer(mesh, name)
     for layer, for_render, for_clone in zip(mesh.uv_layers, render, clone):
         if for_render:
             layer.active_render = True

@@ -12,12 +12,12 @@ from .surface import Surface, next_corners
 
 # Word: label, what it does.
 MODES = {
-    "LEFT": ("Left", "the left sides of the islands on one line"),
-    "COLUMN": ("Centre Column", "the middles of the islands on one vertical line"),
-    "RIGHT": ("Right", "the right sides of the islands on one line"),
-    "TOP": ("Top", "the upper sides of the islands on one line"),
-    "ROW": ("Centre Row", "the middles of the islands on one horizontal line"),
-    "BOTTOM": ("Bottom", "the lower sides of the islands on one line"),
+    "LEFT": ("Align Left", "the left sides of the islands on one line"),
+    "COLUMN": ("Align in a Column", "the middles of the islands on one vertical line"),
+    "RIGHT": ("Align Right", "the right sides of the islands on one line"),
+    "TOP": ("Align Top", "the upper sides of the islands on one line"),
+    "ROW": ("Align in a Row", "the middles of the islands on one horizontal line"),
+    "BOTTOM": ("Align Bottom", "the lower sides of the islands on one line"),
     "SIZE": ("Sort by Size", "islands in rows, the largest first"),
     "MATERIAL": ("Sort by Material", "islands in rows, each material in rows of its own"),
     "PART": ("Sort by Part", "islands in rows, each connected part of the mesh in rows of its own"),

@@ -60,7 +60,7 @@ def _coverage(entry: Any, coverage: float) -> Figure:
     advice = ""
     if coverage < COVERED:
         alone = entry.parts == 1 or (not entry.parts and coverage == entry.coverage)  # then a packer has no choice
-        better = "mark a seam across the surface" if alone else "in the UV Editor press A, then UV ▸ Pack Islands"
+        better = "mark a seam across the surface" if alone else "press Pack Only, under Packing"
         advice = f"Much of the image stays empty: {better}"
     return Figure("Coverage", f"{100.0 * coverage:.0f} %", advice)
 

@@ -28,9 +28,9 @@ STAGES = {
 }
 POLL_SECONDS = 0.05  # interval between looks at a running computation: Esc acts within this time and one checkpoint
 READ_SECONDS = 0.1  # time to read Blender's data between two looks at the keys, if one step takes no longer
-SHOW_SECONDS = 0.25  # interval of progress reports: each makes Blender redraw the whole window
-DRAWING_SHARE = 0.2  # largest share of the time for these redraws: with software OpenGL one can take a second
-BAR_EDITORS = ("VIEW_3D", "IMAGE_EDITOR")  # that draw a bar of the progress
+SHOW_SECONDS = 0.25  # interval of progress reports
+DRAWING_SHARE = 0.2  # largest share of the time for drawing them
+BAR_EDITORS = ("VIEW_3D", "IMAGE_EDITOR")  # with a bar of the progress in their headers
 SAME_TURN = 0.005  # an event so soon after a report came before the window was drawn
 # During a computation the view may move; everything else could change the mapped data.
 NAVIGATION = {
@@ -49,6 +49,14 @@ def redraw(context: bpy.types.Context, editors: Collection[str] = ()) -> None:
     for area in context.screen.areas if context.screen else ():
         if not editors or area.type in editors:
             area.tag_redraw()
+
+
+def redraw_bars(context: bpy.types.Context) -> None:
+    """Make the window show the progress. Headers are drawn at once, where a view of a large mesh can take a second."""
+    for area in context.screen.areas if context.screen else ():
+        for region in area.regions:
+            if area.type in BAR_EDITORS and region.type == "HEADER":
+                region.tag_redraw()
 
 
 def listen(handlers: Collection[tuple[Any, Any]], is_listening: bool) -> None:
@@ -185,7 +193,7 @@ class ModalRun(OperatorBase):
         context.window_manager.event_timer_remove(self._timer)
         context.workspace.status_text_set(None)
         ModalRun.bar = None
-        redraw(context, BAR_EDITORS)
+        redraw_bars(context)
 
     def _show_progress(self, context: bpy.types.Context) -> None:
         if self._worker is None:
@@ -203,5 +211,5 @@ class ModalRun(OperatorBase):
         elif text != self._shown and now >= self._show_next:
             context.workspace.status_text_set(text)
             ModalRun.bar = share, text
-            redraw(context, BAR_EDITORS)
+            redraw_bars(context)
             self._shown_at, self._shown, self._show_next = now, text, None

@@ -26,9 +26,17 @@ class UV_OT_koebe_pack(OnTargets, LayerRun, bpy.types.Operator):
     tiles: option("tiles")
     seconds: option("seconds")
     keep_places: option("keep_places")
+    atlas: option("atlas")
 
     def _job(self, context: bpy.types.Context) -> PackJob:
         options = {"margin": shown_number(self.margin), "pixels": self.pixels, "average_scale": self.average_scale,
                    "tiles": max(1, self.tiles), "seconds": self.seconds or None}  # fmt: skip
-        job = PackJob(native_package.load(), self.layer, context.mode == "EDIT_MESH", self.keep_places, options)
+        editing = context.mode == "EDIT_MESH"
+        job = PackJob(native_package.load(), self.layer, editing, self.keep_places, self.atlas, options)
         return self._read(context, job)
+
+    def _finish(self, context: bpy.types.Context, job: PackJob) -> set[str]:
+        answer = super()._finish(context, job)
+        if answer == {"FINISHED"} and len(job.tasks) > 1 and not self.atlas:
+            self.report({"INFO"}, "Each object has a UV square of its own: One Atlas packs all into one")
+        return answer

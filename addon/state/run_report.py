@@ -14,6 +14,7 @@ from bpy.props import (
     FloatProperty,
     FloatVectorProperty,
     IntProperty,
+    IntVectorProperty,
     StringProperty,
 )
 
@@ -50,6 +51,7 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
 
     run: IntProperty(description="Number of the run that made it: islands of one run may share the UV square")
     object_name: StringProperty(description="Name of the object whose island this is")
+    mesh_size: IntVectorProperty(size=3, description="Vertices, faces and corners of its mesh then")
     shape: StringProperty(description="Of a sequence: the frame or the shape key, else empty")
     island: IntProperty(description="Number of the island among those of its object")
     mapped: BoolProperty(description="Whether the island has UVs now")
@@ -133,11 +135,29 @@ def record(run: Transaction, context: bpy.types.Context, rows: Iterable[dict[str
             for item in row.pop(name, ()):
                 _fill(getattr(entry, name).add(), item)
         _fill(entry, row)
-        entry.run = number
+        entry.run, entry.mesh_size = number, _mesh_size(entry)
         if place < len(report.islands) - 1:
             report.islands.move(len(report.islands) - 1, place)
     report.active = -1
     report.active = max(active_index(context), 0)
+
+
+def _mesh_size(entry: KoebeIslandReport) -> tuple[int, ...]:
+    """Vertices, faces and corners of the object's mesh now; zeros without one. In Edit Mode as of the last update."""
+    mesh: Any = getattr(bpy.data.objects.get((entry.object_name, None)), "data", None)
+    if not isinstance(mesh, bpy.types.Mesh):
+        return 0, 0, 0
+    return len(mesh.vertices), len(mesh.polygons), len(mesh.loops)
+
+
+def outdated(entry: KoebeIslandReport) -> str:
+    """Why an entry is not about what is there now, or empty."""
+    if any(entry.mesh_size) and tuple(entry.mesh_size) != _mesh_size(entry):  # files of 1.0 have none
+        return "The mesh has changed since then: unwrap it again"
+    obj: Any = bpy.data.objects.get((entry.object_name, None))
+    if entry.mapped and not entry.shape and obj is not None and entry.layer not in obj.data.uv_layers:
+        return f"There is no UV layer {entry.layer!r} any more: it was undone, removed or renamed"
+    return ""
 
 
 def _fill(group: bpy.types.PropertyGroup, row: dict[str, Any]) -> None:

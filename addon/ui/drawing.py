@@ -14,28 +14,27 @@ TEXT_SIZE = 11  # points at a resolution scale of 1
 
 Color = tuple[float, float, float, float]
 
-_handles: dict[tuple[str, str], object] = {}
+_handles: dict[tuple[str, str], tuple[object, str]] = {}
 
 
-def add(space: str, name: str, draw: Callable[[], None], when: str = "POST_PIXEL") -> None:
-    """Call `draw` whenever an editor's main region has been drawn. @param when "POST_VIEW": coordinates are the world's
-    """
-    _handles[space, name] = SPACES[space].draw_handler_add(draw, (), "WINDOW", when)
+def add(space: str, name: str, draw: Callable[[], None], when: str = "POST_PIXEL", region: str = "WINDOW") -> None:
+    """Call `draw` whenever a region of an editor has been drawn. @param when "POST_VIEW": in the world's coordinates"""
+    _handles[space, name] = SPACES[space].draw_handler_add(draw, (), region, when), region
 
 
 def remove(space: str, name: str) -> None:
     """The reverse of `add`."""
-    SPACES[space].draw_handler_remove(_handles.pop((space, name)), "WINDOW")
+    SPACES[space].draw_handler_remove(*_handles.pop((space, name)))
 
 
 def drawn(
-    *spaces: str, name: str, draw: Callable[[], None], when: str = "POST_PIXEL"
+    *spaces: str, name: str, draw: Callable[[], None], when: str = "POST_PIXEL", region: str = "WINDOW"
 ) -> tuple[Callable[[], None], Callable[[], None]]:
     """What a module has as `register` and `unregister` that draws in these editors."""
 
     def register() -> None:
         for space in spaces:
-            add(space, name, draw, when)
+            add(space, name, draw, when, region)
 
     def unregister() -> None:
         for space in spaces:

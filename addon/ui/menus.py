@@ -56,6 +56,8 @@ class KOEBE_MT_unwrap(bpy.types.Menu):
         assert layout is not None
         layout.operator_context = "INVOKE_DEFAULT"
         draw_unwrap(layout, settings, "AUTO", "Unwrap", "UV")
+        draw_unwrap(layout, settings, settings.shape, "Unwrap In Place", "NONE").placement = "keep"
+        draw_unwrap(layout, settings, "PARTS", "Unwrap Along Seams", "UV_ISLANDSEL").seams = "only"
         layout.separator()
         for shape, label, _ in ROWS["shape"].choices[1:]:
             draw_unwrap(layout, settings, shape, label, BUTTONS[MAPS[shape]][1])
@@ -64,7 +66,9 @@ class KOEBE_MT_unwrap(bpy.types.Menu):
         copy_options(settings, sequence, "sequence")
         layout.operator(UV_OT_koebe_symmetrize.bl_idname, text="Symmetrize", icon="MOD_MIRROR")
         draw_pack(layout, settings)
+        draw_pack(layout, settings, "Pack Beside the Rest").keep_places = "OTHERS"
         draw_sew(layout, settings)
+        layout.prop(context.window_manager, "koebe_live")
         layout.separator()
         layout.menu("KOEBE_MT_tools")
 

@@ -66,7 +66,7 @@ def draw_map_button(column: bpy.types.UILayout, settings: KoebeSettings, of: str
 def draw_pack(layout: bpy.types.UILayout, settings: KoebeSettings, text: str = "Pack Only") -> Any:
     """The button that packs a UV layer, with the panel's options: the operator's options."""
     button = layout.operator(UV_OT_koebe_pack.bl_idname, text=text, icon="PACKAGE")
-    for name in ("margin", "pixels", "average_scale", "tiles", "seconds", "keep_places"):
+    for name in ("margin", "pixels", "average_scale", "tiles", "seconds", "keep_places", "atlas"):
         setattr(button, name, getattr(settings, name))
     return button
 

@@ -26,6 +26,7 @@ from ..state.run_report import (
     entries_of_object,
     failed_beside,
     names_of_active,
+    outdated,
     report_of,
 )
 from .panel_parts import ClosedPanel, KoebePanel, draw_map_button, draw_message, draw_unwrap
@@ -104,7 +105,9 @@ class ReportPanel(KoebePanel):
         which = f", island {entry.island + 1}" if several else ""
         if entry.shape:
             which = f", {entry.shape}{which if entry.island else ''}"
-        layout.label(text=f"{entry.object_name}{which}", icon=island_icon(entry))
+        old = outdated(entry)
+        layout.label(text=f"{entry.object_name}{which}", icon="ERROR" if old else island_icon(entry))
+        draw_message(layout, old)
         if entry.mapped:
             column = layout.column(align=True)
             for figure in figures(entry, shared_coverage(context, entry)):

@@ -122,7 +122,7 @@ class RandomRun:
 
     def _act(self):
         acts = [self._select, self._mode, self._mode, self._hide, self._lock, self._marks, self._pick, self._twin,
-                self._seams, self._turn, self._name]  # fmt: skip
+                self._seams, self._turn, self._name, self._pin]  # fmt: skip
         self._one(acts)()
         bpy.context.view_layer.update()
 
@@ -193,6 +193,22 @@ class RandomRun:
             if "Koebe" in obj.data.uv_layers and not obj.data.is_editmode and self._random.random() < 0.5:
                 obj.data.uv_layers["Koebe"].name = "Was Koebe"
 
+    def _pin(self):
+        """Pin some UVs of a layer, or none."""
+        obj = self._one(self._meshes())
+        if len(obj.data.uv_layers) and not obj.data.is_editmode and not obj.data.library:
+            corners = self._random.random(len(obj.data.loops)) < self._one([0.0, 0.01, 0.1])
+            scenes.pin(obj.data, self._one(obj.data.uv_layers).name, corners)
+
+    def _pinned(self):
+        """Where the UVs are pinned, by mesh and layer: corners and their UVs. Not of what is in Edit Mode."""
+        return {
+            (obj.data.name_full, layer.name): (pins, scenes.corner_uv(obj.data, layer.name)[pins])
+            for obj in self._meshes() if not obj.data.is_editmode
+            for layer in obj.data.uv_layers
+            for pins in [scenes.pins(obj.data, layer.name)] if pins.any()
+        }  # fmt: skip
+
     # ---------------------------------------------------------------- calls
 
     def _options(self, name):
@@ -245,8 +261,23 @@ class RandomRun:
                     "thickness": one([0.0, 0.0, 0.05]), "hide": one([True, False]),
                     "shape": one(["disk", "disk", "ring", "torus", "parts"]), "seams": one([True, False]),
                     "height": one([0.0, -0.05])}  # fmt: skip
-        if name in ("object.koebe_flat_copy", "uv.koebe_symmetrize", "uv.koebe_pack", "uv.koebe_sew"):
+        if name == "uv.koebe_unwrap":
+            return {"layer": layer, "shape": one(["AUTO", "AUTO", "PARTS", "DISK", "RING"]),
+                    "placement": one(["pack", "together", "keep"]), "seams": one(["add", "only"]),
+                    "keep_angles": one([True, False]), "even": one([0.0, 0.6]), "tiles": one([1, 1, 1, 3]),
+                    "atlas": one([True, False, False]), "stack": one([True, False, False])}  # fmt: skip
+        if name == "uv.koebe_pack":
+            return {"layer": layer, "atlas": one([True, False]), "average_scale": one([True, False]),
+                    "keep_places": one(["NONE", "PINNED", "OTHERS", "BOTH"]), "tiles": one([1, 1, 3])}  # fmt: skip
+        if name == "uv.koebe_relax":
+            return {"layer": layer, "center": tuple(self._random.uniform(0.0, 1.0, 2)), "radius": one([0.1, 0.5])}
+        if name in ("uv.koebe_set_density", "uv.koebe_copy_density", "object.koebe_flat_copy", "uv.koebe_symmetrize",
+                    "uv.koebe_sew", "uv.koebe_use_for_rendering"):  # fmt: skip
             return {"layer": layer}
+        if name == "uv.koebe_measure_density":
+            return {"layer": layer, "take": one([True, False])}
+        if name == "uv.koebe_preset":
+            return {"preset": "LIGHTMAP"}
         if name == "uv.koebe_arrange":
             return {"layer": layer, "mode": one(["LEFT", "ROW", "SIZE", "MATERIAL", "PART", "TRIM", "MIRROR"])}
         if name == "uv.koebe_trims":
@@ -264,7 +295,9 @@ class RandomRun:
             "uv.koebe_compare_shapes", "uv.koebe_select_cuts", "uv.koebe_select_loop", "uv.koebe_select_flipped",
             "uv.koebe_select_torn",
             "uv.koebe_select_offenders", "uv.koebe_reset", "uv.koebe_symmetrize", "uv.koebe_pack", "uv.koebe_sew",
-            "uv.koebe_arrange", "uv.koebe_trims",
+            "uv.koebe_arrange", "uv.koebe_arrange", "uv.koebe_trims", "uv.koebe_unwrap", "uv.koebe_unwrap",
+            "uv.koebe_unwrap", "uv.koebe_pack", "uv.koebe_sew", "uv.koebe_relax", "uv.koebe_set_density",
+            "uv.koebe_copy_density", "uv.koebe_measure_density", "uv.koebe_use_for_rendering", "uv.koebe_preset",
         ])  # fmt: skip
         options, fault = self._options(name), None
         if self._random.random() < 0.5:
@@ -277,6 +310,7 @@ class RandomRun:
             bpy.data.meshes.remove(bpy.data.meshes.new("step"))
             bpy.ops.ed.undo_push(message="before")
         before = fingerprint.fingerprint()
+        pinned = self._pinned()
         touched = Touched(name, options, self._targets(name))
         answer = faults.call(operator(name), fault, **options)
         after = fingerprint.fingerprint()
@@ -284,12 +318,24 @@ class RandomRun:
         self.calls, self.finished = self.calls + 1, self.finished + finished
         self.faults += fault is not None and fault.fired
         allowed = touched.when_finished if finished else touched.on_error
+        stay = options.get("keep_places") in (None, "PINNED", "BOTH")
         spoilt = [key for key in fingerprint.differences(before, after) if not allowed(key)]
+        spoilt += self._moved(pinned) * stay
         if spoilt:
             where = fault.steps[-1] if fault is not None and fault.fired else None
             self.wrong.append((name, options, str(answer)[-300:], where, spoilt))
         if undoes and finished:
             self._undo(name, options, before, after)
+
+    def _moved(self, pinned):
+        """Pinned UVs that have moved, as keys of what is spoilt."""
+        now = {obj.data.name_full: obj.data for obj in self._meshes() if not obj.data.is_editmode}
+        found = []
+        for (mesh, layer), (corners, uv) in pinned.items():
+            there = mesh in now and layer in now[mesh].uv_layers and len(now[mesh].loops) == len(corners)
+            if there and not np.array_equal(scenes.corner_uv(now[mesh], layer)[corners], uv, equal_nan=True):
+                found.append(f"pins of {layer} of {mesh}")
+        return found
 
     def _undo(self, name, options, before, after):
         """A step back brings the file back as it was, and one forth as it became."""

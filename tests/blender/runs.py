@@ -306,7 +306,7 @@ RUNS = {
     "set density in Edit Mode": (mapped_in_edit_mode, "uv.koebe_set_density", {"layer": "Koebe"}),
     "copy density": (carried, "uv.koebe_copy_density", {}),
     "pack": (mapped, "uv.koebe_pack", {}),
-    "pack in Edit Mode": (mapped_in_edit_mode, "uv.koebe_pack", {"layer": "Koebe", "average_scale": True}),
+    "pack in Edit Mode": (mapped_in_edit_mode, "uv.koebe_pack", {"layer": "Koebe", "atlas": True}),
     "arrange": (mapped, "uv.koebe_arrange", {"mode": "SIZE"}),
     "arrange in Edit Mode": (mapped_in_edit_mode, "uv.koebe_arrange", {"mode": "LEFT", "in_square": True}),
     "trim sheet": (mapped, "uv.koebe_trims", {"action": "GRID"}),

@@ -178,6 +178,14 @@ def pin(mesh, layer, corners):
     mesh.uv_layers[layer].pin.foreach_set("value", corners)
 
 
+def pins(mesh, layer):
+    """Which corners (C,) of a layer are pinned. Not in Edit Mode."""
+    if not hasattr(mesh.uv_layers[layer], "pin"):  # before 3.5
+        return read(mesh.uv_layers[layer].data, "pin_uv", bool)
+    found = mesh.attributes.get(f".pn.{layer}")
+    return np.zeros(len(mesh.loops), bool) if found is None else read(found.data, "value", bool)
+
+
 def corner_uv_in_square(obj):
     """UVs (C, 2) of the layer Koebe, which lie in the unit square."""
     uv = corner_uv(obj.data, "Koebe")

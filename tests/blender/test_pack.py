@@ -4,6 +4,7 @@ import bpy
 import numpy as np
 import pytest
 import scenes
+from test_rendered_layer import covered
 
 pytestmark = pytest.mark.alike
 
@@ -48,6 +49,30 @@ def test_in_edit_mode_only_the_selected_faces_are_packed():
     after = scenes.corner_uv(obj.data, "Old")
     moved = (after != before).any(axis=1).reshape(6, 4).any(axis=1)
     assert moved.tolist() == [False, True, True, False, False, False] and sides(obj)[2, 0] > 0.5
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+@pytest.mark.parametrize("atlas", [False, True])
+def test_several_objects_get_a_square_each_or_all_together(mode, atlas):
+    objects = [scenes.add_sheet(), scenes.add_sheet(6)]
+    objects[1].scale = (2, 2, 2)
+    for obj in objects:
+        obj.data.uv_layers.new(name="Old")
+    for obj in objects:
+        scenes.select(obj)
+        bpy.ops.uv.koebe_parts(layer="Old", checker=False)
+    scenes.select(*objects)
+    bpy.ops.object.mode_set(mode=mode)
+    if mode == "EDIT":
+        bpy.ops.mesh.select_all(action="SELECT")
+    assert bpy.ops.uv.koebe_pack(atlas=atlas, average_scale=True, margin=4, pixels=512) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    times = sum(covered(obj, "Old", 400) for obj in objects)
+    assert times.max() == (1 if atlas else 2)
+    areas = [np.abs(scenes.signed_areas(obj.data, "Old")).sum() for obj in objects]
+    assert areas[1] / areas[0] == pytest.approx(4.0 if atlas else 1.0, rel=0.1)  # one density, as the world sees them
+    uv = np.concatenate([scenes.corner_uv(obj.data, "Old") for obj in objects])
+    assert uv.min() > 0 and uv.max() < 1
 
 
 def test_an_object_without_uvs_is_told():

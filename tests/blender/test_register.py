@@ -120,6 +120,9 @@ def test_the_search_finds_every_operator_in_menus(addon):
         def menu(self, name):
             self.menus.append(name)
 
+        def prop(self, owner, name):
+            self.words.add(owner.bl_rna.properties[name].name)
+
         def separator(self):
             pass
 
@@ -133,7 +136,8 @@ def test_the_search_finds_every_operator_in_menus(addon):
             getattr(menus, name).draw(types.SimpleNamespace(layout=layout), bpy.context)
     assert drawn == {"KOEBE_MT_unwrap", "KOEBE_MT_tools"}
     assert operators().keys() - layout.operators == NOT_IN_MENUS
-    for words in ("Unwrap", "Pack Only", "Use for Rendering", "Set Texel Density", "Lightmap Preset", "Fill Holes"):
+    for words in ("Unwrap", "Pack Only", "Use for Rendering", "Set Texel Density", "Lightmap Preset", "Fill Holes",
+                  "Unwrap In Place", "Unwrap Along Seams", "Pack Beside the Rest", "Live", "Arrange: Align Left"):
         assert words in layout.words, words
 
 

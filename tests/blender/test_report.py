@@ -455,3 +455,24 @@ def test_an_atlas_has_one_coverage(addon):
     assert bpy.ops.uv.koebe_parts(atlas=True, darts=0.0) == {"FINISHED"}
     islands = bpy.context.window_manager.koebe_uv.islands
     assert addon("ui.report_panel").shared_coverage(bpy.context, islands[0]) == islands[0].coverage < 1.0
+
+
+def test_a_report_says_when_it_is_of_another_mesh_or_of_no_layer(addon, tmp_path):
+    outdated, obj = addon("state.run_report").outdated, scenes.add_panel("Panel")
+    assert bpy.ops.uv.koebe_unwrap(checker=False) == {"FINISHED"}
+    assert [outdated(entry) for entry in islands()] == [""]
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "kept.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "kept.blend"))
+    obj = bpy.data.objects["Panel"]
+    assert [outdated(entry) for entry in islands()] == [""]
+    obj.data.uv_layers["Koebe"].name = "UVMap"
+    assert "no UV layer 'Koebe' any more" in outdated(islands()[0])
+    obj.data.uv_layers["UVMap"].name = "Koebe"
+    obj.data.vertices.add(1)
+    assert "has changed" in outdated(islands()[0])
+    bpy.data.objects.remove(obj)
+    scenes.select(scenes.add_cube("Panel"))  # another object of that name
+    assert "has changed" in outdated(islands()[0])
+    with pytest.raises(RuntimeError):
+        bpy.ops.uv.koebe_uniformize(cut=False)
+    assert [outdated(entry) for entry in islands()] == [""]  # why it is not mapped, and it has no layer

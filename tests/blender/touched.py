@@ -36,7 +36,7 @@ class Touched:
 
     def __init__(self, name, options, objects):
         self._name, self._options = name, options
-        if name == "uv.koebe_carry_texture":
+        if name in ("uv.koebe_carry_texture", "uv.koebe_copy_density"):
             source = bpy.context.active_object
             objects = [obj for obj in objects if source is None or obj.data != source.data]
         self._meshes = {f"mesh {obj.data.name_full}" for obj in objects}
@@ -49,7 +49,8 @@ class Touched:
     def on_error(self, key):
         """Whether that may differ after an operator that did not finish: it may say why, and select what is wrong."""
         owner, _, what = key.partition(": ")
-        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_schottky")
+        selecting = ("uv.koebe_uniformize", "uv.koebe_torus", "uv.koebe_ring", "uv.koebe_sphere", "uv.koebe_schottky",
+                     "uv.koebe_unwrap")  # fmt: skip
         if self._name not in (*selecting, "uv.koebe_parts", "uv.koebe_sequence", "object.koebe_lift"):
             return False
         return key == "file: report" or (self._name in selecting and self._selects(owner, what))
@@ -106,7 +107,7 @@ class Touched:
 
     def _sequence(self, owner, what):
         """A layer or an attribute for each shape, and what plays the attributes."""
-        report = (owner, what) == ("file", "report") or self._selects(owner, what)
+        report = (owner, what) == ("file", "report") or self._selects(owner, what) or self._dresses(owner, what)
         if self._options.get("play", True) and (owner == "names of node_groups" or what == "modifiers"):
             return owner == "names of node_groups" or owner in self._users
         return report or (owner in self._meshes and (what == "uv layers" or self._layer in what))
@@ -135,7 +136,19 @@ class Touched:
     def _moebius(self, owner, what):
         return (owner, what) == ("file", "report") or self._writes_uv(owner, what)
 
-    _symmetrize = _pack = _arrange = _moebius
+    _symmetrize = _pack = _arrange = _sew = _relax = _set_density = _copy_density = _moebius
+
+    def _unwrap(self, owner, what):
+        return self._sphere(owner, what) or self._parts(owner, what)
+
+    def _measure_density(self, owner, what):
+        return owner == "file" and (what == "density" or what.endswith(" settings"))
+
+    def _use_for_rendering(self, owner, what):
+        return owner in self._meshes and what == "uv layers"
+
+    def _preset(self, owner, what):
+        return owner == "file" and what.endswith(" settings")
 
     def _bake_texture(self, owner, what):
         """New images and materials, in the slots."""

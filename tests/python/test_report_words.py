@@ -54,7 +54,7 @@ def test_a_good_map_asks_for_nothing(addon):
     ({"density": 5e6}, "Texel density", "Shape: Parts"),
     ({"coverage": 0.1}, "Coverage", "mark a seam across the surface"),
     ({"coverage": 0.1, "parts": 1}, "Coverage", "mark a seam across the surface"),
-    ({"coverage": 0.1, "parts": 2}, "Coverage", "Pack Islands"),
+    ({"coverage": 0.1, "parts": 2}, "Coverage", "Pack Only"),
     ({"angle_error": 9.0}, "Angle error", "subdivide large faces, or choose Shape: Parts"),
     ({"angle_error": 9.0, "parts": 3}, "Angle error", "slider Parts"),
     ({"angle_error": 9.0, "even": 0.5}, "Angle error", "lower Even"),
@@ -73,7 +73,7 @@ def test_islands_that_share_the_square_are_judged_by_what_they_cover_together(ad
     found = addon("maps.verdicts").figures(SimpleNamespace(**{**GOOD, "coverage": 0.02}), 0.66)
     assert [(figure.value, figure.is_good) for figure in found if figure.name == "Coverage"] == [("66 %", True)]
     found = addon("maps.verdicts").figures(SimpleNamespace(**{**GOOD, "coverage": 0.02}), 0.2)
-    assert "Pack Islands" in next(figure.advice for figure in found if figure.name == "Coverage")
+    assert "Pack Only" in next(figure.advice for figure in found if figure.name == "Coverage")
 
 
 def test_a_sphere_is_not_blamed_for_its_layout(addon):
