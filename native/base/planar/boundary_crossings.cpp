@@ -11,6 +11,7 @@ namespace {
 
 struct LoopEdge {
     Index from, to;
+    unsigned drawn;  ///< a bit for each drawing in which it counts
 };
 
 using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, LoopEdge>;
@@ -18,26 +19,37 @@ using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, LoopEdge>;
 /// Ends CGAL's search.
 struct CrossingFound : std::exception {};
 
-/// Calls visit(e, f) for all pairs of loop edges that meet without sharing a vertex.
+Complex at(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
+
+/// Calls visit(e, f) for all pairs of loop edges that meet in a drawing without sharing a vertex.
+/// @param reach how far points of other drawings lie from those of the first, after a common shift
 template <typename Visit>
-void visit_crossings(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest,
+void visit_crossings(const std::vector<VertexLoop>& loops, std::span<const LoopDrawing> drawings, double reach,
                      const Visit& visit)
 {
-    const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
+    const PlanarPoints& points = drawings.front().points;
     std::vector<EdgeBox> boxes;
     for (const VertexLoop& loop : loops)
         for (std::size_t i = 0; i < loop.size(); ++i) {
-            const LoopEdge edge{loop[i], loop[(i + 1) % loop.size()]};
-            const Complex a = at(edge.from), b = at(edge.to);
-            if (!(std::abs(b - a) >= shortest)) continue;
-            double low[2] = {std::min(a.real(), b.real()), std::min(a.imag(), b.imag())};
-            double high[2] = {std::max(a.real(), b.real()), std::max(a.imag(), b.imag())};
+            LoopEdge edge{loop[i], loop[(i + 1) % loop.size()], 0};
+            for (std::size_t k = 0; k < drawings.size(); ++k)
+                if (const auto& [own, shortest] = drawings[k];
+                    std::abs(at(own, edge.to) - at(own, edge.from)) >= shortest)
+                    edge.drawn |= 1U << k;
+            if (edge.drawn == 0) continue;
+            const Complex a = at(points, edge.from), b = at(points, edge.to);
+            double low[2] = {std::min(a.real(), b.real()) - reach, std::min(a.imag(), b.imag()) - reach};
+            double high[2] = {std::max(a.real(), b.real()) + reach, std::max(a.imag(), b.imag()) + reach};
             boxes.emplace_back(low, high, edge);
         }
     detail::visit_meeting_boxes(boxes, [&](const EdgeBox& first, const EdgeBox& second) {
         const LoopEdge e = first.info(), f = second.info();
         if (e.from == f.from || e.from == f.to || e.to == f.from || e.to == f.to) return;
-        if (segments_meet(at(e.from), at(e.to), at(f.from), at(f.to))) visit(e, f);
+        for (std::size_t k = 0; k < drawings.size(); ++k)
+            if (const PlanarPoints& own = drawings[k].points;
+                ((e.drawn & f.drawn) >> k & 1U) != 0 &&
+                segments_meet(at(own, e.from), at(own, e.to), at(own, f.from), at(own, f.to)))
+                visit(e, f);
     });
 }
 
@@ -47,7 +59,8 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
                                                              const PlanarPoints& points, double shortest)
 {
     std::vector<std::pair<Index, Index>> crossings;
-    visit_crossings(loops, points, shortest,
+    const LoopDrawing drawing{points, shortest};
+    visit_crossings(loops, std::span(&drawing, 1), 0.0,
                     [&](LoopEdge e, LoopEdge f) { crossings.emplace_back(std::minmax(e.from, f.from)); });
     std::sort(crossings.begin(), crossings.end());
     return crossings;
@@ -55,8 +68,14 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
 
 bool loops_cross(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest)
 {
+    const LoopDrawing drawing{points, shortest};
+    return loops_cross(loops, std::span(&drawing, 1), 0.0);
+}
+
+bool loops_cross(const std::vector<VertexLoop>& loops, std::span<const LoopDrawing> drawings, double reach)
+{
     try {
-        visit_crossings(loops, points, shortest, [](LoopEdge, LoopEdge) { throw CrossingFound(); });
+        visit_crossings(loops, drawings, reach, [](LoopEdge, LoopEdge) { throw CrossingFound(); });
     } catch (const CrossingFound&) {
         return true;
     }
@@ -65,20 +84,19 @@ bool loops_cross(const std::vector<VertexLoop>& loops, const PlanarPoints& point
 
 double enclosed_area(const VertexLoop& loop, const PlanarPoints& points)
 {
-    const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
+    const auto from_first = [&](std::size_t i) { return at(points, loop[i % loop.size()]) - at(points, loop[0]); };
     double area = 0.0;
-    for (std::size_t i = 0; i < loop.size(); ++i)
-        area += 0.5 * std::imag(std::conj(at(loop[i]) - at(loop[0])) * (at(loop[(i + 1) % loop.size()]) - at(loop[0])));
+    for (std::size_t i = 0; i < loop.size(); ++i) area += 0.5 * std::imag(std::conj(from_first(i)) * from_first(i + 1));
     return area;
 }
 
 std::vector<int> turned_loops(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest)
 {
-    const auto at = [&](Index v) { return Complex(points(v, 0), points(v, 1)); };
     std::vector<double> areas, least;
     for (const VertexLoop& loop : loops) {
         double length = 0.0;
-        for (std::size_t i = 0; i < loop.size(); ++i) length += std::abs(at(loop[(i + 1) % loop.size()]) - at(loop[i]));
+        for (std::size_t i = 0; i < loop.size(); ++i)
+            length += std::abs(at(points, loop[(i + 1) % loop.size()]) - at(points, loop[i]));
         areas.push_back(enclosed_area(loop, points));
         least.push_back(shortest * length);
     }
