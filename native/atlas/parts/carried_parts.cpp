@@ -60,12 +60,14 @@ FlatPart whole_part(const CutSurface& whole)
     return flat;
 }
 
+enum class Storing { mends, mends_or_embeds };
+
 /// Turns faces upright, as far as that can be done.
-void make_storable(FlatPart& piece, ExecutionContext& context)
+void make_storable(FlatPart& piece, Storing way, ExecutionContext& context)
 {
     PlanarPoints uv = (piece.points.rowwise() - piece.points.colwise().minCoeff()) / packed_side;
     repair_flips(piece, uv, context);
-    embed_safely(piece, uv, context);
+    if (way == Storing::mends_or_embeds) embed_safely(piece, uv, context);
     piece.points = packed_side * uv;
 }
 
@@ -81,7 +83,7 @@ void map_by_itself(FlatPart& piece, ExecutionContext& context)
     mesh.border.assign(piece.original.size(), 0);
     const PartMap map = map_part(mesh, MapPurpose::judging, context);
     piece.points = flat_as_mapped(mesh, planar_points(map.positions)).points;
-    make_storable(piece, context);
+    make_storable(piece, Storing::mends_or_embeds, context);
 }
 
 /// Gives a piece the places that its faces have in one part of the same surface. @return whether there is such a part
@@ -224,7 +226,7 @@ void start_by_itself(const std::vector<FlatPart>& uncut, FlatPart& piece, Execut
     FlatPart by_itself = piece;
     map_by_itself(by_itself, context);
     const bool has_places = take_places_in(uncut, piece);
-    if (has_places) make_storable(piece, context);
+    if (has_places) make_storable(piece, Storing::mends, context);  // embedded, it would be as the other
     if (!has_places || !(energy(piece) < energy(by_itself))) piece = std::move(by_itself);
 }
 

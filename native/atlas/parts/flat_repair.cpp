@@ -22,6 +22,8 @@ namespace {
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
 constexpr double rounded_height = 2.5e-7;  // UV units: a face with that height is upright as stored
 constexpr int most_nudges = 200;           // rounds in which a face gets it
+constexpr Eigen::Index large_part = 1000;  // faces: in a larger part
+constexpr double most_mended = 0.01;       // more flips than this share are not turned back
 constexpr double drawn_out = 0.1;          // of the noise: gap between edges that it made cross
 
 /// Faces that are not upright, seen from some corner, as they are stored. @param uv in [0, 1]^2
@@ -187,6 +189,8 @@ Index repair_flips(const FlatPart& part, PlanarPoints& uv, const ExecutionContex
     };
     if (const PlanarPoints nudged = 2.0 * without_rounded_flips(part, uv).array() - 1.0; least > 0 && bad(nudged) == 0)
         take(nudged);
+    const Eigen::Index count = part.surface.triangles.rows();
+    if (count > large_part && static_cast<double>(least) > most_mended * static_cast<double>(count)) return least;
     for (const auto& stay : {held, std::vector<Index>{}}) {
         if (least == 0) break;
         PlanarPoints moved = points;

@@ -3,6 +3,7 @@
 
 #include "core/types.h"
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,17 @@ std::vector<std::pair<Index, Index>> crossing_boundary_edges(const std::vector<V
 /// Whether there is such a pair. It ends with the first one: where needles lie over each other, there are as many as
 /// the square of their number.
 bool loops_cross(const std::vector<VertexLoop>& loops, const PlanarPoints& points, double shortest);
+
+/// Places of loops, and the length from which edges count.
+struct LoopDrawing {
+    const PlanarPoints& points;  ///< (V, 2)
+    double shortest;
+};
+
+/// Whether there is such a pair in one of some drawings that are nearly alike. Edges that are far apart in all are
+/// found once. @param drawings at most 32 @param reach most distance of a coordinate from that in the first drawing,
+/// if a drawing is shifted as a whole so that it is least
+bool loops_cross(const std::vector<VertexLoop>& loops, std::span<const LoopDrawing> drawings, double reach);
 
 /// The enclosed area, positive for a counter-clockwise loop.
 double enclosed_area(const VertexLoop& loop, const PlanarPoints& points);

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,12 +28,14 @@ namespace {
 
 using Mobility = FoldoverProblem::Mobility;
 
-constexpr double longest_approach = 8.0;  // most ratio of a face's next area to its present area,
-constexpr double few_far = 1e-3;          // until the wanted sizes differ by more only on this share of the area
-constexpr double much_far = 0.1;          // and the way is so long that its energy may rise
-constexpr double all_far = 0.95;          // and on more no way ends: the surface is made of needles
-constexpr double nearer = 0.9;            // and as long as this share, or the energy, falls to this
-constexpr double much_less = 0.99;        // the energy must fall to this, for faces to go on
+constexpr double longest_approach = 8.0;     // most ratio of a face's next area to its present area,
+constexpr double few_far = 1e-3;             // until the wanted sizes differ by more only on this share of the area
+constexpr double much_far = 0.1;             // and the way is so long that its energy may rise
+constexpr int rising_rounds = 4;             // in which that share and the energy may rise on a large surface;
+constexpr Eigen::Index small_surface = 500;  // faces: with no more they may rise longer, which takes little time
+constexpr double all_far = 0.95;             // and on more no way ends: the surface is made of needles
+constexpr double nearer = 0.9;               // and as long as this share, or the energy, falls to this
+constexpr double much_less = 0.99;           // the energy must fall to this, for faces to go on
 constexpr int steps_an_approach = 4;
 constexpr double settled_decrease = 5e-4;  // relative decrease of the energy
 constexpr double exact_length = 1e-6;      // of a face's longest edge: error of an edge that is true to size
@@ -147,7 +150,8 @@ private:
     /// @param most_far rounds while faces are far from their size
     void go_rounds_with_void(int most_far, EvenMap& result)
     {
-        double before = energy();
+        const double first = energy(), first_off = far_off();
+        double before = first;
         for (int round = 0, far = 0; round < effort_.most_rounds;) {
             FoldoverProblem problem = surface_problem();
             try {
@@ -164,6 +168,8 @@ private:
             const bool is_far = far < most_far && done.iterations > 0 && far_off() > much_far;
             if (!is_far && !(before - now > settled_round * before)) return;
             ++(is_far ? far : round);
+            if (far >= rising_rounds && flat_.triangles.rows() > small_surface && now > first && far_off() > first_off)
+                return;
             before = now;
         }
     }
@@ -190,8 +196,8 @@ private:
                                        .pattern = pattern,
                                        .refuses = [&](const FoldoverPlaces& places) {
                                            const PlanarPoints points = places.points.topRows(own);
-                                           return !apart(points, shortest_) ||
-                                                  (grid > 0 && !apart_on_grid(points, grid)) ||
+                                           return !(grid > 0 ? apart_on_grid(points, grid)
+                                                             : apart(points, shortest_)) ||
                                                   (flat_.refuses && flat_.refuses(places));
                                        }});
     }
@@ -232,21 +238,34 @@ private:
     /// Whether no loop crosses itself or another, and none is turned over.
     bool apart(const PlanarPoints& points, double shortest) const
     {
-        if (flat_.periods)
-            return std::ranges::all_of(flat_.loops, [&](const VertexLoop& loop) {
-                return enclosed_area(loop, points) < 0.0 && !loops_cross({loop}, points, shortest);
-            });
-        return !loops_cross(flat_.loops, points, shortest) && turned_loops(flat_.loops, points, shortest).empty();
+        const LoopDrawing drawing{points, shortest};
+        return apart(std::span(&drawing, 1), 0.0);
     }
 
-    /// The same when points are rounded more coarsely than they will be stored, on two grids half a cell apart: on one
-    /// grid alone two sides that all but touch may lie in two cells by chance.
+    /// The same in several drawings that are nearly alike. @param reach as in loops_cross
+    bool apart(std::span<const LoopDrawing> drawings, double reach) const
+    {
+        if (flat_.periods)
+            return std::ranges::all_of(flat_.loops, [&](const VertexLoop& loop) {
+                return std::ranges::all_of(drawings,
+                                           [&](const auto& of) { return enclosed_area(loop, of.points) < 0.0; }) &&
+                       !loops_cross({loop}, drawings, reach);
+            });
+        return std::ranges::all_of(
+                   drawings,
+                   [&](const auto& of) { return turned_loops(flat_.loops, of.points, of.shortest).empty(); }) &&
+               !loops_cross(flat_.loops, drawings, reach);
+    }
+
+    /// The same also when points are rounded more coarsely than they will be stored, on two grids half a cell apart: on
+    /// one grid alone two sides that all but touch may lie in two cells by chance.
     bool apart_on_grid(const PlanarPoints& points, int grid) const
     {
-        const double cell = extent_ / grid;
-        return std::ranges::all_of(std::array{0.0, 0.5}, [&](double shift) {
-            return apart((points.array() / cell + shift).round() * cell, shortest_drawn * extent_);
-        });
+        const double cell = extent_ / grid, least = shortest_drawn * extent_;
+        const PlanarPoints first = (points.array() / cell).round() * cell;
+        const PlanarPoints second = (points.array() / cell + 0.5).round() * cell;
+        return apart(std::array{LoopDrawing{points, shortest_}, LoopDrawing{first, least}, LoopDrawing{second, least}},
+                     cell);
     }
 
     /// The share of the surface's area in faces that are far from their size.

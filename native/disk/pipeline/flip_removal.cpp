@@ -14,7 +14,8 @@ constexpr double room_factor = 0.8;  // of a circle's radius
 constexpr int most_rooms = 4;
 constexpr std::size_t few_flips = 4;  // more flips have a worse cause than two circles too near
 constexpr int most_starts = 4;
-constexpr std::size_t some_flips = 16;  // left by a search that another start is worth
+constexpr std::size_t some_flips = 16;    // left by a search that another start is worth,
+constexpr std::size_t faces_a_flip = 50;  // at least: a coarser surface gets its map from embedded_map sooner
 
 /// Shrinks the inner circles at which faces are still flipped: between two circles less than an edge apart, such faces
 /// have no upright place. @return whether there are such circles
@@ -78,7 +79,8 @@ UntangleReport remove_flips(const MapInput& whole, CircleMap& map, ExecutionCont
 {
     CircleMap start = map;
     UntangleReport first = search(whole, map, context);
-    if (first.tangled.empty() || first.tangled.size() > some_flips) return first;
+    const auto faces = static_cast<std::size_t>(whole.surface.triangles.rows());
+    if (first.tangled.empty() || first.tangled.size() > std::min(some_flips, faces / faces_a_flip)) return first;
     CircleMap first_map = map;
     std::vector<Index> tangled = first.tangled;
     for (int i = 1; i < most_starts && make_room(whole, tangled, start); ++i) {

@@ -8,7 +8,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -22,30 +24,56 @@ constexpr Eigen::Index most_starts = 40000;         // vertices from which rays 
 constexpr double golden_angle = 2.399963229728653;  // the turn from one direction to the next: they spread evenly
 constexpr double off_surface = 1e-3;                // start of a ray, over the extent
 constexpr int most_looks = 500;                     // at boxes and faces, for a ray: needles that cross have no tree
+constexpr double least_way = 1e-200;                // of a ray in a direction, so that it has an inverse
+constexpr double wider = 1.0 + 1e-12;               // share by which rounding may make a box narrower
 
-using TreeTraits = TriangleTree::AABB_traits;
+/// A ray for CGAL's tests of faces, and for a quicker one of boxes.
+struct SightRay {
+    SightRay(const Eigen::RowVector3d& start, const Eigen::RowVector3d& to)
+        : ray({start[0], start[1], start[2]}, TreeKernel::Vector_3(to[0], to[1], to[2]))
+    {
+        for (int k = 0; k < 3; ++k) {
+            from[k] = start[k];
+            inverse[k] = 1.0 / (std::abs(to[k]) > least_way ? to[k] : least_way);
+        }
+    }
+
+    /// Whether it may meet a box: that is where it is between both sides of each direction at once.
+    bool meets(const CGAL::Bbox_3& box) const
+    {
+        double enters = 0.0, leaves = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < 3; ++k) {
+            const double a = (box.min(k) - from[k]) * inverse[k], b = (box.max(k) - from[k]) * inverse[k];
+            enters = std::max(enters, std::min(a, b));
+            leaves = std::min(leaves, std::max(a, b));
+        }
+        return enters <= wider * leaves;
+    }
+
+    TreeKernel::Ray_3 ray;
+    std::array<double, 3> from, inverse;
+};
 
 /// Looks for a face in the way of a ray; the parts are those that CGAL's traversal of a tree asks for.
 class WayOfRay {
 public:
-    explicit WayOfRay(const TreeTraits& traits) : traits_(traits) {}
-
     bool go_further() const { return !is_blocked_ && looks_ < most_looks; }
-    void intersection(const TreeKernel::Ray_3& ray, const NumberedTriangle& face)
+    void intersection(const SightRay& sight, const NumberedTriangle& face)
     {
         ++looks_;
-        is_blocked_ = is_blocked_ || traits_.do_intersect_object()(ray, face);
+        if (is_blocked_) return;
+        const TreeKernel::Triangle_3 corners = face.datum();
+        is_blocked_ = sight.meets(corners.bbox()) && TreeKernel().do_intersect_3_object()(sight.ray, corners);
     }
     template <typename Node>
-    bool do_intersect(const TreeKernel::Ray_3& ray, const Node& node)
+    bool do_intersect(const SightRay& sight, const Node& node)
     {
         ++looks_;
-        return traits_.do_intersect_object()(ray, node.bbox());
+        return sight.meets(node.bbox());
     }
     bool is_blocked() const { return is_blocked_; }
 
 private:
-    const TreeTraits& traits_;
     int looks_ = 0;
     bool is_blocked_ = false;
 };
@@ -107,9 +135,8 @@ VectorXd ambient_visibility(const Vertices& vertices, const Triangles& triangles
             const double share = (k + 0.5) / directions, angle = golden_angle * k;
             const Eigen::RowVector3d to =
                 std::sqrt(share) * (std::cos(angle) * along + std::sin(angle) * across) + std::sqrt(1.0 - share) * up;
-            const TreeKernel::Ray_3 ray({start[0], start[1], start[2]}, TreeKernel::Vector_3(to[0], to[1], to[2]));
-            WayOfRay way(tree.traits());
-            tree.traversal(ray, way);
+            WayOfRay way;
+            tree.traversal(SightRay(start, to), way);
             free += !way.is_blocked();
         }
         seen[v] = static_cast<double>(free) / directions;
