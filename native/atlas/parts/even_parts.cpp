@@ -263,21 +263,17 @@ private:
             if (!survives_storing(parts_[k].flat)) parts_[k] = before[k];
     }
 
-    /// Maps parts by themselves that stay far from their minimum.
+    /// Maps parts by themselves that are stuck far from their minimum.
     void start_stuck_anew(double even)
     {
         const auto energy = [&](const FlatPart& flat) { return forces_in(flat, even).energy.sum(); };
         side_by_side(parts_.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
-            auto& [flat, round] = parts_[k];
-            const double most = tuning::stuck * face_areas(flat.vertices, flat.surface.triangles).sum();
-            if (!flat.is_near || !round.empty() || !(energy(flat) > most)) return;
-            FlatPart further = flat;
-            make_even(flat_surface(further, round), even, packed_side, own, carried_effort);
-            if (survives_storing(further) && energy(further) < energy(flat)) flat = std::move(further);
-            if (!(energy(flat) > most)) return;
+            FlatPart& flat = parts_[k].flat;
+            const double area = face_areas(flat.vertices, flat.surface.triangles).sum();
+            if (!flat.is_near || !parts_[k].round.empty() || !(energy(flat) > tuning::stuck * area)) return;
             FlatPart anew = flat;
             start_by_itself({}, anew, own);
-            make_even(flat_surface(anew, round), even, packed_side, own, {.most_far = far_rounds});
+            make_even(flat_surface(anew, parts_[k].round), even, packed_side, own, {.most_far = far_rounds});
             if (lies_one_to_one(anew, anew.points) && survives_storing(anew) && energy(anew) < energy(flat))
                 flat = std::move(anew);
         });
