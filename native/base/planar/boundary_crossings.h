@@ -27,7 +27,7 @@ struct LoopDrawing {
 };
 
 /// Whether there is such a pair in one of some drawings that are nearly alike. Edges that are far apart in all are
-/// found once. @param drawings at most 32 @param reach most distance of a coordinate from that in the first drawing,
+/// found once. @param drawings at most 3 @param reach most distance of a coordinate from that in the first drawing,
 /// if a drawing is shifted as a whole so that it is least
 bool loops_cross(const std::vector<VertexLoop>& loops, std::span<const LoopDrawing> drawings, double reach);
 
