@@ -151,6 +151,24 @@ TEST(Darts, one_that_begins_at_a_round_loop_leaves_both_ends_on_the_circle)
                     1e-12);
 }
 
+// Near the tip of a slender cone faces are strained, in a blunt one they are only bent. Both are as short as a finger.
+TEST(Darts, strained_faces_alone_get_them_if_so_asked)
+{
+    constexpr double even = 0.1;
+    ExecutionContext context;
+    const auto tips = [&](double angle, DartTips wanted) {
+        std::vector<HeldPart> parts{{cone(angle), {}}};
+        parts.front().flat.vertices *= 0.1;
+        parts.front().flat.points *= 0.1;
+        relax(parts.front().flat, even);
+        cut_darts(parts, wanted, even, 1e-4, 1, context);
+        return parts.front().flat.tips.size();
+    };
+    EXPECT_GT(tips(1.5 * pi, DartTips::anywhere), 0U);
+    EXPECT_EQ(tips(1.5 * pi, DartTips::strained), 0U);
+    EXPECT_GT(tips(0.2 * pi, DartTips::strained), 0U);
+}
+
 /// A cone as a piece of a mesh, and its proxy.
 Proxy proxy_of_cone(const FlatPart& fine, Index faces)
 {

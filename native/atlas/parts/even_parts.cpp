@@ -185,7 +185,7 @@ public:
             if (bounds.most.empty() || angles() <= tuning::carried_error * bounds.sum()) {
                 relax_cut(even, [](const FlatPart& flat) { return flat.is_near ? carried_effort : own_effort; });
                 // The coarse surface had no fingers and toes that darts could open.
-                if (options_.darts > 0.0 && options_.loops == LoopForm::free)
+                if (options_.darts > 0.0 && options_.loops == LoopForm::free && !is_uncut_sheet())
                     cut_darts(parts_, DartTips::strained, even, cut_price(), options_.threads, context_);
             }
             if (bounds.most.empty() || worst_groups(bounds).empty()) return {even, left_};
