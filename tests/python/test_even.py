@@ -13,7 +13,8 @@ from cli_support import USAGE, obj_text
 from cli_support import koebe as command
 from domain_surfaces import holed_ring, holed_torus
 from test_domains import HOLES, assert_tile
-from test_parts import TRIANGLES, VERTICES, areas
+from test_parts import TRIANGLES, VERTICES
+from uv_measures import signed_areas
 
 DIAL = (0.0, 0.1, 0.5, 1.0)
 
@@ -33,7 +34,7 @@ def log_density(uv, vertices, faces):
     """(F,) 1/2 log of UV area over area, of corners (F, 3, 2), and the areas."""
     a, b = vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]]
     area = 0.5 * np.linalg.norm(np.cross(a, b), axis=1)
-    return 0.5 * np.log(areas(uv) / area), area
+    return 0.5 * np.log(signed_areas(uv) / area), area
 
 
 def spread(uv, vertices, faces):
@@ -66,7 +67,7 @@ def test_the_dial_trades_angles_for_sizes(loops):
     for one, even in zip(maps, dial, strict=True):
         assert one.converged and one.even == even and one.overlaps == 0 and one.flipped == 0
         assert np.hypot(*one.uv.T).max() <= 1 + 1e-12
-        assert (areas(one.uv[faces].astype(np.float32).astype(float)) > 0).all()
+        assert (signed_areas(one.uv[faces].astype(np.float32).astype(float)) > 0).all()
         assert covered_at_most_once(one.uv[faces])
 
 
@@ -138,7 +139,7 @@ def test_random_surfaces_are_true_to_their_report(seeds):
         rng = np.random.default_rng(seed)
         options = {"even": float(rng.choice(DIAL[1:])), "loops": str(rng.choice(["round", "free"]))}
         for one, corners in _both(vertices, faces, options):
-            size = areas(corners.astype(np.float32).astype(float))
+            size = signed_areas(corners.astype(np.float32).astype(float))
             assert (size <= 0).sum() == one.flipped, (seed, options)
             assert one.even == options["even"] or "not_even" in {warning.kind for warning in one.warnings}
             if one.converged:
