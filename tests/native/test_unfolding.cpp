@@ -230,9 +230,9 @@ TEST(Unfolding, NoiseDoesNotHideTheSidesOfABox)
     EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), 0.0, 1.5 * noise), 8.0 * noise);
 }
 
-/// A ball cut by a plane: the plate is a fifth of the area.
-Solid ball_with_plate()
+TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
 {
+    // A ball cut by a plane: the plate is a fifth of the area.
     constexpr int n = 40;
     Solid ball;
     std::vector<std::vector<Index>> rings;
@@ -259,12 +259,6 @@ Solid ball_with_plate()
             ball.polygons.push_back({rings[i][k], rings[i][next], rings[i + 1][next], rings[i + 1][k]});
         ball.polygons.push_back({rings.back()[k], rings.back()[next], top});
     }
-    return ball;
-}
-
-TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
-{
-    Solid ball = ball_with_plate();
     for (std::size_t v = 0; v < ball.points.size(); ++v)
         for (int axis = 0; axis < 3; ++axis)
             ball.points[v][axis] += 1e-4 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
@@ -311,28 +305,6 @@ TEST(Unfolding, ACubeBecomesACrossCutAlongSevenEdges)
         EXPECT_EQ(parts->parts.size(), 1u);
         EXPECT_NEAR(cuts_of(cube, *parts), 7.0 / std::sqrt(6.0), 1e-12);
     }
-}
-
-TEST(Unfolding, AnEdgeWithoutLengthBetweenTwoSidesCutsNothing)
-{
-    // In the middle of an edge lie two vertices, and each side has a needle between them.
-    Solid solid = box(1.0, 1.0, 1.0, 1);
-    const Index a = solid.polygons[0][0], b = solid.polygons[0][1], middle = static_cast<Index>(solid.points.size());
-    for (int i = 0; i < 2; ++i) solid.points.push_back((solid.points[a] + solid.points[b]) / 2.0);
-    for (auto& polygon : solid.polygons)
-        for (std::size_t k = 0; k < 4; ++k) {
-            const Index from = polygon[k], to = polygon[(k + 1) % 4];
-            if (std::minmax(from, to) != std::minmax(a, b)) continue;
-            std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>((k + 2) % 4));
-            polygon.insert(polygon.end() - 1, {middle + (from == b), middle + (from == a)});
-            break;
-        }
-    const CutSurface cube = surface_of(solid);
-    const auto parts = unfold(cube);
-    ASSERT_TRUE(parts);
-    EXPECT_EQ(parts->parts.size(), 1u);
-    EXPECT_NEAR(parts->cut_length, 7.0 / std::sqrt(6.0), 1e-5);
-    for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
 }
 
 TEST(Unfolding, ABoxIsCutAlongItsShortEdges)

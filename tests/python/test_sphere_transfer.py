@@ -8,12 +8,17 @@ import numpy as np
 import pytest
 from koebe.labs import sphere_alignment as alignment
 from koebe.labs import sphere_transfer as inner
-from sphere_surfaces import icosphere
 
 
 def potato(rounds, seed=3):
     """A closed, bumpy surface of 20 * 4^rounds triangles, stretched and without symmetry."""
-    points, faces = icosphere(1)
+    t = (1 + 5**0.5) / 2
+    points = np.array([(-1, t, 0), (1, t, 0), (-1, -t, 0), (1, -t, 0), (0, -1, t), (0, 1, t), (0, -1, -t), (0, 1, -t),
+                       (t, 0, -1), (t, 0, 1), (-t, 0, -1), (-t, 0, 1)])  # fmt: skip
+    faces = np.array([(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2),
+                      (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5),
+                      (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)])  # fmt: skip
+    points = points / np.linalg.norm(points, axis=1)[:, None]
     for _ in range(rounds):
         ends = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
         edges, number = np.unique(ends, axis=0, return_inverse=True)

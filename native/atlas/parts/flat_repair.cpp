@@ -107,16 +107,6 @@ PlanarPoints embedded_anew(const Vertices& vertices, const Surface& surface, con
     return freely_embedded(vertices, surface, loops, context);
 }
 
-bool raise_slivers(FlatPart& part, double most)
-{
-    bool any = false;
-    for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
-        if (!(signed_area(part.points, part.surface.triangles, f) > 0.0) &&
-            raise_sliver(part.surface.triangles, f, 2.0 * rounded_height, -most, part.points))
-            any = true;
-    return any;
-}
-
 void mend_noise(FlatPart& part, double noise)
 {
     const PlanarPoints before = part.points;
@@ -146,7 +136,11 @@ void mend_noise(FlatPart& part, double noise)
     };
     bool any = true;
     for (int round = 0; any && round < most_nudges; ++round) {
-        any = raise_slivers(part, most);
+        any = false;
+        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
+            if (!(signed_area(points, part.surface.triangles, f) > 0.0) &&
+                raise_sliver(part.surface.triangles, f, 2.0 * rounded_height, -most, points))
+                any = true;
         if (any) continue;
         for (const auto& [a, b] : crossing_boundary_edges(part.surface.loops, points, 0.0))
             if (draw_out({a, next[a]}, {b, next[b]}, most, points) || draw_in(a, b)) any = true;

@@ -91,11 +91,8 @@ std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& c
     } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
         return {};
     }
-    // Noise turns slivers over, rounding leaves them no area.
-    const auto lies_well = [&] { return lies_one_to_one(part, part.points); };
-    if (charts.noise > 0.0 && !lies_well()) mend_noise(part, charts.noise);
-    if (!lies_well()) raise_slivers(part, charts.near);
-    if (!lies_well() && !draw_apart(part, touching(part, charts.near), narrow_gap)) return {};
+    if (charts.noise > 0.0 && !lies_one_to_one(part, part.points)) mend_noise(part, charts.noise);
+    if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part, charts.near), narrow_gap)) return {};
     if (!survives_storing(part)) return {};
     part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());
     part.held.assign(mesh.fan_count, 0);
