@@ -17,15 +17,18 @@
 #include <cstdlib>
 #include <exception>
 #include <functional>
-#include <malloc.h>
 #include <new>
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <sys/resource.h>
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#include <sys/resource.h>
+#endif
 
 namespace {
 
