@@ -96,7 +96,7 @@ def register() -> None:
     for part in _parts():
         for name, operator in vars(part).items():
             if "_OT_" in name:  # Blender would show the line breaks, and cuts off text after 239 letters
-                operator.bl_description = " ".join(operator.__doc__.split())
+                operator.bl_description = " ".join((operator.__doc__ or "").split())
         for operator in _operators(part):
             register_class(operator)
         if hasattr(part, "register"):

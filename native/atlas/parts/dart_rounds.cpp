@@ -108,11 +108,12 @@ private:
     {
         if (tips_ == DartTips::anywhere) return refused_[k];
         const FlatPart& flat = parts_[k].flat;
-        const VectorXd areas = face_areas(flat.vertices, flat.surface.triangles);
+        const Triangles& triangles = flat.surface.triangles;
+        const std::vector<int> is_strained = strained_faces(forces.energy, face_areas(flat.vertices, triangles));
         std::vector<char> barred(refused_[k].size(), 1);
-        for (Eigen::Index f = 0; f < areas.size(); ++f)
-            if (forces.energy[f] > tuning::strained * areas[f])
-                for (const Index v : flat.surface.triangles.row(f)) barred[v] = refused_[k][v];
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+            if (is_strained[f] != 0)
+                for (const Index v : triangles.row(f)) barred[v] = refused_[k][v];
         return barred;
     }
 

@@ -66,6 +66,13 @@ EvenForces forces_in(const FlatPart& flat, double even)
     return forces;
 }
 
+std::vector<int> strained_faces(const VectorXd& energy, const VectorXd& areas)
+{
+    std::vector<int> strained(static_cast<std::size_t>(areas.size()));
+    for (Eigen::Index f = 0; f < areas.size(); ++f) strained[f] = energy[f] > tuning::strained * areas[f] ? 1 : 0;
+    return strained;
+}
+
 bool is_true_to_size(const FlatPart& flat)
 {
     return is_true_to_size(flat.vertices, flat.surface.triangles, flat.points, sizes_of(flat));

@@ -22,6 +22,9 @@ VectorXd weights_of_faces(const FlatPart& flat);
 /// The forces in a part relaxed for this E (even/even_forces.h), with the sizes and weights of its faces.
 EvenForces forces_in(const FlatPart& flat, double even);
 
+/// (F) 1 for faces whose energy is above tuning::strained. @param energy, areas (F)
+std::vector<int> strained_faces(const VectorXd& energy, const VectorXd& areas);
+
 /// Whether a part is flat in truth (even/even_map.h): it needs no cuts.
 bool is_true_to_size(const FlatPart& flat);
 

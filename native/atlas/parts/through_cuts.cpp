@@ -122,9 +122,7 @@ private:
     void measure_strain()
     {
         const VectorXd areas = face_areas(flat_.vertices, flat_.surface.triangles);
-        std::vector<int> is_strained(static_cast<std::size_t>(areas.size()));
-        for (Eigen::Index f = 0; f < areas.size(); ++f)
-            is_strained[f] = forces_.energy[f] > tuning::strained * areas[f] ? 1 : 0;
+        const std::vector<int> is_strained = strained_faces(forces_.energy, areas);
         Index count = 0;
         region_ = connected_pieces(flat_.surface.twin, is_strained, count);
         strain_.assign(static_cast<std::size_t>(count), 0.0);

@@ -1,5 +1,6 @@
 #include "planar/boundary_crossings.h"
 
+#include "core/complex_places.h"
 #include "planar/meeting_boxes.h"
 #include "planar/planar_predicates.h"
 
@@ -23,14 +24,12 @@ using EdgeBox = CGAL::Box_intersection_d::Box_with_info_d<double, 2, LoopEdge>;
 /// Ends CGAL's search.
 struct CrossingFound : std::exception {};
 
-Complex at(const PlanarPoints& points, Index v) { return {points(v, 0), points(v, 1)}; }
-
 /// LoopEdge::begin of all edges of a loop. The ends of edges that are too short are one vertex.
 std::vector<Index> begins_of_edges(const VertexLoop& loop, const LoopDrawing& drawing)
 {
     const std::size_t count = loop.size();
     const auto is_short = [&](Index a, Index b) {
-        return !(std::abs(at(drawing.points, a) - at(drawing.points, b)) >= drawing.shortest);
+        return !(std::abs(complex_at(drawing.points, a) - complex_at(drawing.points, b)) >= drawing.shortest);
     };
     // Begin with an edge behind one that is not too short.
     std::size_t start = 0;
@@ -68,7 +67,7 @@ void visit_crossings(const std::vector<VertexLoop>& loops, std::span<const LoopD
             LoopEdge edge{loop[i], loop[(i + 1) % loop.size()], {-1, -1, -1}};
             for (std::size_t k = 0; k < drawings.size(); ++k) edge.begin[k] = begins[k][i];
             if (std::ranges::max(edge.begin) < 0) continue;
-            const Complex a = at(points, edge.from), b = at(points, edge.to);
+            const Complex a = complex_at(points, edge.from), b = complex_at(points, edge.to);
             double low[2] = {std::min(a.real(), b.real()) - reach, std::min(a.imag(), b.imag()) - reach};
             double high[2] = {std::max(a.real(), b.real()) + reach, std::max(a.imag(), b.imag()) + reach};
             boxes.emplace_back(low, high, edge);
@@ -79,7 +78,8 @@ void visit_crossings(const std::vector<VertexLoop>& loops, std::span<const LoopD
         for (std::size_t k = 0; k < drawings.size(); ++k)
             if (const PlanarPoints& own = drawings[k].points;
                 e.begin[k] >= 0 && f.begin[k] >= 0 && !share_a_vertex(e, f, k) &&
-                segments_meet(at(own, e.from), at(own, e.to), at(own, f.from), at(own, f.to)))
+                segments_meet(complex_at(own, e.from), complex_at(own, e.to), complex_at(own, f.from),
+                              complex_at(own, f.to)))
                 visit(e, f);
     });
 }
@@ -115,7 +115,9 @@ bool loops_cross(const std::vector<VertexLoop>& loops, std::span<const LoopDrawi
 
 double enclosed_area(const VertexLoop& loop, const PlanarPoints& points)
 {
-    const auto from_first = [&](std::size_t i) { return at(points, loop[i % loop.size()]) - at(points, loop[0]); };
+    const auto from_first = [&](std::size_t i) {
+        return complex_at(points, loop[i % loop.size()]) - complex_at(points, loop[0]);
+    };
     double area = 0.0;
     for (std::size_t i = 0; i < loop.size(); ++i) area += 0.5 * std::imag(std::conj(from_first(i)) * from_first(i + 1));
     return area;
@@ -127,7 +129,7 @@ std::vector<int> turned_loops(const std::vector<VertexLoop>& loops, const Planar
     for (const VertexLoop& loop : loops) {
         double length = 0.0;
         for (std::size_t i = 0; i < loop.size(); ++i)
-            length += std::abs(at(points, loop[(i + 1) % loop.size()]) - at(points, loop[i]));
+            length += std::abs(complex_at(points, loop[(i + 1) % loop.size()]) - complex_at(points, loop[i]));
         areas.push_back(enclosed_area(loop, points));
         least.push_back(shortest * length);
     }

@@ -140,17 +140,16 @@ public:
         const std::vector<RoundLoop> round = flat_.round;
         const double off = far_off();
         const int most_far = off > much_far && off < all_far ? effort_.most_far : 0;
-        go_rounds_with_void(most_far, result);
+        go_rounds_with_void(first, off, most_far, result);
         if (most_far == 0 || energy() < first) return;
         flat_.points = points;  // the way was too long
         flat_.round = round;
     }
 
 private:
-    /// @param most_far rounds while faces are far from their size
-    void go_rounds_with_void(int most_far, EvenMap& result)
+    /// @param first, first_off energy() and far_off() @param most_far rounds while faces are far from their size
+    void go_rounds_with_void(double first, double first_off, int most_far, EvenMap& result)
     {
-        const double first = energy(), first_off = far_off();
         double before = first;
         for (int round = 0, far = 0; round < effort_.most_rounds;) {
             FoldoverProblem problem = surface_problem();
