@@ -155,23 +155,8 @@ public:
                 }
             parts_ = before;
         }
-        // Without darts, at rising E.
         count_all_faces_alike();
-        double even = 0.0;
-        for (double next = first_even; next >= least_even && next <= 1.0;) {
-            const std::vector<HeldPart> last = parts_;
-            relax(next, look);
-            if (angles() <= (1.0 + tuning::noticeable) * conformal) relax(next, search());
-            if (angles() <= conformal) {
-                even = next;
-                next *= step;
-            } else {
-                parts_ = last;
-                if (even > 0.0) break;
-                next *= 0.25;
-            }
-        }
-        return even;
+        return rise_freely(conformal);
     }
 
     /// Relaxes parts with their cuts, at first only a little. If their angles are worse than the bounds allow, goes on
@@ -203,6 +188,27 @@ public:
     }
 
 private:
+    /// Without darts: the greatest E at which angles are no worse than at 0. First looks say how far to go.
+    double rise_freely(double conformal)
+    {
+        const std::vector<HeldPart> before = parts_;
+        for (double first = first_even; first >= least_even; first *= 0.25) {
+            std::vector<std::pair<double, std::vector<HeldPart>>> looked;
+            for (double even = first; even <= 1.0; even *= step) {
+                relax(even, look);
+                if (angles() > (1.0 + tuning::noticeable) * conformal) break;
+                looked.emplace_back(even, parts_);
+            }
+            for (; !looked.empty(); looked.pop_back()) {
+                parts_ = std::move(looked.back().second);
+                relax(looked.back().first, search());
+                if (angles() <= conformal) return looked.back().first;
+            }
+            parts_ = before;
+        }
+        return 0.0;
+    }
+
     EvenEffort search() const
     {
         return {.most_steps = search_steps, .most_rounds = options_.rounds, .most_far = far_rounds};

@@ -24,6 +24,7 @@ namespace {
 
 constexpr EvenEffort stitch_effort{6, 4, 60, 4};
 constexpr int most_stitches_tried = 12;
+constexpr double most_work = 80.0;  // Newton steps of all trials, over the faces: a few times the usual
 
 /// What a layout costs, in energy, beside its cuts and islands.
 struct LayoutState {
@@ -172,9 +173,9 @@ bool join_along(const BorderStretch& stretch, std::vector<FlatPart>& parts, std:
     return true;
 }
 
-/// The parts after a stitch, relaxed; nothing if they cannot be one to one.
+/// The parts after a stitch, relaxed; nothing if they cannot be one to one. @param work counted on
 std::optional<std::vector<FlatPart>> stitched(std::vector<FlatPart> parts, const Stitch& stitch, double even,
-                                              ExecutionContext& context)
+                                              double& work, ExecutionContext& context)
 {
     std::vector<char> changed(parts.size(), 0);
     for (const BorderStretch& stretch : stitch.stretches)
@@ -183,9 +184,9 @@ std::optional<std::vector<FlatPart>> stitched(std::vector<FlatPart> parts, const
         if (!changed[k]) continue;
         if (!lies_one_to_one(parts[k], parts[k].points)) start_by_itself({}, parts[k], context);
         std::vector<RoundLoop> none;
-        if (!make_even(flat_surface(parts[k], none), even, packed_side, context, stitch_effort).moved ||
-            !survives_storing(parts[k]))
-            return {};
+        const EvenMap relaxed = make_even(flat_surface(parts[k], none), even, packed_side, context, stitch_effort);
+        work += static_cast<double>(relaxed.iterations) * static_cast<double>(parts[k].faces.size());
+        if (!relaxed.moved || !survives_storing(parts[k])) return {};
     }
     return parts;
 }
@@ -199,12 +200,14 @@ bool stitch_parts(std::vector<HeldPart>& held, double even, const ThroughPrice& 
     for (HeldPart& part : held) parts.push_back(std::move(part.flat));
     LayoutState now(parts, even);
     std::set<EdgeEnds> refused;
+    double faces = 0.0, work = 0.0;
+    for (const FlatPart& part : parts) faces += static_cast<double>(part.faces.size());
     bool any = false;
-    for (int tried = 0; tried < most_stitches_tried; ++tried) {
+    for (int tried = 0; tried < most_stitches_tried && work < most_work * faces; ++tried) {
         context.checkpoint();
         const auto stitch = best_stitch(parts, price, refused);
         if (!stitch) break;
-        auto trial = stitched(parts, *stitch, even, context);
+        auto trial = stitched(parts, *stitch, even, work, context);
         // It pays if E' - E + roundness_loss(C, C') < what its cuts and islands cost, and no more texels are wasted.
         bool pays = false;
         if (trial) {

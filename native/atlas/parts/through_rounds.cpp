@@ -21,6 +21,7 @@ namespace {
 
 constexpr EvenEffort trial_effort{6, 2};
 constexpr int most_failures = 2;          // rounds in which no cut of a piece pays
+constexpr double most_work = 80.0;        // Newton steps of a piece's trials, over its faces: a few times the usual
 constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room, unless it is true to size
 
 /// A cut as vertices of the whole: cuts of other parts have numbers of their own.
@@ -68,7 +69,10 @@ class MirrorGroup {
 public:
     MirrorGroup(std::vector<HeldPart> parts, const ThroughPrice& price) : price_(price)
     {
-        for (HeldPart& part : parts) pieces_.push_back({std::move(part.flat)});
+        for (HeldPart& part : parts) {
+            work_left_ += most_work * static_cast<double>(part.flat.faces.size());
+            pieces_.push_back({std::move(part.flat)});
+        }
     }
 
     /// Cuts by what they release in parts that are relaxed for this E.
@@ -110,6 +114,7 @@ private:
     /// @return whether to go on with this piece
     bool release_once(std::size_t k, double even, ExecutionContext& context)
     {
+        if (work_left_ < 0.0) return false;
         std::vector<ThroughCut> cuts = promising_through_cuts(pieces_[k].flat, even, price_, pieces_[k].refused);
         if (cuts.empty()) return false;
         if (!pieces_[k].flat.image.empty()) cuts.resize(1);
@@ -236,21 +241,22 @@ private:
     }
 
     /// Relaxes the pieces that are new. @return whether they are one to one
-    static bool relax(Trial& trial, double even, ExecutionContext& context)
+    bool relax(Trial& trial, double even, ExecutionContext& context)
     {
         for (std::size_t k = 0; k < trial.pieces.size(); ++k) {
             if (!trial.changed[k]) continue;
             FlatPart& flat = trial.pieces[k].flat;
             std::vector<RoundLoop> none;
-            if (!make_even(flat_surface(flat, none), even, packed_side, context, trial_effort).moved ||
-                !survives_storing(flat))
-                return false;
+            const EvenMap relaxed = make_even(flat_surface(flat, none), even, packed_side, context, trial_effort);
+            work_left_ -= static_cast<double>(relaxed.iterations) * static_cast<double>(flat.faces.size());
+            if (!relaxed.moved || !survives_storing(flat)) return false;
         }
         return true;
     }
 
     std::vector<Piece> pieces_;
     int cuts_ = 0;
+    double work_left_ = 0.0;  // Newton steps times faces
     ThroughPrice price_;
 };
 

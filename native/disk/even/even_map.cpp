@@ -160,7 +160,9 @@ private:
                 return;
             }
             const FoldoverResult done = minimize(problem, steps_a_round, grid_ > 0 ? std::max(grid_, fine_grid) : 0);
+            const PlanarPoints last = flat_.points;
             take(problem, done, result);
+            if (flat_.points == last) return;
             ++result.rounds;
             const double now = energy();
             // From far off the energy rises before it falls: most faces shrink until the narrow places are through.
