@@ -210,12 +210,14 @@ std::optional<FlatMesh> flat_mesh_of(DividedFaces faces, const Vertices& vertice
     if (!hard.empty() && !options.importance.empty())
         pieces.push_back({{whole_piece(layout.vertices, triangles)}, std::exchange(hard, {})});
     mesh.seconds.topology = stage.lap();
-    MeshParts parts = mesh_parts(std::move(pieces), options, context);
+    const bool only_uncut = pockets && !pockets->rims.empty();
+    std::optional<MeshParts> parts = mesh_parts(std::move(pieces), options, only_uncut, context);
+    if (!parts) return {};
     mesh.seconds.iterate = stage.lap();
-    layout.even = parts.even;
-    layout.not_even = std::move(parts.not_even);
-    layout.maps = parts.maps;
-    mesh.parts = std::move(parts.parts);
+    layout.even = parts->even;
+    layout.not_even = std::move(parts->not_even);
+    layout.maps = parts->maps;
+    mesh.parts = std::move(parts->parts);
     if (keep_bent(mesh.parts)) return {};
     std::ranges::move(hard, std::back_inserter(mesh.parts));  // they are exact: nothing relaxes or cuts them
     sum_cuts(mesh);

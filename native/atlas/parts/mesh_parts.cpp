@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -53,8 +54,9 @@ void ask_for_sizes(const std::vector<double>& importance, std::vector<FlatPart>&
 /// Pieces, whose parts are decided one by one and made even together.
 class PartsOfPieces {
 public:
-    PartsOfPieces(std::vector<FlatPiece> pieces, const PartsOptions& options, ExecutionContext& context)
-        : options_(options), context_(context)
+    PartsOfPieces(std::vector<FlatPiece> pieces, const PartsOptions& options, bool only_uncut,
+                  ExecutionContext& context)
+        : options_(options), only_uncut_(only_uncut), context_(context)
     {
         for (FlatPiece& own : pieces) pieces_.push_back({std::move(own)});
         for (const MeshPiece& own : pieces_)
@@ -92,7 +94,13 @@ public:
     }
 
     /// Makes the parts even. Parts that were decided on proxies are then made of the fine surface, and relaxed.
-    void make_even() { result_.even = make_all_even(true); }
+    /// @return false, before that, if they are cut and only an uncut mesh is asked for
+    bool make_even()
+    {
+        const std::optional<double> even = make_all_even(true);
+        result_.even = even.value_or(0.0);
+        return even.has_value();
+    }
 
     /// With parts named by the input.
     MeshParts take()
@@ -110,8 +118,21 @@ private:
         if (options_.sketch) options_.sketch(sketched_boundaries(pieces_, context_));
     }
 
-    /// @param stitch whether parts may be joined again @return E
-    double make_all_even(bool stitch)
+    bool is_cut() const
+    {
+        std::size_t count = 0;
+        double length = 0.0;
+        for (const MeshPiece& own : pieces_)
+            for (const FlatPart& part : own.parts) {
+                ++count;
+                length += part.slit + part.dart_length;
+            }
+        return count > 1 || length > 0.0;
+    }
+
+    /// @param stitch whether parts may be joined again @return E; nothing if only an uncut mesh is asked for, and the
+    /// parts on proxies are cut
+    std::optional<double> make_all_even(bool stitch)
     {
         FineParts fine(pieces_, options_, context_);
         EvenOptions evening = evening_of(options_, options_.roomy, options_.threads);
@@ -128,7 +149,8 @@ private:
         EvenOptions on_proxy = evening;
         on_proxy.dearer = tuning::proxy_factor;
         on_proxy.rounds = rounds_on_proxy;
-        double even = make_together_even(on_proxy);
+        const double even = make_together_even(on_proxy);
+        if (only_uncut_ && is_cut()) return {};
         sketch();
 
         // Make the same parts of the fine surface. Where angles are worse than at 0, go back.
@@ -229,6 +251,7 @@ private:
 
     std::vector<MeshPiece> pieces_;
     const PartsOptions& options_;
+    bool only_uncut_;
     ExecutionContext& context_;
     Eigen::Index total_ = 0;  // faces
     MeshParts result_;
@@ -236,12 +259,13 @@ private:
 
 }  // namespace
 
-MeshParts mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, ExecutionContext& context)
+std::optional<MeshParts> mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, bool only_uncut,
+                                    ExecutionContext& context)
 {
-    PartsOfPieces parts(std::move(pieces), options, context);
+    PartsOfPieces parts(std::move(pieces), options, only_uncut, context);
     parts.decide();
     context.begin_stage("even", 0.8, 0.9);
-    parts.make_even();
+    if (!parts.make_even()) return {};
     return parts.take();
 }
 

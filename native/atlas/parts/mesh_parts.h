@@ -6,6 +6,7 @@
 #include "parts/flat_piece.h"
 #include "parts/parts.h"
 
+#include <optional>
 #include <vector>
 
 namespace koebe {
@@ -24,7 +25,9 @@ struct MeshParts {
 };
 
 /// Decides the parts of pieces, on proxies if there are many faces, then makes all parts even.
-/// @param pieces with parts that are decided already, or without
-MeshParts mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, ExecutionContext& context);
+/// @param pieces with parts that are decided already, or without @param only_uncut nothing else is asked for than one
+/// part without a cut @return nothing if that is known to fail before all is done
+std::optional<MeshParts> mesh_parts(std::vector<FlatPiece> pieces, const PartsOptions& options, bool only_uncut,
+                                    ExecutionContext& context);
 
 }  // namespace koebe
