@@ -71,6 +71,18 @@ void estimate_errors(PlanarResult& result, const std::vector<Circle>& coarser)
     result.module_errors = result.module_errors.cwiseMax((result.module - conformal_module(coarser)).cwiseAbs());
 }
 
+/// What distances from circles become at most where an automorphism moves the circles: times its largest derivative.
+std::vector<double> moved_residuals(std::vector<double> residuals, const std::vector<Circle>& circles,
+                                    const Moebius& map)
+{
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+        const double nearest =
+            std::abs(1.0 - std::conj(map.a) * circles[k].center) - std::abs(map.a) * circles[k].radius;
+        residuals[k] *= (1.0 - std::norm(map.a)) / (nearest * nearest);
+    }
+    return residuals;
+}
+
 void require_slits(const PlanarOptions& options, std::size_t rims)
 {
     if (options.slits == SlitKind::none) return;
@@ -271,13 +283,13 @@ PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions&
         result.order = domain.order;
         result.circles = normalized_circles(found);
         result.module = conformal_module(result.circles);
-        result.residuals = residuals;
+        result.residuals = moved_residuals(residuals, found, normalizing_map(found));
         result.sweeps = iteration.sweeps + 1;
         result.unknowns = iteration.unknowns;
         estimate_errors(result, coarser);
         result.converged = !coarser.empty() && result.error <= options.tolerance;
         result.map = PlanarMap(middle, size, domain.polygons, std::move(iteration.maps), iteration.outer());
-        result.map.normalize(normalizing_map(found), result.circles, *std::ranges::max_element(residuals));
+        result.map.normalize(normalizing_map(found), result.circles, *std::ranges::max_element(result.residuals));
         // An error without a coarser resolution is a residual alone; and rounding may make finer ones worse.
         const bool is_better = !was_compared || result.converged || (!coarser.empty() && result.error < best.error);
         was_compared = was_compared || !coarser.empty();
