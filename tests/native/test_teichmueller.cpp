@@ -1,7 +1,9 @@
+#include "core/complex_places.h"
 #include "core/errors.h"
 #include "fit/coarse_gaps.h"
 #include "fit/dilatation_bounds.h"
 #include "fit/plane_beltrami.h"
+#include "fit/quasiconformal_map.h"
 #include "fit/teichmueller.h"
 #include "fit/torus_dilatation.h"
 #include "mapped_domain.h"
@@ -63,6 +65,26 @@ TEST(Teichmueller, bounds_of_the_radial_map_meet)
         const double exact = std::max(dilatation, 1.0 / dilatation);
         EXPECT_NEAR(bounds.lower, exact, 0.005 * exact);
         EXPECT_NEAR(bounds.upper, exact, 0.005 * exact);
+    }
+}
+
+TEST(Teichmueller, the_map_with_the_coefficients_of_the_radial_map)
+{
+    const CircleDomain ring = make_round_annulus(0.2, 96, 40);
+    const PlanarPoints from = mapped(ring).uv;
+    for (const double dilatation : {0.5, 1.5, 3.0}) {
+        VectorXcd mu(ring.triangles.rows());
+        for (Eigen::Index f = 0; f < mu.size(); ++f) {
+            Complex middle = 0.0;
+            for (const Index v : ring.triangles.row(f)) middle += complex_at(from, v);
+            mu[f] = (dilatation - 1.0) / (dilatation + 1.0) * middle / std::conj(middle);
+        }
+        ExecutionContext context;
+        const auto to = quasiconformal_map(ring.triangles, from, ring.loops, mu,
+                                           {Circle{}, {0.0, std::pow(0.2, dilatation)}}, context);
+        ASSERT_TRUE(to.has_value());
+        for (Eigen::Index v = 0; v < from.rows(); ++v)
+            EXPECT_NEAR(to->row(v).norm(), std::pow(from.row(v).norm(), dilatation), 1e-3);
     }
 }
 

@@ -72,7 +72,7 @@ def test_figures_of_planar_domains_are_the_measured_ones():
         rows = [row for row in csv.DictReader(file) if row["domain"].startswith("b")]
     programs = ("koebe planar", "PlgCirMap, its default")
     ours, theirs = ([row for row in rows if row["program"] == name] for name in programs)
-    for pattern, measured in (("off by {0} after {0} s; that", ours), ("Octave, by {0} after {0} s", theirs)):
+    for pattern, measured in (("module of {0} after {0} s", ours), ("differs from it by {0} after {0} s", theirs)):
         three = r"([\d.e-]+), ([\d.e-]+) and ([\d.e-]+)"
         columns = [number(row[name]) for name in ("error of the module", "processor seconds") for row in measured]
         assert said(pattern.format(three)) == columns

@@ -193,6 +193,16 @@ def test_options_are_the_tables():
             koebe.planar([SQUARE], **{name: wrong})
 
 
+def test_a_rough_map_takes_places_on_its_rims():
+    rims = [4 * SQUARE, SQUARE - 1.6, 1.2 * SQUARE + 0.8]
+    found = koebe.planar(rims, max_sweeps=5)
+    assert not found.converged and found.error > 1e-7
+    sides = [rim + (np.roll(rim, -1) - rim) * share for rim in rims for share in np.linspace(0.05, 0.95, 9)]
+    images = found(np.concatenate(sides)) @ [1, 1j]
+    off = np.abs(np.abs(images[:, None] - found.centers @ [1, 1j]) - found.radii).min(axis=1)
+    assert off.max() <= 1.001 * found.error  # rims are sampled
+
+
 def test_places_off_the_domain():
     found = koebe.planar([2 * SQUARE, SQUARE])
     with pytest.raises(koebe.InputError) as refused:

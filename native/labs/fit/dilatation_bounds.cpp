@@ -359,7 +359,7 @@ DilatationBounds dilatation_bounds(const Triangles& triangles, const PlanarPoint
         if (!(area.dot(size) > 0.0) || !size.allFinite()) break;
         const double least = 1.0 / reich_strebel(area, mu, q, -1.0);
         if (i > 0 && !(least > bounds.lower)) continue;
-        bounds = {std::max(least, 1.0), std::max(reich_strebel(area, mu, q, 1.0), 1.0)};
+        bounds = {std::max(least, 1.0), std::max(reich_strebel(area, mu, q, 1.0), 1.0), q};
     }
     return bounds;
 }

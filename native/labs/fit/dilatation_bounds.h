@@ -4,6 +4,7 @@
 #include "circles/circle.h"
 #include "core/types.h"
 
+#include <cmath>
 #include <vector>
 
 namespace koebe {
@@ -13,6 +14,9 @@ namespace koebe {
 struct DilatationBounds {
     double lower = 1.0;  ///< no map has a smaller largest dilatation
     double upper = 1.0;  ///< the map's dilatation along q, in the mean
+    VectorXcd q;         ///< (F), of `lower`; empty for a conformal map
+
+    double dilatation() const { return std::sqrt(lower * upper); }
 };
 
 /// Let I(q) be the integral of |q| |1 + mu q / |q||^2 / (1 - |mu|^2), for q with the integral of |q| 1. For every such

@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "core/numbering.h"
 #include "fit/plane_beltrami.h"
+#include "fit/quasiconformal_map.h"
 #include "planar/planar_mesh.h"
 #include "shape/conformal_module.h"
 #include "shape/domain_alignment.h"
@@ -14,6 +15,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace koebe {
@@ -23,6 +25,7 @@ constexpr double outer_edges = 96.0;                          // of the unit cir
 constexpr double most_hole_edges = 72.0, least_edges = 12.0;  // of a hole
 constexpr double edges_of_holes = 1600.0;                     // of all holes together, about
 constexpr double edges_across_gap = 2.0;                      // between two rims
+constexpr double gradation = 0.1, fine_gradation = 0.07;      // of the mesh: growth of edges per distance from rims
 constexpr int samples = 720;                                  // of a rim, to measure gaps
 constexpr double alike = 1e-9;                                // relative: sums that differ by rounding
 
@@ -68,7 +71,7 @@ struct DomainMesh {
     std::vector<VertexLoop> loops;
 };
 
-DomainMesh mesh_of(const std::vector<Circle>& circles)
+DomainMesh mesh_of(const std::vector<Circle>& circles, double gradation)
 {
     DomainMesh mesh;
     std::vector<VectorXcd> polygons;
@@ -80,37 +83,77 @@ DomainMesh mesh_of(const std::vector<Circle>& circles)
         first += static_cast<Index>(loop.size());
         if (k > 0) std::reverse(loop.begin() + 1, loop.end());
     }
-    PlanarMesh planar = planar_mesh(polygons);
+    PlanarMesh planar = planar_mesh(polygons, {.gradation = gradation});
     mesh.triangles = std::move(planar.triangles);
     mesh.uv.resize(planar.points.size(), 2);
     mesh.uv << planar.points.real(), planar.points.imag();
     return mesh;
 }
 
+/// Bounds of maps whose |mu| is constant and whose direction is that of q, from the best q of the map before, until the
+/// bounds no longer come nearer to each other.
+/// @param from the mesh's circles @param bounds of a map of the mesh onto the goal
+/// @return the nearest bounds; nothing if no such map was one to one
+std::optional<DilatationBounds> sharpened(const DomainMesh& mesh, const std::vector<Circle>& from,
+                                          const std::vector<Circle>& goal, DilatationBounds bounds,
+                                          ExecutionContext& context)
+{
+    constexpr int most_rounds = 8;
+    constexpr double least_gain = 0.9;  // of the gap between the bounds, in logarithms
+    std::optional<DilatationBounds> best;
+    double least_gap = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < most_rounds && bounds.q.size() > 0; ++round) {
+        // mu = k conj(q) / |q|
+        const double k = (bounds.dilatation() - 1.0) / (bounds.dilatation() + 1.0);
+        const VectorXd size = bounds.q.cwiseAbs().cwiseMax(std::numeric_limits<double>::min());
+        VectorXcd mu = k * bounds.q.conjugate().cwiseQuotient(size.cast<Complex>());
+        const auto uv = quasiconformal_map(mesh.triangles, mesh.uv, mesh.loops, mu, goal, context);
+        if (!uv) break;
+        // The bounds of the map onto the goal, unless it turns a face over.
+        mu = plane_beltrami(mesh.uv, mesh.triangles, *uv);
+        if (!(mu.cwiseAbs().maxCoeff() < 1.0)) break;
+        bounds = dilatation_bounds(mesh.triangles, mesh.uv, from, mesh.loops, {}, mu);
+        const double last = least_gap, gap = std::log(bounds.upper / bounds.lower);
+        if (gap < last) {
+            best = bounds;
+            least_gap = gap;
+        }
+        if (!(gap < least_gain * last)) break;
+    }
+    return best;
+}
+
 /// Bends the first domain onto the second one. @throws SolverError no one-to-one map was found
 DilatationBounds bounds_one_way(const std::vector<Circle>& first, const std::vector<Circle>& second,
                                 ExecutionContext& context)
 {
-    std::vector<int> same = numbers_below<int>(first.size());
-    const DomainAlignment alignment = align_domains(second, first, same, context);
+    const DomainAlignment alignment = align_domains(second, first, numbers_below<int>(first.size()), context);
     std::vector<Circle> from{Circle{}};
     for (std::size_t k = 1; k < first.size(); ++k) from.push_back(alignment.map(first[k]));
-    const DomainMesh mesh = mesh_of(from);
-    const std::vector<Index> none;
-    const BendingInput input{mesh.triangles,
-                             mesh.loops,
-                             none,
-                             mesh.uv,
-                             mesh.uv,
-                             VectorXd::Ones(mesh.triangles.rows()),
-                             std::vector<TemplateRim>(from.size())};
-    const Extremal extremal{.powers = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0}, .free_rims = true};
-    const BendingResult bent = bend_between(input, from, second, extremal, context);
-    if (!bent.arrived)
-        throw SolverError("no one-to-one map of one circle domain to the other was found: faces turn over",
-                          ElementKind::loops, bent.blocked);
-    return dilatation_bounds(mesh.triangles, mesh.uv, from, mesh.loops, {},
-                             plane_beltrami(mesh.uv, mesh.triangles, bent.uv));
+    // A finer mesh and higher powers of |mu| only where the first map is too uneven.
+    DilatationBounds bounds{.lower = 1.0, .upper = std::numeric_limits<double>::infinity(), .q = {}};
+    for (const bool again : {false, true}) {
+        const DomainMesh mesh = mesh_of(from, again ? fine_gradation : gradation);
+        const std::vector<Index> none;
+        const BendingInput input{mesh.triangles,
+                                 mesh.loops,
+                                 none,
+                                 mesh.uv,
+                                 mesh.uv,
+                                 VectorXd::Ones(mesh.triangles.rows()),
+                                 std::vector<TemplateRim>(from.size())};
+        Extremal extremal{.powers = {2.0}, .free_rims = true};
+        if (again) extremal.powers = {2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 128.0};
+        const BendingResult bent = bend_between(input, from, second, extremal, context);
+        if (!bent.arrived)
+            throw SolverError("no one-to-one map of one circle domain to the other was found: faces turn over",
+                              ElementKind::loops, bent.blocked);
+        const DilatationBounds start = dilatation_bounds(mesh.triangles, mesh.uv, from, mesh.loops, {},
+                                                         plane_beltrami(mesh.uv, mesh.triangles, bent.uv));
+        if (auto sharp = sharpened(mesh, from, second, start, context)) return *std::move(sharp);
+        if (start.upper / start.lower < bounds.upper / bounds.lower) bounds = start;
+    }
+    return bounds;
 }
 
 /// Whether numbers come before others, if differences of rounding do not count.

@@ -18,7 +18,9 @@ double separation_bound(const std::vector<Circle>& a, const std::vector<Circle>&
 /// K of the extremal map, and a lower bound of it. Both depend on the circles alone, not on the mesh of a surface,
 /// whose few vertices at a rim may span another domain than the circles do. So the way back has the same numbers. A
 /// mesh of one domain, fine at the rims and in gaps, is bent onto the other (bend_between), and Reich's and Strebel's
-/// inequalities tell K (dilatation_bounds). The way is the one from the domain with the smaller sum of separations.
+/// inequalities give bounds of K and a quadratic differential q (dilatation_bounds). The map with mu = k conj(q) / |q|
+/// (quasiconformal_map) gives better ones, and a better q, and so on. The way is the one from the domain with the
+/// smaller sum of separations.
 /// @param a, b circle domains whose loops correspond by number, three or more @throws SolverError, Cancelled
 DilatationBounds domain_dilatation(const std::vector<Circle>& a, const std::vector<Circle>& b,
                                    ExecutionContext& context);

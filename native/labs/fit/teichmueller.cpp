@@ -272,8 +272,10 @@ TeichmuellerMap extremal_map(const OrderedDomain& domain, const std::vector<Circ
         } else if (!same_circles(start.circles, goal)) {
             bounds = domain_dilatation(domain.circles, goal, context);
         }
+        // This map is an upper bound too. It counts only where it is clearly better: its mesh is not the circles'.
+        if (bounds.upper > 1.1 * result.largest) bounds.upper = std::max(result.largest, bounds.lower);
         result.lower = bounds.lower;
-        result.dilatation = std::sqrt(bounds.lower * bounds.upper);
+        result.dilatation = bounds.dilatation();
     }
     result.largest = std::max(result.largest, result.dilatation);
     result.uv = uv.topRows(domain.surface.uv.rows());
@@ -313,9 +315,9 @@ TeichmuellerMap least_map(const OrderedDomain& domain, const std::vector<Circle>
         if (!found) refused.push_back(inverse);
     };
     const auto may_beat = [&](double dilatation, const std::vector<int>& inverse) {
-        DilatationBounds bounds{.lower = 0.0, .upper = 0.0};
+        DilatationBounds bounds{.lower = 0.0, .upper = 0.0, .q = {}};
         succeeds([&] { bounds = domain_dilatation(domain.circles, in_order_of(inverse, b), inner); });
-        return std::sqrt(bounds.lower * bounds.upper) < dilatation;
+        return bounds.dilatation() < dilatation;
     };
     const std::vector<int> first = inverse_match(domain, b, {}, {}, context);
     attempt(first);

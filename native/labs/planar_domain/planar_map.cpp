@@ -71,6 +71,18 @@ void estimate_errors(PlanarResult& result, const std::vector<Circle>& coarser)
     result.module_errors = result.module_errors.cwiseMax((result.module - conformal_module(coarser)).cwiseAbs());
 }
 
+/// What distances from circles become at most where an automorphism moves the circles: times its largest derivative.
+std::vector<double> moved_residuals(std::vector<double> residuals, const std::vector<Circle>& circles,
+                                    const Moebius& map)
+{
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+        const double nearest =
+            std::abs(1.0 - std::conj(map.a) * circles[k].center) - std::abs(map.a) * circles[k].radius;
+        residuals[k] *= (1.0 - std::norm(map.a)) / (nearest * nearest);
+    }
+    return residuals;
+}
+
 void require_slits(const PlanarOptions& options, std::size_t rims)
 {
     if (options.slits == SlitKind::none) return;
@@ -105,11 +117,11 @@ void add_slits(PlanarResult& result, PlanarMap coarser_map, const PlanarOptions&
     result.converged = result.converged && !coarser.empty() && result.slit_error <= options.tolerance;
 }
 
-/// Whether a place lies in the circle domain, up to rounding. @param circles the unit circle, then the holes
-bool lies_inside(Complex z, const std::vector<Circle>& circles)
+/// Whether a place lies in the circle domain, up to a distance. @param circles the unit circle, then the holes
+bool lies_inside(Complex z, const std::vector<Circle>& circles, double off)
 {
-    return std::abs(z) <= 1.0 + off_domain && std::all_of(circles.begin() + 1, circles.end(), [&](const Circle& hole) {
-               return std::abs(z - hole.center) >= hole.radius - off_domain;
+    return std::abs(z) <= 1.0 + off && std::all_of(circles.begin() + 1, circles.end(), [&](const Circle& hole) {
+               return std::abs(z - hole.center) >= hole.radius - off;
            });
 }
 
@@ -154,10 +166,11 @@ void PlanarMap::add_slits(const PlanarOptions& options)
     slit_map_->move(-slit_images(around).mean());
 }
 
-void PlanarMap::normalize(const Moebius& last, std::vector<Circle> circles)
+void PlanarMap::normalize(const Moebius& last, std::vector<Circle> circles, double residual)
 {
     last_ = last;
     circles_ = std::move(circles);
+    off_ = std::max(off_domain, 2.0 * residual);
 }
 
 Complex PlanarMap::image(Complex place) const
@@ -199,7 +212,7 @@ VectorXcd PlanarMap::operator()(const VectorXcd& places) const
     std::vector<Index> off;
     for (Eigen::Index i = 0; i < places.size(); ++i) {
         images[i] = image(places[i]);
-        bool inside = lies_inside(images[i], circles_);
+        bool inside = lies_inside(images[i], circles_, off_);
         // The formulas go on beyond the rims: a place that is clearly off the domain is refused by the rims themselves.
         for (std::size_t k = 0; k < rims_.size() && inside; ++k) {
             const bool wrong = (rims_[k].winding(places[i]) != 0) != (k == 0);
@@ -222,7 +235,7 @@ VectorXcd PlanarMap::inverse(const VectorXcd& images) const
     VectorXcd places(images.size());
     std::vector<Index> off, lost;
     for (Eigen::Index i = 0; i < images.size(); ++i) {
-        if (!lies_inside(images[i], circles_)) {
+        if (!lies_inside(images[i], circles_, off_)) {
             off.push_back(static_cast<Index>(i));
             continue;
         }
@@ -270,13 +283,13 @@ PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions&
         result.order = domain.order;
         result.circles = normalized_circles(found);
         result.module = conformal_module(result.circles);
-        result.residuals = residuals;
+        result.residuals = moved_residuals(residuals, found, normalizing_map(found));
         result.sweeps = iteration.sweeps + 1;
         result.unknowns = iteration.unknowns;
         estimate_errors(result, coarser);
         result.converged = !coarser.empty() && result.error <= options.tolerance;
         result.map = PlanarMap(middle, size, domain.polygons, std::move(iteration.maps), iteration.outer());
-        result.map.normalize(normalizing_map(found), result.circles);
+        result.map.normalize(normalizing_map(found), result.circles, *std::ranges::max_element(result.residuals));
         // An error without a coarser resolution is a residual alone; and rounding may make finer ones worse.
         const bool is_better = !was_compared || result.converged || (!coarser.empty() && result.error < best.error);
         was_compared = was_compared || !coarser.empty();

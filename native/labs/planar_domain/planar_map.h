@@ -39,7 +39,8 @@ public:
     /// @throws InputError as above; the map was made without slits
     KOEBE_API VectorXcd slit_images(const VectorXcd& places) const;
 
-    void normalize(const Moebius& last, std::vector<Circle> circles);
+    /// @param residual greatest distance of a rim's image from its circle
+    void normalize(const Moebius& last, std::vector<Circle> circles, double residual);
     /// @throws InputError as planar_map, for slits
     void add_slits(const PlanarOptions& options);
     const std::vector<Circle>& circles() const { return circles_; }
@@ -57,6 +58,7 @@ private:
     Circle outer_;                  // the outer rim after all of them
     Moebius last_;
     std::vector<Circle> circles_;
+    double off_ = 0.0;  // disk units: images so far off the circle domain are refused
     std::optional<SlitMap> slit_map_;
 };
 
