@@ -1,5 +1,6 @@
 #include "linear/sparse_cholesky.h"
 
+#include "core/numbering.h"
 #include "execution/memory_limit.h"
 #include "execution/profile.h"
 #include "execution/thread_share.h"
@@ -39,20 +40,7 @@ public:
         dpotri_("L", &width, z.data(), &height, &info);  // L_JJ^-T L_JJ^-1
         if (below == 0) return;
 
-        MatrixXd corner(below, below);  // Z_RR, lower triangle
-        std::vector<Index> place(below);
-        for (int c = 0; c < below;) {
-            // Rows of R that are columns of one supernode stand side by side.
-            const Index owner = l_.supernode[rows[c]];
-            int end = c;
-            while (end < below && l_.supernode[rows[end]] == owner) ++end;
-            locate(owner, rows, c, place);
-            for (int column = c; column < end; ++column) {
-                const double* from = &blocks_[owner](0, rows[column] - l_.first[owner]);
-                for (int r = column; r < below; ++r) corner(r, column) = from[place[r]];
-            }
-            c = end;
-        }
+        const MatrixXd corner = lower_at(rows, below);  // Z_RR
         const double one = 1.0, minus_one = -1.0, zero = 0.0;
         double* lower_part = z.data() + width;
         dsymm_("L", "L", &below, &width, &minus_one, corner.data(), &below, y.data(), &below, &zero, lower_part,
@@ -61,12 +49,24 @@ public:
                &height);
     }
 
-    /// The entry at two rows of L; row is not above column.
-    double entry(Index row, Index column) const
+    /// The block of some of L's rows, which ascend: its lower triangle.
+    MatrixXd lower_at(const Index* rows, int count) const
     {
-        const Index s = l_.supernode[column];
-        const Index* rows = l_.rows_of(s);
-        return blocks_[s](std::lower_bound(rows, rows + l_.height(s), row) - rows, column - l_.first[s]);
+        MatrixXd result(count, count);
+        std::vector<Index> place(count);
+        for (int c = 0; c < count;) {
+            // Rows that are columns of one supernode stand side by side.
+            const Index owner = l_.supernode[rows[c]];
+            int end = c;
+            while (end < count && l_.supernode[rows[end]] == owner) ++end;
+            locate(owner, rows, c, place);
+            for (int column = c; column < end; ++column) {
+                const double* from = &blocks_[owner](0, rows[column] - l_.first[owner]);
+                for (int r = column; r < count; ++r) result(r, column) = from[place[r]];
+            }
+            c = end;
+        }
+        return result;
     }
 
 private:
@@ -115,13 +115,15 @@ std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vec
     std::vector<MatrixXd> result(sets.size());
     each_beside(sets.size(), [&](std::size_t k) {
         const std::vector<Index>& set = sets[k];
+        std::vector<Index> order = numbers_below(static_cast<Index>(set.size())), rows;
+        std::ranges::sort(order, {}, [&](Index i) { return l.rank[set[i]]; });
+        for (const Index i : order) rows.push_back(l.rank[set[i]]);
+        const MatrixXd lower = inverse.lower_at(rows.data(), static_cast<int>(rows.size()));
         MatrixXd& block = result[k];
-        block.resize(static_cast<Eigen::Index>(set.size()), static_cast<Eigen::Index>(set.size()));
-        for (std::size_t i = 0; i < set.size(); ++i)
-            for (std::size_t j = 0; j <= i; ++j) {
-                const Index p = l.rank[set[i]], q = l.rank[set[j]];
-                block(i, j) = block(j, i) = inverse.entry(std::max(p, q), std::min(p, q));
-            }
+        block.resize(lower.rows(), lower.cols());
+        for (Eigen::Index c = 0; c < lower.cols(); ++c)
+            for (Eigen::Index r = c; r < lower.rows(); ++r)
+                block(order[r], order[c]) = block(order[c], order[r]) = lower(r, c);
     });
     return result;
 }

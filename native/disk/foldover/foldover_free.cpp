@@ -20,7 +20,7 @@ constexpr double least_epsilon = 1e-6;  // Garanzha et al. 2021, section 3.2
 constexpr double armijo = 1e-4;
 constexpr double rounded = 1e-14;  // relative rounding error of a sum whose least value is known
 constexpr int halvings = 24;
-constexpr int patience = 30;  // iterations without a better worst determinant, while the map is folded
+constexpr int most_folded = 30;  // steps in which a map may stay folded
 
 class FoldoverMinimizer {
 public:
@@ -38,17 +38,14 @@ public:
         FoldoverResult result;
         Worth now = worth(problem_);
         if (system_.unknowns() == 0) return {now.worst > 0.0, 0};
-        double best_worst = -std::numeric_limits<double>::infinity();
-        int waited = 0;
+        int folded = 0;
         for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
             context.checkpoint();
             energy_.epsilon = std::sqrt(least_epsilon * least_epsilon + 0.04 * std::pow(std::min(now.worst, 0.0), 2));
-            if (now.worst > best_worst + 1e-3 * std::abs(best_worst) || now.worst > 0.0) {
-                best_worst = now.worst;
-                waited = 0;
-            } else if (++waited > patience) {
+            if (now.worst > 0.0)
+                folded = 0;
+            else if (++folded > most_folded)
                 break;
-            }
             ++result.iterations;
             const double before = take_derivatives();
             const bool was_right = now.worst > 0.0;
@@ -76,11 +73,14 @@ private:
 
     double weight(Eigen::Index f) const { return problem_.weight.size() > 0 ? problem_.weight[f] : 1.0; }
 
-    /// @param upright_only stops at a face that is not upright, whose worth is of no use
-    Worth worth(const FoldoverPlaces& places, bool upright_only = false) const
+    /// Terms and pulls are not negative. @param upright_only stops at a face that is not upright, and the sum
+    /// @param most stops where the sum exceeds this: a worth that is not finished is of no use
+    Worth worth(const FoldoverPlaces& places, bool upright_only = false,
+                double most = std::numeric_limits<double>::infinity()) const
     {
         Worth result;
-        for (Eigen::Index f = 0; f < problem_.triangles.rows() && !(upright_only && result.worst <= 0.0); ++f) {
+        for (Eigen::Index f = 0; f < problem_.triangles.rows(); ++f) {
+            if (result.energy > most || (upright_only && result.worst <= 0.0)) break;
             const FaceMap map = face_map(places, f);
             result.energy += weight(f) * energy_(map, problem_.floor[f]);
             result.worst = std::min(result.worst, map.determinant() - problem_.floor[f]);
@@ -147,9 +147,10 @@ private:
         hindered_ = false;
         for (int i = 0; i < halvings; ++i, share *= 0.5) {
             FoldoverPlaces trial = system_.moved(step, share);
-            const Worth there = worth(trial, options_.strict);
+            const double most = before + armijo * share * slope + (options_.least > 0.0 ? rounded * before : 0.0);
+            const Worth there = worth(trial, options_.strict, most);
             if (options_.strict && !(there.worst > 0.0)) continue;
-            if (there.energy <= before + armijo * share * slope + (options_.least > 0.0 ? rounded * before : 0.0)) {
+            if (there.energy <= most) {
                 if (options_.refuses && options_.refuses(trial)) {
                     hindered_ = true;
                     continue;

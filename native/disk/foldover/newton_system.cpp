@@ -1,5 +1,7 @@
 #include "foldover/newton_system.h"
 
+#include "core/complex_places.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -51,6 +53,7 @@ NewtonSystem::NewtonSystem(const FoldoverProblem& problem, NewtonPattern* kept)
         unknowns_ += j == 0 ? 1 : 2;
     }
     if (unknowns_ > 0) tangents_.resize(first_unknown_.size());
+    angle_.resize(tangents_.size());
     if (kept_) pattern_ = std::exchange(*kept_, {});
     const bool fits = pattern_.hessian.rows() == unknowns_ &&
                       pattern_.places.size() == static_cast<std::size_t>(problem.triangles.rows()) &&
@@ -252,9 +255,11 @@ void NewtonSystem::clear()
 {
     gradient_ = VectorXd::Zero(unknowns_);
     std::fill_n(pattern_.hessian.valuePtr(), pattern_.hessian.nonZeros(), 0.0);
-    for (std::size_t v = 0; v < tangents_.size(); ++v)
-        if (problem_.mobility[v] == Mobility::sliding || problem_.mobility[v] == Mobility::riding)
-            tangents_[v] = tangent_now(static_cast<Index>(v));
+    for (Index v = 0; v < static_cast<Index>(tangents_.size()); ++v) {
+        const bool slides = problem_.mobility[v] == Mobility::sliding;
+        if (slides || rides(v)) tangents_[v] = tangent_now(v);
+        if (slides) angle_[v] = std::arg(complex_at(problem_.points, v) - problem_.circles[v].center);
+    }
     outward_force_.assign(problem_.bends ? first_unknown_.size() : problem_.track_of.size(), 0.0);
 }
 
@@ -323,14 +328,14 @@ FoldoverPlaces NewtonSystem::moved(const VectorXd& step, double share) const
             result.points.row(v) += share * step.segment<2>(first).transpose();
             continue;
         }
-        const Complex place(result.points(v, 0), result.points(v, 1));
         Complex image;
         if (rides(v)) {
-            image = track_of(v).carried(place, share * step[first], result.tracks[problem_.track_of[v]]);
+            image = track_of(v).carried(complex_at(result.points, v), share * step[first],
+                                        result.tracks[problem_.track_of[v]]);
         } else {
             const Circle& circle = problem_.circles[v];
             const double turn = share * step[first] / circle.radius;
-            image = circle.center + std::polar(circle.radius, std::arg(place - circle.center) + turn);
+            image = circle.center + std::polar(circle.radius, angle_[v] + turn);
         }
         result.points.row(v) << image.real(), image.imag();
     }

@@ -82,6 +82,7 @@ private:
     NewtonPattern* kept_;
     VectorXd gradient_;
     std::vector<Eigen::Vector2d> tangents_;  // (V) of sliding and riding vertices, at the present places
+    std::vector<double> angle_;              // (V) of sliding vertices round their circles, at the present places
     std::vector<double>
         outward_force_;  // (V) of riding, or bending sliding, vertices: minus the gradient, along the radius
 };

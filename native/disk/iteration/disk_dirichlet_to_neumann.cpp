@@ -37,6 +37,14 @@ std::array<double, series_length> series_coefficients()
 /// x^2/2 ln|x| - 3/4 x^2, whose second derivative is ln|x|.
 double second_antiderivative_of_log(double x) { return x == 0.0 ? 0.0 : x * x * (0.5 * std::log(std::abs(x)) - 0.75); }
 
+/// The remainder by 2 pi nearest to 0. Exact: std::remainder, which takes as long as a logarithm, is for far angles.
+double wrapped_angle(double t)
+{
+    if (std::abs(t) <= pi) return t;
+    if (std::abs(t) < 2.5 * pi) return t - std::copysign(2.0 * pi, t);
+    return std::remainder(t, 2.0 * pi);
+}
+
 struct Arc {
     double middle, width;
 };
@@ -121,7 +129,7 @@ public:
         const double chord_squared = dx * dx + dy * dy;
         const double first = arcs_[e].width, second = arcs_[f].width, widest = std::max(first, second);
         if (chord_squared > far * widest * far * widest) return far_mean(chord_squared, first, second);
-        const double t = std::remainder(arcs_[e].middle - arcs_[f].middle, 2.0 * pi);
+        const double t = wrapped_angle(arcs_[e].middle - arcs_[f].middle);
         if (std::abs(t) + widest <= nearest) return near_mean(t, first, second);
         const Eigen::Index e1 = e + 1 < count_ ? e + 1 : 0, f1 = f + 1 < count_ ? f + 1 : 0;
         return mean_of_second_differences(at_ends_(e1, f), at_ends_(e, f), at_ends_(e1, f1), at_ends_(e, f1), first,
@@ -213,7 +221,7 @@ double segment(double arc) { return std::min(arc, widest) / 6.0; }
 double clausen_cosine_3(double t)
 {
     static const std::array<double, series_length> coefficient = series_coefficients();
-    if (std::abs(t) > pi) t = std::remainder(t, 2.0 * pi);
+    t = wrapped_angle(t);
     const double t2 = t * t;
     double tail = 0.0;
     for (int j = series_length - 1; j >= 0; --j) tail = (tail + coefficient[j]) * t2;

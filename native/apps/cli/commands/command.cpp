@@ -67,6 +67,16 @@ void share_arena()
 #endif
 }
 
+/// Keeps freed memory for the next matrices: each new page costs about as much as 500 operations.
+void keep_freed_memory()
+{
+#if defined(__GLIBC__)
+    constexpr int largest_block = 32 << 20, most_kept = 128 << 20;
+    ::mallopt(M_MMAP_THRESHOLD, largest_block);
+    ::mallopt(M_TRIM_THRESHOLD, most_kept);
+#endif
+}
+
 /// Whether memory ran out at any time. Then other errors, such as a number that could not be read, come from that.
 bool memory_ran_out() noexcept { return ran_out; }
 
@@ -77,6 +87,7 @@ void prepare_for_scarce_memory()
     std::set_new_handler(note_and_throw);  // from here on exceptions are caught
     std::set_terminate(end_of_exceptions);
     share_arena();
+    keep_freed_memory();
 }
 
 int fail(const std::string& line, int code)
