@@ -225,6 +225,23 @@ def _seam_attribute() -> str | None:
         bpy.data.meshes.remove(probe)
 
 
+def _look() -> None:
+    """Ask Blender what it draws everything anew for: once, and not in a run, where Esc would wait for the drawing."""
+    _seam_attribute()
+
+
+def register() -> None:
+    """Look as soon as there is a file, unless the add-on runs in the background."""
+    if not bpy.app.background:
+        bpy.app.timers.register(_look, first_interval=0.0, persistent=True)
+
+
+def unregister() -> None:
+    """The reverse of `register`."""
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
+
+
 def vertex_positions(mesh: bpy.types.Mesh) -> np.ndarray:
     """Positions (V, 3) of the vertices, in 32 bits. The mesh must not be in Edit Mode."""
     if "position" in mesh.attributes:  # from 3.5 on, and much faster there
