@@ -82,11 +82,11 @@ def _custom(owner):
 
 
 def group(properties):
-    """A property group as plain values, but for the time that something took."""
+    """A property group as plain values, but for the time that something took, and what a session knows objects by."""
     result = {}
     for prop in properties.bl_rna.properties:
         name = prop.identifier
-        if name in ("rna_type", "seconds"):
+        if name in ("rna_type", "seconds", "object_key", "mesh_key"):
             continue
         value = getattr(properties, name)
         if prop.type == "COLLECTION":
