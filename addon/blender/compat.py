@@ -138,6 +138,11 @@ def pins(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer) -> np.ndarray:
     return np.zeros(len(mesh.loops), dtype=bool) if found is None else read(found.data, "value", bool)
 
 
+def reads_pins_at_once(mesh: bpy.types.Mesh) -> bool:
+    """Whether `pins` takes some milliseconds. Before 3.5 pins are read one by one."""
+    return "uv" in bpy.types.MeshUVLoopLayer.bl_rna.properties or len(mesh.loops) < 100_000
+
+
 def slow_mode_change() -> bool:
     """Whether leaving and entering Edit Mode takes longer than writing a mesh's corners one by one."""
     return "uv" not in bpy.types.MeshUVLoopLayer.bl_rna.properties  # from 3.5 on it takes half the time
