@@ -7,7 +7,7 @@ import bpy
 
 from ..blender import checker, distortion_attribute, rendered_layer
 from ..blender.mesh_reading import shows_pins
-from ..blender.targets import target_objects
+from ..blender.targets import makes_faces, target_objects
 from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.even_slider import UV_OT_koebe_even
@@ -55,6 +55,7 @@ class MainPanel(KoebePanel):
         split.prop(settings, "shape", text="")
         draw_dials(layout.column(align=True), settings)
         draw_pins(layout.column(align=True), context, settings)
+        draw_modifiers(layout.column(align=True), context)
         draw_judges(layout.column(), context, settings)
 
 
@@ -68,6 +69,12 @@ def draw_dials(column: bpy.types.UILayout, settings: KoebeSettings) -> None:
         row.active = is_used(settings, "even")
         row.prop(settings, "even", slider=True)
         column.operator(UV_OT_koebe_even.bl_idname, text="Drag Even", icon="ARROW_LEFTRIGHT")
+
+
+def draw_modifiers(column: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """What of an object with modifiers is unwrapped."""
+    if any(map(makes_faces, target_objects(context))):
+        draw_message(column, "The mesh before its modifiers is unwrapped: apply them to unwrap what they make")
 
 
 def draw_pins(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:

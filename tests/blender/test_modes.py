@@ -232,3 +232,16 @@ def test_each_edited_mesh_keeps_its_own_select_mode_and_flags():
     assert fingerprint.differences(before, fingerprint.fingerprint()) == []
     assert bpy.ops.uv.koebe_distortion(layer="Old", kind="none") == {"FINISHED"}
     assert fingerprint.differences(before, fingerprint.fingerprint()) == []
+
+
+def test_modifiers_that_make_faces_are_told(addon):
+    makes_faces, obj = addon("blender.targets").makes_faces, scenes.add_panel()
+    obj.modifiers.new("Smooth", "SUBSURF")
+    assert not makes_faces(obj)
+    nodes = obj.modifiers.new("Nodes", "NODES")
+    nodes.node_group = bpy.data.node_groups.new("Koebe UV by Attribute", "GeometryNodeTree")
+    assert not makes_faces(obj)
+    nodes.node_group.name = "Rocks"
+    assert makes_faces(obj)
+    nodes.show_viewport = False
+    assert not makes_faces(obj)
