@@ -181,8 +181,9 @@ def _arrays(mesh):
             values[key] = [item.value for item in one.data]
         else:
             array = _read(one.data, *VALUES[one.data_type])
-            if one.name.startswith(".") and not array.any():
-                continue  # Blender's own flags: none is as good as all off
+            own = one.name.startswith(".") or (one.name, one.data_type) == ("uv_seam", "BOOLEAN")
+            if own and not array.any():
+                continue  # Blender's own flags: none is as good as all off, and Edit Mode takes such away
             values[key] = array
     return values
 
