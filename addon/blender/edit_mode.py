@@ -117,8 +117,18 @@ def _restore(layer: Any, selected: list[str], edited: dict[str, Selection | None
             _select_objects(layer, [*edited])
             layer.objects.active = layer.objects[active] if active in edited else objects[0]
             bpy.ops.object.mode_set(mode="EDIT")
+        # Blender gives all meshes the scene's select mode, and flags that suit it.
+        settings = bpy.context.tool_settings
+        mode = tuple(settings.mesh_select_mode)
+        own_modes = [(obj, own.mode_flags) for obj, own in zip(objects, edited.values(), strict=True) if own]
+        for obj, own_mode in own_modes:
+            if own_mode != mode:
+                layer.objects.active = obj  # whose mode the setting changes
+                settings.mesh_select_mode = own_mode
+        layer.objects.active = layer.objects.get(active) if active else None
+        settings.mesh_select_mode = mode
         for obj, own in zip(objects, edited.values(), strict=True):
-            if own is not None:  # Blender gives all meshes the scene's select mode, and flags that suit it
+            if own is not None:
                 own.restore(obj)
     _select_objects(layer, selected)
     layer.objects.active = layer.objects.get(active) if active else None

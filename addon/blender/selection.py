@@ -46,6 +46,11 @@ class Selection:
         active = mesh.faces.active
         return cls(set(mesh.select_mode), flags, history, None if active is None else active.index)
 
+    @property
+    def mode_flags(self) -> tuple[bool, ...]:
+        """The mode as the scene's setting has it."""
+        return tuple(kind in self.mode for kind in ("VERT", "EDGE", "FACE"))
+
     def restore(self, obj: MeshObject) -> None:
         """Select these elements alone again, in the same mode."""
         mesh = bmesh.from_edit_mesh(obj.data)
