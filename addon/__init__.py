@@ -17,6 +17,7 @@ bl_info = {
 
 def _parts() -> tuple[ModuleType, ...]:
     """The modules that register something. Imported late, as the rest of the package needs no bpy."""
+    from .blender import compat
     from .operators import (
         arrange,
         bake_texture,
@@ -72,7 +73,7 @@ def _parts() -> tuple[ModuleType, ...]:
     )
 
     return (
-        option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
+        compat, option_properties, lift_properties, run_report, saved_report, moved_circles, shape_report,
         density_report, trims,
         unwrap, uniformize, parts, domains, sequence, redo, checker, select_from_report, distortion, fill_holes,
         compare_shapes, carry_texture, option_presets, moebius, symmetrize, pack, sew, live, relax_brush, flat_copy,

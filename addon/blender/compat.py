@@ -138,6 +138,11 @@ def pins(mesh: bpy.types.Mesh, layer: bpy.types.MeshUVLoopLayer) -> np.ndarray:
     return np.zeros(len(mesh.loops), dtype=bool) if found is None else read(found.data, "value", bool)
 
 
+def reads_pins_at_once(mesh: bpy.types.Mesh) -> bool:
+    """Whether `pins` takes some milliseconds. Before 3.5 pins are read one by one."""
+    return "uv" in bpy.types.MeshUVLoopLayer.bl_rna.properties or len(mesh.loops) < 100_000
+
+
 def slow_mode_change() -> bool:
     """Whether leaving and entering Edit Mode takes longer than writing a mesh's corners one by one."""
     return "uv" not in bpy.types.MeshUVLoopLayer.bl_rna.properties  # from 3.5 on it takes half the time
@@ -223,6 +228,23 @@ def _seam_attribute() -> str | None:
         return next((name for name in ("uv_seam", ".uv_seam") if name in probe.attributes), None)
     finally:
         bpy.data.meshes.remove(probe)
+
+
+def _look() -> None:
+    """Ask Blender what it draws everything anew for: once, and not in a run, where Esc would wait for the drawing."""
+    _seam_attribute()
+
+
+def register() -> None:
+    """Look as soon as there is a file, unless the add-on runs in the background."""
+    if not bpy.app.background:
+        bpy.app.timers.register(_look, first_interval=0.0, persistent=True)
+
+
+def unregister() -> None:
+    """The reverse of `register`."""
+    if bpy.app.timers.is_registered(_look):
+        bpy.app.timers.unregister(_look)
 
 
 def vertex_positions(mesh: bpy.types.Mesh) -> np.ndarray:

@@ -11,6 +11,7 @@ import bpy
 from . import compat
 from .errors import TransferError
 from .mesh_object import MeshObject
+from .selection import Selection
 from .targets import check_mesh
 from .transaction import Transaction
 
@@ -96,23 +97,39 @@ def can_leave(context: bpy.types.Context) -> bool:
     )
 
 
-def _state(layer: Any) -> tuple[list[str], list[str], str | None]:
-    """Names of the objects that are selected, of those in Edit Mode, and of the active one."""
+def _state(layer: Any) -> tuple[list[str], dict[str, Selection | None], str | None]:
+    """Names of the objects that are selected, of those in Edit Mode with their selection, and of the active one."""
     selected = [obj.name for obj in layer.objects if obj.select_get(view_layer=layer)]
-    edited = [obj.name for obj in layer.objects if obj.mode == "EDIT"]
+    edited = {
+        obj.name: Selection.of(obj) if obj.type == "MESH" else None for obj in layer.objects if obj.mode == "EDIT"
+    }
     return selected, edited, layer.objects.active and layer.objects.active.name
 
 
-def _restore(layer: Any, selected: list[str], edited: list[str], active: str | None) -> None:
+def _restore(layer: Any, selected: list[str], edited: dict[str, Selection | None], active: str | None) -> None:
     now = [obj for obj in layer.objects if obj.mode == "EDIT"]
     if now:
         layer.objects.active = now[0]
         bpy.ops.object.mode_set(mode="OBJECT")
     if edited:
-        with _in_sight([layer.objects[name] for name in edited]):
-            _select_objects(layer, edited)
-            layer.objects.active = layer.objects[active if active in edited else edited[0]]
+        objects = [layer.objects[name] for name in edited]
+        with _in_sight(objects):
+            _select_objects(layer, [*edited])
+            layer.objects.active = layer.objects[active] if active in edited else objects[0]
             bpy.ops.object.mode_set(mode="EDIT")
+        # Blender gives all meshes the scene's select mode, and flags that suit it.
+        settings = bpy.context.tool_settings
+        mode = tuple(settings.mesh_select_mode)
+        own_modes = [(obj, own.mode_flags) for obj, own in zip(objects, edited.values(), strict=True) if own]
+        for obj, own_mode in own_modes:
+            if own_mode != mode:
+                layer.objects.active = obj  # whose mode the setting changes
+                settings.mesh_select_mode = own_mode
+        layer.objects.active = layer.objects.get(active) if active else None
+        settings.mesh_select_mode = mode
+        for obj, own in zip(objects, edited.values(), strict=True):
+            if own is not None:
+                own.restore(obj)
     _select_objects(layer, selected)
     layer.objects.active = layer.objects.get(active) if active else None
 

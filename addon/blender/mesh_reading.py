@@ -159,6 +159,14 @@ def pinned_corners(obj: MeshObject, layer_name: str) -> np.ndarray:
         return compat.pins(mesh, mesh.uv_layers[layer_name])
 
 
+def shows_pins(obj: MeshObject, layer_name: str) -> bool:
+    """Whether UVs are pinned in a layer, as far as a panel can see at once: in Object Mode."""
+    layer = obj.data.uv_layers.get(layer_name)
+    if layer is None or obj.mode != "OBJECT" or obj.data.is_editmode or not compat.reads_pins_at_once(obj.data):
+        return False
+    return bool(compat.pins(obj.data, layer).any())
+
+
 def selected_edge_corners(obj: MeshObject, layer_name: str, by_uv: bool, corner_edge: np.ndarray) -> np.ndarray:
     """Which corners (C,) are at the start of selected edges, as in `read_surface`.
 

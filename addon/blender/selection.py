@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Selects elements of meshes in Edit Mode, or objects, and notes the selection before."""
 
+import dataclasses
+import itertools
+import operator
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -11,6 +14,60 @@ from ..maps.offending_elements import EDGES, FACES, VERTICES
 from .mesh_object import MeshObject, mesh_objects
 from .targets import with_own_meshes
 from .transaction import Transaction
+
+
+@dataclasses.dataclass
+class Selection:
+    """What is selected in a mesh in Edit Mode.
+
+    mode     its select mode, which the scene's may differ from
+    flags    whether each vertex, edge and face is selected
+    history  the last selected elements in order, by kind and number
+    active   the number of the active face, or None
+    """
+
+    mode: set[str]
+    flags: list[list[bool]]
+    history: list[tuple[str, int]]
+    active: int | None
+
+    @classmethod
+    def of(cls, obj: MeshObject) -> "Selection":
+        """The selection now."""
+        mesh = bmesh.from_edit_mesh(obj.data)
+        by_kind = _by_kind(mesh)
+        for elements in by_kind.values():
+            elements.index_update()
+        flags = [list(map(operator.attrgetter("select"), elements)) for elements in by_kind.values()]
+        order: Any = mesh.select_history  # by number, as Python 3.13 does not iterate over it
+        last = [order[i] for i in range(len(order))]
+        history = [(VERTICES if isinstance(one, bmesh.types.BMVert) else EDGES if isinstance(one, bmesh.types.BMEdge)
+                    else FACES, one.index) for one in last]  # fmt: skip
+        active = mesh.faces.active
+        return cls(set(mesh.select_mode), flags, history, None if active is None else active.index)
+
+    @property
+    def mode_flags(self) -> tuple[bool, ...]:
+        """The mode as the scene's setting has it."""
+        return tuple(kind in self.mode for kind in ("VERT", "EDGE", "FACE"))
+
+    def restore(self, obj: MeshObject) -> None:
+        """Select these elements alone again, in the same mode."""
+        mesh = bmesh.from_edit_mesh(obj.data)
+        if mesh.select_mode != self.mode:
+            mesh.select_mode = self.mode
+        if Selection.of(obj) == self:
+            return
+        select_none(mesh)
+        by_kind = _by_kind(mesh)
+        for elements, chosen in zip(by_kind.values(), self.flags, strict=True):
+            elements.ensure_lookup_table()
+            for element in itertools.compress(elements, chosen):
+                element.select_set(True)
+        for kind, index in self.history:
+            mesh.select_history.add(by_kind[kind][index])
+        mesh.faces.active = None if self.active is None else mesh.faces[self.active]
+        bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
 def select_only(
@@ -58,39 +115,8 @@ def _edited(context: bpy.types.Context) -> list[MeshObject]:
 def note_selection(run: Transaction, context: bpy.types.Context, objects: list[MeshObject]) -> None:
     """Note the select mode, and the selection in the meshes of objects in Edit Mode."""
     for obj in objects:
-        run.before_write(_restore_selection, obj, *_selection(bmesh.from_edit_mesh(obj.data)))
+        run.before_write(Selection.of(obj).restore, obj)
     run.before_write(_restore_select_mode, context.tool_settings, tuple(context.tool_settings.mesh_select_mode))
-
-
-def _selection(mesh: bmesh.types.BMesh) -> tuple[list[list[bool]], list[tuple[str, int]], int | None]:
-    """Whether each vertex, edge and face is selected, and the last selected elements in order, by number."""
-    sequences = (mesh.verts, mesh.edges, mesh.faces)
-    for elements in sequences:
-        elements.index_update()
-    flags = [[element.select for element in elements] for elements in sequences]
-    order: Any = mesh.select_history  # by number, as Python 3.13 does not iterate over it
-    last = [order[i] for i in range(len(order))]
-    history = [(VERTICES if isinstance(one, bmesh.types.BMVert) else EDGES if isinstance(one, bmesh.types.BMEdge)
-                else FACES, one.index) for one in last]  # fmt: skip
-    active = mesh.faces.active
-    return flags, history, None if active is None else active.index
-
-
-def _restore_selection(
-    obj: MeshObject, flags: list[list[bool]], history: list[tuple[str, int]], active: int | None
-) -> None:
-    mesh = bmesh.from_edit_mesh(obj.data)
-    select_none(mesh)
-    by_kind = _by_kind(mesh)
-    for elements, chosen in zip(by_kind.values(), flags, strict=True):
-        elements.ensure_lookup_table()
-        for element, selected in zip(elements, chosen, strict=True):
-            if selected:
-                element.select_set(True)
-    for kind, index in history:
-        mesh.select_history.add(by_kind[kind][index])
-    mesh.faces.active = None if active is None else mesh.faces[active]
-    bmesh.update_edit_mesh(obj.data, loop_triangles=False, destructive=False)
 
 
 def _restore_select_mode(settings: bpy.types.ToolSettings, mode: tuple[bool, bool, bool]) -> None:

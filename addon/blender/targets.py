@@ -32,6 +32,16 @@ def with_own_meshes(objects: Iterable[MeshObject]) -> list[MeshObject]:
     return list(first.values())
 
 
+MAKE_FACES = ("BOOLEAN", "NODES", "REMESH", "SKIN", "WIREFRAME")  # modifiers whose faces are not those of the mesh
+
+
+def makes_faces(obj: MeshObject) -> bool:
+    """Whether modifiers show other faces than the mesh has. Those that play stored UVs do not."""
+    shown = [one for one in obj.modifiers if one.show_viewport and one.type in MAKE_FACES]
+    groups = [getattr(one, "node_group", None) for one in shown]
+    return any(group is None or not group.name.startswith("Koebe ") for group in groups)
+
+
 def check_readable(obj: MeshObject) -> None:
     """Raise TransferError if the object's mesh is not up to date."""
     mesh = obj.data

@@ -14,7 +14,7 @@ from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import transaction
 from ..maps.errors import MapError
-from ..maps.live import LiveState, follow, joined
+from ..maps.live import LiveState, follow, joined, parted
 from ..maps.outcomes import Progress, Task
 from ..maps.parts import PartsIsland, cut_into_parts, move_parts
 from ..maps.wording import explain
@@ -58,11 +58,7 @@ class LiveJob:
         pins = np.where(np.repeat(faces, surface.face_size)[:, None], state.pins, np.nan)
         has_pins = bool(np.isfinite(pins).any())
         self._task = Task(obj.name, surface, old_uv=before.uv, rest=state.uv, pins=pins if has_pins else None)
-        self._near: Task | None = None  # what follows of a large island
-        near = state.near(before, faces)
-        if near is not None:
-            surface = dataclasses.replace(surface, selected=near[0])
-            self._near = dataclasses.replace(self._task, surface=surface, pins=near[1])
+        self._near = state.near(before, faces)  # what follows of a large island
         self.even = even if choice.keep_angles else choice.even
         self._cleared = before.surface.seam & ~state.surface.seam
         self._made: tuple[np.ndarray, np.ndarray] | None = None
@@ -70,11 +66,13 @@ class LiveJob:
     def compute(self, progress: Progress | None = None) -> None:
         """Touches no Blender data. Raises TransferError, koebe.Cancelled."""
         if self.even is not None:
-            with contextlib.suppress(MapError):  # pins that are in the way there may not be in another map's
-                for task, start in self._starts(progress):
+            for task, start in self._starts(progress):
+                with contextlib.suppress(MapError):  # pins that are in the way there may not be in another map's
                     self._made = follow(self.koebe, task, start, self.even, self.cancel_token)
-                    if self._made is not None:
-                        return
+                if self._near is not None and task.surface is self._near.surface:
+                    self._made = self._beside_the_others(self._made)
+                if self._made is not None:
+                    return
         one = self._anew(self._task, self._choice, progress)
         self._made, self.even = (one.corners, one.uv), one.result.even
 
@@ -84,7 +82,8 @@ class LiveJob:
         assert self._task.old_uv is not None
         if not self._cleared.any():
             if self._near is not None:
-                yield self._near, self._task.old_uv
+                apart, held = parted(self._near)
+                yield Task(self._task.name, self._near.surface, pins=held), apart
             yield self._task, self._task.old_uv
             return
         start = joined(self._task.surface, self._cleared, self._task.old_uv)
@@ -96,6 +95,17 @@ class LiveJob:
             start = self._task.old_uv.copy()
             start[one.corners] = one.uv
             yield self._task, start
+
+    def _beside_the_others(self, made: tuple[np.ndarray, np.ndarray] | None) -> tuple[np.ndarray, np.ndarray] | None:
+        """What is near the change, by corners of the whole surface, or None if it lies over other faces."""
+        if made is None:
+            return None
+        assert self._near is not None and self._task.old_uv is not None
+        corners, uv = self._near.corners[made[0]], self._task.old_uv.copy()
+        uv[corners] = made[1]
+        if self._near.is_free and self._near.lies_over(self.koebe, self._task.surface, uv):
+            return None
+        return corners, made[1]
 
     def _anew(self, task: Task, choice: Any, progress: Progress | None) -> PartsIsland:
         """A map of its own. Raises TransferError."""

@@ -65,7 +65,7 @@ def pin_island(koebe: ModuleType, dial: Any, island: Island, pins: np.ndarray, e
     Raises as `join_pins`.
     """
     try:
-        made: np.ndarray = dial.pin(_pins_of(island, pins), even=even, cancel=cancel)
+        made: np.ndarray = dial.pin(pins_of(island, pins), even=even, cancel=cancel)
     except (koebe.SolverError, koebe.InputError) as error:
         if error.of != "vertices":
             raise
@@ -78,7 +78,7 @@ def _blocked(error: Any, island: Island) -> str:
     return f"{error}: unpin or move the UVs of {named_vertices(vertices.tolist())}"
 
 
-def _pins_of(island: Island, pins: np.ndarray) -> dict[int, tuple[float, float]]:
+def pins_of(island: Island, pins: np.ndarray) -> dict[int, tuple[float, float]]:
     """The place of each pinned vertex of the island. Raises MapError for a vertex with two places."""
     found: dict[int, tuple[float, float]] = {}
     pinned = np.flatnonzero(np.isfinite(pins[island.corners]).all(axis=1))

@@ -37,6 +37,19 @@ class Surface:
     triangle_corners: np.ndarray
     triangle_face: np.ndarray
 
+    def part(self, faces: np.ndarray) -> tuple["Surface", np.ndarray]:
+        """The surface of some faces (P,) bool alone, all selected, with all vertices and edges; and its corners."""
+        corners = np.flatnonzero(np.repeat(faces, self.face_size)).astype(np.int32)
+        number = np.zeros(len(self.corner_vertex), dtype=np.int32)
+        number[corners] = np.arange(len(corners), dtype=np.int32)
+        triangles = faces[self.triangle_face]
+        face = np.cumsum(faces, dtype=np.int32) - np.int32(1)
+        return Surface(
+            self.positions, self.corner_vertex[corners], self.corner_edge[corners], number[self.face_start[faces]],
+            self.face_size[faces], self.seam, np.ones(np.count_nonzero(faces), dtype=bool),
+            number[self.triangle_corners[triangles]], face[self.triangle_face[triangles]],
+        ), corners  # fmt: skip
+
 
 @dataclasses.dataclass(frozen=True)
 class Island:

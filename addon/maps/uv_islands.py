@@ -34,7 +34,8 @@ def uv_cuts(surface: Surface, uv: np.ndarray) -> np.ndarray:
 
 def _differ(uv: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """Which pairs of corners have different UVs. NaN differs from all."""
-    return ~(np.abs(uv[one] - uv[other]).max(axis=1, initial=0.0) <= SAME)
+    away = np.abs(uv[one] - uv[other])
+    return ~(np.maximum(away[:, 0], away[:, 1]) <= SAME)
 
 
 def vertex_uv(island: Island, uv: np.ndarray) -> np.ndarray:

@@ -20,7 +20,7 @@ from .modal_run import OperatorBase
 def active_object(context: bpy.types.Context) -> MeshObject | None:
     """The mesh object of the island whose elements are selected, or None if it no longer exists."""
     entries = selectable_entries(context)
-    obj = context.view_layer.objects.get(entries[0].object_name) if entries else None
+    obj = context.view_layer.objects.get(entries[0].owner_name) if entries else None
     return obj if obj is not None and obj.type == "MESH" else None
 
 

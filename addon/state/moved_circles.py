@@ -22,7 +22,7 @@ def entry_of(context: bpy.types.Context, name: str, layer: str, domain: CircleDo
     """The report's island with the same loops, or None."""
     keys = {domain.key(loop) for loop in domain.loops}
     for entry in report_of(context).islands:
-        if entry.mapped and entry.object_name == name and entry.layer == layer and set(loop_keys(entry)) == keys:
+        if entry.mapped and entry.owner_name == name and entry.layer == layer and set(loop_keys(entry)) == keys:
             return entry
     return None
 
@@ -118,7 +118,7 @@ def _recall(entry: KoebeIslandReport, known: dict[str, Any]) -> None:
 def refresh(context: bpy.types.Context) -> None:
     """Make the moved islands show the circles of their present UVs."""
     for entry in report_of(context).islands:
-        obj = bpy.data.objects.get((entry.object_name, None)) if entry.history else None
+        obj = entry.owner if entry.history else None
         if obj is None or obj.type != "MESH" or entry.layer not in obj.data.uv_layers:
             continue
         bring_up_to_date(obj)

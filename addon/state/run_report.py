@@ -50,7 +50,9 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     """An island of an object's last map."""
 
     run: IntProperty(description="Number of the run that made it: islands of one run may share the UV square")
-    object_name: StringProperty(description="Name of the object whose island this is")
+    object_name: StringProperty(description="Name of the object whose island this is, at that time")
+    object_key: StringProperty(description="By what the object is known in this session, whatever its name")
+    mesh_key: StringProperty(description="By what its mesh is known")
     mesh_size: IntVectorProperty(size=3, description="Vertices, faces and corners of its mesh then")
     shape: StringProperty(description="Of a sequence: the frame or the shape key, else empty")
     island: IntProperty(description="Number of the island among those of its object")
@@ -94,6 +96,33 @@ class KoebeIslandReport(bpy.types.PropertyGroup):
     warnings: CollectionProperty(type=KoebeWarningReport, description="What to watch out for, in an artist's words")
     loops: CollectionProperty(type=KoebeLoopReport, description="Boundary loops, the outer one first")
 
+    @property
+    def owner(self) -> Any:
+        """The object, also under another name; if it is gone, one with its mesh; else the object of that name, or
+        None."""
+        named = bpy.data.objects.get((self.object_name, None))
+        if not self.object_key or (named is not None and key_of(named) == self.object_key):
+            return named
+        users = [obj for obj in bpy.data.objects if self._is_of(obj)]
+        return next((obj for obj in users if key_of(obj) == self.object_key), users[0] if users else named)
+
+    def _is_of(self, obj: Any) -> bool:
+        """Whether an object has the mesh that was mapped, with that layer."""
+        mesh = obj.data
+        return isinstance(mesh, bpy.types.Mesh) and key_of(mesh) == self.mesh_key and (
+            not self.mapped or bool(self.shape) or self.layer in mesh.uv_layers
+        )
+
+    @property
+    def owner_name(self) -> str:
+        """Its name now."""
+        return getattr(self.owner, "name", self.object_name)
+
+
+def key_of(block: bpy.types.ID) -> str:
+    """What stays while a data-block has another name. Undo keeps it, too."""
+    return str(getattr(block, "session_uid", 0) or block.as_pointer())  # from 4.2 on it has a number
+
 
 class KoebeReport(bpy.types.PropertyGroup):
     """The last map of each object, the last run's first."""
@@ -126,8 +155,8 @@ def record(run: Transaction, context: bpy.types.Context, rows: Iterable[dict[str
     number = 1 + max((entry.run for entry in report.islands), default=0)
     names = {row["object_name"] for row in rows}
     for index in reversed(range(len(report.islands))):
-        name = report.islands[index].object_name
-        if name in names or bpy.data.objects.get((name, None)) is None:
+        entry = report.islands[index]
+        if entry.owner_name in names or entry.owner is None:
             report.islands.remove(index)
     for place, row in enumerate(rows):
         entry = report.islands.add()
@@ -136,16 +165,23 @@ def record(run: Transaction, context: bpy.types.Context, rows: Iterable[dict[str
                 _fill(getattr(entry, name).add(), item)
         _fill(entry, row)
         entry.run, entry.mesh_size = number, _mesh_size(entry)
+        entry.object_key, entry.mesh_key = (key_of(one) if one else "" for one in (entry.owner, mesh_of(entry)))
         if place < len(report.islands) - 1:
             report.islands.move(len(report.islands) - 1, place)
     report.active = -1
     report.active = max(active_index(context), 0)
 
 
+def mesh_of(entry: KoebeIslandReport) -> Any:
+    """The mesh of the entry's object, or None."""
+    mesh = getattr(entry.owner, "data", None)
+    return mesh if isinstance(mesh, bpy.types.Mesh) else None
+
+
 def _mesh_size(entry: KoebeIslandReport) -> tuple[int, ...]:
     """Vertices, faces and corners of the object's mesh now; zeros without one. In Edit Mode as of the last update."""
-    mesh: Any = getattr(bpy.data.objects.get((entry.object_name, None)), "data", None)
-    if not isinstance(mesh, bpy.types.Mesh):
+    mesh = mesh_of(entry)
+    if mesh is None:
         return 0, 0, 0
     return len(mesh.vertices), len(mesh.polygons), len(mesh.loops)
 
@@ -154,8 +190,8 @@ def outdated(entry: KoebeIslandReport) -> str:
     """Why an entry is not about what is there now, or empty."""
     if any(entry.mesh_size) and tuple(entry.mesh_size) != _mesh_size(entry):  # files of 1.0 have none
         return "The mesh has changed since then: unwrap it again"
-    obj: Any = bpy.data.objects.get((entry.object_name, None))
-    if entry.mapped and not entry.shape and obj is not None and entry.layer not in obj.data.uv_layers:
+    mesh = mesh_of(entry)
+    if entry.mapped and not entry.shape and mesh is not None and entry.layer not in mesh.uv_layers:
         return f"There is no UV layer {entry.layer!r} any more: it was undone, removed or renamed"
     return ""
 
@@ -174,7 +210,7 @@ def record_moved(
     """
     number = {v: i for i, v in enumerate(island.source_vertex.tolist())}
     for entry in report_of(context).islands:
-        if entry.object_name != name or entry.layer != layer or not entry.mapped:
+        if entry.owner_name != name or entry.layer != layer or not entry.mapped:
             continue
         entry.angle_error, entry.flipped = placed.angle_error, len(placed.flipped)
         _fill(entry, texel_figures(island, placed.uv))
@@ -190,7 +226,7 @@ def forget(run: Transaction, context: bpy.types.Context, name: str, layer: str) 
     report = report_of(context)
     note_group(run, report)
     for index in reversed(range(len(report.islands))):
-        if (report.islands[index].object_name, report.islands[index].layer) == (name, layer):
+        if (report.islands[index].owner_name, report.islands[index].layer) == (name, layer):
             report.islands.remove(index)
     report.active = min(report.active, max(len(report.islands) - 1, 0))
 
@@ -198,7 +234,7 @@ def forget(run: Transaction, context: bpy.types.Context, name: str, layer: str) 
 def even_of(context: bpy.types.Context, name: str, layer: str) -> float | None:
     """E with which the parts of an object's layer were made, if the report knows it."""
     entries = report_of(context).islands
-    return next((one.even for one in entries if (one.object_name, one.layer) == (name, layer) and one.parts), None)
+    return next((one.even for one in entries if (one.owner_name, one.layer) == (name, layer) and one.parts), None)
 
 
 def names_of_active(context: bpy.types.Context) -> set[str]:
@@ -213,7 +249,7 @@ def active_index(context: bpy.types.Context) -> int:
     """The number of the island whose details are shown: of the active object's islands the chosen one, else the first
     that could not be mapped, else the first; -1 without any."""
     report, names = report_of(context), names_of_active(context)
-    own = [index for index, entry in enumerate(report.islands) if entry.object_name in names]
+    own = [index for index, entry in enumerate(report.islands) if entry.owner_name in names]
     if report.active in own:
         return report.active
     return next((index for index in own if not report.islands[index].mapped), own[0] if own else -1)
@@ -228,7 +264,7 @@ def active_entry(context: bpy.types.Context) -> KoebeIslandReport | None:
 def entries_of_object(context: bpy.types.Context) -> list[KoebeIslandReport]:
     """All islands of the object whose details are shown."""
     names = names_of_active(context)
-    return [entry for entry in report_of(context).islands if entry.object_name in names]
+    return [entry for entry in report_of(context).islands if entry.owner_name in names]
 
 
 def selectable_entries(context: bpy.types.Context) -> list[KoebeIslandReport]:
@@ -239,14 +275,14 @@ def selectable_entries(context: bpy.types.Context) -> list[KoebeIslandReport]:
     first = active_entry(context) or (islands[report.active] if 0 <= report.active < len(islands) else None)
     if first is None:
         return []
-    return [first, *(entry for entry in islands if entry.object_name == first.object_name and entry != first)]
+    return [first, *(entry for entry in islands if entry.owner_name == first.owner_name and entry != first)]
 
 
 def failed_beside(context: bpy.types.Context) -> list[str]:
     """Names of the other objects of the last run that have an island without a map."""
     islands = report_of(context).islands
     last = max((entry.run for entry in islands), default=0)
-    failed = [entry.object_name for entry in islands if entry.run == last and not entry.mapped]
+    failed = [entry.owner_name for entry in islands if entry.run == last and not entry.mapped]
     own = names_of_active(context)
     return [name for name in dict.fromkeys(failed) if name not in own]
 

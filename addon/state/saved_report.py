@@ -18,8 +18,8 @@ from .run_report import (
 )
 
 VERSION = 1
-# Needed only for undo, and not saved.
-NOT_SAVED = ("rna_type", *COLLECTIONS, "corners", "history")
+# Needed only in this session, and not saved.
+NOT_SAVED = ("rna_type", *COLLECTIONS, "corners", "history", "object_key", "mesh_key")
 # Texts that hold lists of whole numbers as JSON; cuts hold lists of such lists.
 NUMBERS = ("flipped_faces", "torn_faces", "moved_faces", "cut_edges", "vertices", "elements")
 CUTS = "cuts"
@@ -35,10 +35,10 @@ def packed(report: KoebeReport) -> str:
     """The report as text; empty without a report."""
     if not report.islands:
         return ""
-    islands = [
-        {**_values(entry), **{name: [_values(item) for item in getattr(entry, name)] for name in COLLECTIONS}}
-        for entry in report.islands
-    ]
+    islands = []
+    for entry in report.islands:
+        lists = {name: [_values(item) for item in getattr(entry, name)] for name in COLLECTIONS}
+        islands.append({**_values(entry), "object_name": entry.owner_name, **lists})
     return json.dumps({"version": VERSION, "active": report.active, "islands": islands})
 
 

@@ -37,7 +37,7 @@ def visible_islands(context: bpy.types.Context) -> Iterator[KoebeIslandReport]:
             frame = sequence_player.frame_shown(obj, active.name, now)
             shown[obj.name] = (active.name, "") if frame is None else ("", label_of(frame))
     for entry in report_of(context).islands:
-        layer, shape = shown.get(entry.object_name, ("", ""))
+        layer, shape = shown.get(entry.owner_name, ("", ""))
         if entry.mapped and entry.layer == layer and (entry.shape == shape if shape else layer):
             yield entry
 

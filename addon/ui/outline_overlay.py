@@ -79,7 +79,7 @@ def draw() -> None:
     forget()
     tool = context.workspace.tools.from_space_image_mode("UV")
     all_of_them = tool is not None and tool.idname == CIRCLES_TOOL
-    reported = {(entry.object_name, entry.layer) for entry in report.islands if entry.mapped}
+    reported = {(entry.owner_name, entry.layer) for entry in report.islands if entry.mapped}
     for obj in target_objects(context):
         active = obj.data.uv_layers.active
         if active is None:

@@ -6,7 +6,8 @@ from typing import Any
 import bpy
 
 from ..blender import checker, distortion_attribute, rendered_layer
-from ..blender.targets import target_objects
+from ..blender.mesh_reading import shows_pins
+from ..blender.targets import makes_faces, target_objects
 from ..operators.checker import UV_OT_koebe_checker
 from ..operators.distortion import UV_OT_koebe_distortion
 from ..operators.even_slider import UV_OT_koebe_even
@@ -20,7 +21,7 @@ from .circle_tool import CIRCLES_TOOL
 from .lift_panel import LiftPanel
 from .option_panels import AccuracyPanel, DiskPanel, DomainsPanel, LayerPanel, PartsPanel, SequencePanel, ToolsPanel
 from .packing_panel import PackingPanel
-from .panel_parts import KoebePanel, draw_message, draw_unwrap
+from .panel_parts import KoebePanel, draw_map_button, draw_message, draw_unwrap
 from .preset_menu import KOEBE_PT_presets
 from .report_panel import DetailsPanel, KOEBE_UL_islands, ReportPanel
 from .shape_panel import ShapesPanel
@@ -53,6 +54,8 @@ class MainPanel(KoebePanel):
         split.label(text="Shape")
         split.prop(settings, "shape", text="")
         draw_dials(layout.column(align=True), settings)
+        draw_pins(layout.column(align=True), context, settings)
+        draw_modifiers(layout.column(align=True), context)
         draw_judges(layout.column(), context, settings)
 
 
@@ -66,6 +69,19 @@ def draw_dials(column: bpy.types.UILayout, settings: KoebeSettings) -> None:
         row.active = is_used(settings, "even")
         row.prop(settings, "even", slider=True)
         column.operator(UV_OT_koebe_even.bl_idname, text="Drag Even", icon="ARROW_LEFTRIGHT")
+
+
+def draw_modifiers(column: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """What of an object with modifiers is unwrapped."""
+    if any(map(makes_faces, target_objects(context))):
+        draw_message(column, "The mesh before its modifiers is unwrapped: apply them to unwrap what they make")
+
+
+def draw_pins(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:
+    """Before a run that would move pinned UVs: the button of the map that keeps them."""
+    if settings.shape not in OF_PARTS and any(shows_pins(obj, settings.layer) for obj in target_objects(context)):
+        draw_message(column, "This shape cannot keep pinned UVs. Parts do")
+        draw_map_button(column, settings, "parts")
 
 
 def draw_judges(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:

@@ -44,7 +44,7 @@ class KOEBE_UL_islands(bpy.types.UIList):
     def filter_items(self, context: bpy.types.Context, data: Any, name: str) -> tuple[list[int], list[int]]:
         """Show the active object's islands."""
         names = names_of_active(context)
-        return [self.bitflag_filter_item * (entry.object_name in names) for entry in getattr(data, name)], []
+        return [self.bitflag_filter_item * (entry.owner_name in names) for entry in getattr(data, name)], []
 
     def draw_item(
         self,
@@ -58,7 +58,7 @@ class KOEBE_UL_islands(bpy.types.UIList):
     ) -> None:
         """Give the name most of the room, as it tells the islands apart. The icon shows islands without a map."""
         split = layout.split(factor=0.66 if item.mapped else 1.0)
-        name = item.object_name
+        name = item.owner_name
         if item.shape:
             name = f"{item.shape}, island" if item.island else item.shape
         number = f" {item.island + 1}" if item.island or not item.shape else ""
@@ -96,8 +96,10 @@ class ReportPanel(KoebePanel):
             layout.operator(OBJECT_OT_koebe_show.bl_idname, text=f"Not mapped: {name}", icon="ERROR").object_name = name
         entry = active_entry(context)
         if entry is None:
-            obj = context.active_object
-            layout.label(text="No map yet: press Unwrap" if obj is None else f"{obj.name}: no map yet")
+            obj: Any = context.active_object
+            known = settings_of(context).layer in getattr(getattr(obj, "data", None), "uv_layers", ())
+            nothing = "no report on its UVs" if known else "no map yet"  # of a duplicate, for example
+            layout.label(text="No map yet: press Unwrap" if obj is None else f"{obj.name}: {nothing}")
             return
         if len(entries_of_object(context)) > 1:
             layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
@@ -106,7 +108,7 @@ class ReportPanel(KoebePanel):
         if entry.shape:
             which = f", {entry.shape}{which if entry.island else ''}"
         old = outdated(entry)
-        layout.label(text=f"{entry.object_name}{which}", icon="ERROR" if old else island_icon(entry))
+        layout.label(text=f"{entry.owner_name}{which}", icon="ERROR" if old else island_icon(entry))
         draw_message(layout, old)
         if entry.mapped:
             column = layout.column(align=True)
@@ -142,7 +144,7 @@ def draw_figure(column: bpy.types.UILayout, figure: Figure) -> None:
 
 def draw_layers(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     """Which other UV layers are shown where the object's materials are."""
-    obj: Any = bpy.data.objects.get((entry.object_name, None))
+    obj: Any = entry.owner
     if obj is not None and obj.type == "MESH":
         for sentence in rendered_layer.sentences(obj, entry.layer):
             draw_message(column, sentence)

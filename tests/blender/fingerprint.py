@@ -82,11 +82,11 @@ def _custom(owner):
 
 
 def group(properties):
-    """A property group as plain values, but for the time that something took."""
+    """A property group as plain values, but for the time that something took, and what a session knows objects by."""
     result = {}
     for prop in properties.bl_rna.properties:
         name = prop.identifier
-        if name in ("rna_type", "seconds"):
+        if name in ("rna_type", "seconds", "object_key", "mesh_key"):
             continue
         value = getattr(properties, name)
         if prop.type == "COLLECTION":
@@ -181,8 +181,9 @@ def _arrays(mesh):
             values[key] = [item.value for item in one.data]
         else:
             array = _read(one.data, *VALUES[one.data_type])
-            if one.name.startswith(".") and not array.any():
-                continue  # Blender's own flags: none is as good as all off
+            own = one.name.startswith(".") or (one.name, one.data_type) == ("uv_seam", "BOOLEAN")
+            if own and not array.any():
+                continue  # Blender's own flags: none is as good as all off, and Edit Mode takes such away
             values[key] = array
     return values
 

@@ -60,8 +60,11 @@ MAKERS = (
 
 
 def of_the_window(name):
-    """Whether that belongs to the window, which no undo changes: reports, and what the screens show."""
-    return name in NOT_UNDONE or name.startswith("file: ") and name.endswith((" shading", " custom", " select mode"))
+    """Whether that belongs to the window, which no undo changes: reports, and what the screens show. Of an edited mesh
+    Blender's undo knows the window's select mode only."""
+    return name in NOT_UNDONE or name.endswith(": select mode") or (
+        name.startswith("file: ") and name.endswith((" shading", " custom", " select mode"))
+    )
 
 
 class RandomRun:

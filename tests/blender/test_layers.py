@@ -168,13 +168,15 @@ def pin_one(obj, layer="Koebe"):
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 @pytest.mark.parametrize("operator", ["uniformize", "ring", "sequence"])
-def test_pinned_uvs_never_move(mode, operator):
+def test_pinned_uvs_never_move(addon, mode, operator):
     obj = scenes.add_panel()
     assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}
     before = scenes.corner_uv(obj.data, "Koebe")
     pin_one(obj)
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.object.mode_set(mode=mode)
+    shows_pins = addon("blender.mesh_reading").shows_pins
+    assert (shows_pins(obj, "Koebe"), shows_pins(obj, "Other")) == (mode == "OBJECT", False)
     with pytest.raises(RuntimeError, match="Panel: pinned UVs of 1 vertex would move. Unwrap to Parts keeps them"):
         getattr(bpy.ops.uv, f"koebe_{operator}")()
     bpy.ops.object.mode_set(mode="OBJECT")

@@ -152,6 +152,41 @@ def test_of_a_large_island_what_is_near_a_moved_vertex_follows(addon, live, monk
     assert near > 8
 
 
+def test_a_cut_and_a_moved_pin_in_a_large_island_move_what_is_near(addon, live, monkeypatch):
+    for name in ("LARGE", "PATCH"):
+        monkeypatch.setattr(addon("maps.live"), name, 30)
+    settings = bpy.context.scene.koebe_uv
+    settings.keep_angles, settings.even = False, 0.5
+    obj = live_sheet(live)
+    monkeypatch.delattr(addon("jobs.live_job").LiveJob, "_anew")  # no map of a whole island
+    states = [uv_of(obj)]
+    mesh = bmesh.from_edit_mesh(obj.data)
+    layer = mesh.loops.layers.uv["Koebe"]
+    for edge in mesh.edges:  # from the border inwards
+        edge.seam |= all(vertex.index // 13 == 3 and vertex.index % 13 <= 2 for vertex in edge.verts)
+    bmesh.update_edit_mesh(obj.data)
+    follow(live)
+    states.append(uv_of(obj))
+    assert cuts(states[1])[2] > 1
+    mesh.verts.ensure_lookup_table()
+    for vertex in (0, 12, 5 * 13 + 12, 2 * 13 + 8):  # the last one is dragged
+        for corner in mesh.verts[vertex].link_loops:
+            corner[layer].pin_uv = True
+    follow(live)  # they are where they were: nothing to do
+    assert np.array_equal(uv_of(obj), states[1])
+    width = np.ptp(states[1][:72].reshape(-1, 2), axis=0).max()
+    for corner in mesh.verts[2 * 13 + 8].link_loops:
+        corner[layer].uv.x += 0.02 * width
+    bmesh.update_edit_mesh(obj.data)
+    placed = uv_of(obj)
+    follow(live)
+    states.append(uv_of(obj))
+    assert live.live.message == ""
+    for before, after in zip([states[0], placed], states[1:]):
+        changed = (after != before).any(axis=(1, 2))
+        assert 5 < changed.sum() < 70 and not changed[72:].any()
+
+
 def warm_and_cold(addon, live, monkeypatch, change):
     """The UVs of the edited sheet after a change, as Live has them from where they were, and mapped anew."""
     found = []

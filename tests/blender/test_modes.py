@@ -208,3 +208,40 @@ def test_a_loop_that_is_no_longer_there_is_said_and_nothing_changed(mode):
     with pytest.raises(RuntimeError, match="Changed: its mesh has changed since it was mapped"):
         bpy.ops.uv.koebe_select_loop(loop=0)
     assert fingerprint.differences(before, fingerprint.fingerprint()) == []
+
+
+def test_each_edited_mesh_keeps_its_own_select_mode_and_flags():
+    """Blender enters Edit Mode with one mode for all meshes, and flags that suit it: a script may have set others."""
+    one, other = scenes.add_panel("One"), scenes.add_panel("Other")
+    for obj in (one, other):
+        obj.data.uv_layers.new(name="Old")
+    scenes.select(one, other)
+    scenes.edit_all()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.mesh.select_mode(type="FACE")
+    mesh = bmesh.from_edit_mesh(other.data)
+    mesh.select_mode = {"VERT"}
+    mesh.verts.ensure_lookup_table()
+    for vertex in list(mesh.verts)[3:7]:
+        vertex.select_set(True)
+        mesh.select_history.add(vertex)
+    bmesh.update_edit_mesh(other.data)
+    before = fingerprint.fingerprint()
+    with pytest.raises(RuntimeError, match="no UV layer"):
+        bpy.ops.uv.koebe_distortion(layer="Missing")
+    assert fingerprint.differences(before, fingerprint.fingerprint()) == []
+    assert bpy.ops.uv.koebe_distortion(layer="Old", kind="none") == {"FINISHED"}
+    assert fingerprint.differences(before, fingerprint.fingerprint()) == []
+
+
+def test_modifiers_that_make_faces_are_told(addon):
+    makes_faces, obj = addon("blender.targets").makes_faces, scenes.add_panel()
+    obj.modifiers.new("Smooth", "SUBSURF")
+    assert not makes_faces(obj)
+    nodes = obj.modifiers.new("Nodes", "NODES")
+    nodes.node_group = bpy.data.node_groups.new("Koebe UV by Attribute", "GeometryNodeTree")
+    assert not makes_faces(obj)
+    nodes.node_group.name = "Rocks"
+    assert makes_faces(obj)
+    nodes.show_viewport = False
+    assert not makes_faces(obj)

@@ -476,3 +476,25 @@ def test_a_report_says_when_it_is_of_another_mesh_or_of_no_layer(addon, tmp_path
     with pytest.raises(RuntimeError):
         bpy.ops.uv.koebe_uniformize(cut=False)
     assert [outdated(entry) for entry in islands()] == [""]  # why it is not mapped, and it has no layer
+
+
+def test_the_report_follows_its_object(addon):
+    report = addon("state.run_report")
+    obj, other = scenes.add_panel("Before"), scenes.add_sheet(4)
+    scenes.select(obj)
+    bpy.ops.uv.koebe_parts(checker=False)
+    obj.name = "After"
+    other.name = "Before"  # which has no map
+    entry = report.active_entry(bpy.context)
+    assert (entry.owner_name, report.outdated(entry)) == ("After", "")
+    saved = addon("state.saved_report")
+    assert '"object_name": "After"' in saved.packed(bpy.context.window_manager.koebe_uv)
+    scenes.select(other)
+    assert report.active_entry(bpy.context) is None
+    again = bpy.data.objects.new("Linked copy", obj.data)
+    bpy.context.collection.objects.link(again)
+    bpy.data.objects.remove(obj)
+    scenes.select(again)
+    assert report.active_entry(bpy.context).owner_name == "Linked copy"
+    bpy.ops.uv.koebe_parts(checker=False)
+    assert {entry.owner_name for entry in bpy.context.window_manager.koebe_uv.islands} == {"Linked copy"}

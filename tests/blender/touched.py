@@ -110,7 +110,8 @@ class Touched:
         report = (owner, what) == ("file", "report") or self._selects(owner, what) or self._dresses(owner, what)
         if self._options.get("play", True) and (owner == "names of node_groups" or what == "modifiers"):
             return owner == "names of node_groups" or owner in self._users
-        return report or (owner in self._meshes and (what == "uv layers" or self._layer in what))
+        own = what == "uv layers" or self._layer in what or is_uv_selection(what, self._layer)
+        return report or (owner in self._meshes and own)
 
     def _checker(self, owner, what):
         return self._dresses(owner, what)

@@ -93,6 +93,7 @@ def test_escape_and_no_stall(window, dense):
     window.button = window.find_button("VIEW_3D", "koebe_unwrap")
     window.run(DRAW)  # a file just opened takes a third of a second for each of its first pictures
     waits = []
+    window.run("heart.updates = []\nbpy.app.handlers.depsgraph_update_post.append(lambda *_: heart.updates.append(1))")
     window.run("bpy.context.scene.koebe_uv.polish = True")  # without it the map is done before Esc is pressed
     for delay in (0.0, 0.2, 0.4):
         start(window)
@@ -106,6 +107,8 @@ def test_escape_and_no_stall(window, dense):
         assert window.ask("len(bpy.context.window_manager.koebe_uv.islands)") == 0
         window.wait("not heart.computing")
         window.run("heart.answers.clear()")
+        assert window.ask("heart.updates") == [], "Blender draws everything anew, and Esc waits"
+    window.run("bpy.app.handlers.depsgraph_update_post.pop()")
     window.picture("20_cancelled")
     window.run("bpy.context.scene.koebe_uv.polish = False")
 
