@@ -8,6 +8,7 @@
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
+#include "surface/face_vectors.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
@@ -105,6 +106,26 @@ PlanarPoints embedded_anew(const Vertices& vertices, const Surface& surface, con
     std::ranges::stable_sort(loops, std::ranges::greater(),
                              [&](const VertexLoop& loop) { return loop_edges(vertices, loop).sum(); });
     return freely_embedded(vertices, surface, loops, context);
+}
+
+void raise_slivers(FlatPart& part)
+{
+    const Triangles& triangles = part.surface.triangles;
+    const auto has_height = [&](Eigen::Index f) {
+        double longest = 0.0;
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(longest,
+                               (part.points.row(triangles(f, k)) - part.points.row(triangles(f, (k + 1) % 3))).norm());
+        return twice_area_vector(part.vertices, triangles, f).norm() > rounded_height * longest;
+    };
+    bool any = true;
+    for (int round = 0; any && round < most_nudges; ++round) {
+        any = false;
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+            if (!(signed_area(part.points, triangles, f) > 0.0) && !has_height(f) &&
+                raise_sliver(triangles, f, 2.0 * rounded_height, -rounded_height, part.points))
+                any = true;
+    }
 }
 
 void mend_noise(FlatPart& part, double noise)

@@ -34,7 +34,9 @@ constexpr std::size_t fewest_planes = 12;  // of surfaces on which noise is look
 constexpr double sharp_edge = 0.94;        // cosine of 20 degrees between the planes on both sides of a crease
 constexpr double still_grows = 0.03;       // of the area: a level that holds so much more is better
 constexpr double by_chance = 2.5;          // standard deviations of the sum of bends, if their signs are random
-constexpr double most_area = 0.6;          // of the area, in regions of several faces: then there is no noise
+constexpr double most_area = 0.6;          // of the area, in regions of several faces: then noise is slight at most
+constexpr Index exact_faces = 3;           // of a region
+constexpr double most_exact = 0.1;         // of the area, in large regions of so many faces: then it is slight at most
 constexpr double upright = 0.1;            // least cosine between a face's normal and its plane's
 constexpr int most_fits = 8;
 constexpr double much_larger = 20.0;  // times larger regions have faces beside them that are off by more
@@ -265,15 +267,16 @@ double large_share(const CutSurface& surface, const PlanarRegions& regions, cons
     return regions.noise > 0.0 && !together.both_sides() ? 0.0 : share / whole;
 }
 
-/// The share of the area in regions of several faces.
-double flat_share(const CutSurface& surface, const PlanarRegions& regions)
+/// The share of the area in regions of so many faces that are so large.
+double share_in_regions(const CutSurface& surface, const PlanarRegions& regions, Index least, double least_area)
 {
     std::vector<Index> faces(regions.planes.size(), 0);
     for (const Index region : regions.of) ++faces[region];
+    const double whole = surface.areas.sum();
     double share = 0.0;
     for (std::size_t r = 0; r < faces.size(); ++r)
-        if (faces[r] > 1) share += regions.planes[r].area;
-    return share / surface.areas.sum();
+        if (faces[r] >= least && regions.planes[r].area >= least_area * whole) share += regions.planes[r].area / whole;
+    return share;
 }
 
 }  // namespace
@@ -293,12 +296,15 @@ PlanarRegions planar_regions(const CutSurface& surface)
         return std::max(exact_share + std::min(most_worth_noise, 0.5 * level.share), level.share);
     };
     const auto is_noisy = [&](const NoiseLevel& level) { return at_level(level).second >= least_at(level); };
-    const bool is_flat = flat_share(surface, exact) >= most_area;
+    // Faces of several triangles, or of two on most of the surface, are not in one plane by chance.
+    const bool is_flat = share_in_regions(surface, exact, 2, 0.0) >= most_area ||
+                         share_in_regions(surface, exact, exact_faces, noise_levels[0].large) >= most_exact;
     if (is_flat ? std::ranges::any_of(slight_noise, is_noisy) : std::ranges::any_of(any_noise, is_noisy)) {
         // The first level at which large regions hold nearly as much as at the next level.
         std::optional<PlanarRegions> found;
         double most = 0.0;
         for (const NoiseLevel& level : noise_levels) {
+            if (is_flat && level.tolerance > slight_noise[0].tolerance) break;
             auto [regions, share] = at_level(level);
             if (found && share < most + still_grows) break;
             if (share < least_at(level)) continue;
