@@ -23,6 +23,7 @@ namespace {
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
 constexpr double rounded_height = 2.5e-7;  // UV units: a face with that height is upright as stored
 constexpr int most_nudges = 200;           // rounds in which a face gets it
+constexpr double most_sunk = 16.0;         // of it: how deep raising faces may push another one
 constexpr Eigen::Index large_part = 1000;  // faces: in a larger part
 constexpr double most_mended = 0.01;       // more flips than this share are not turned back
 constexpr double drawn_out = 0.1;          // of the noise: gap between edges that it made cross
@@ -123,7 +124,7 @@ void raise_slivers(FlatPart& part)
         any = false;
         for (Eigen::Index f = 0; f < triangles.rows(); ++f)
             if (!(signed_area(part.points, triangles, f) > 0.0) && !has_height(f) &&
-                raise_sliver(triangles, f, 2.0 * rounded_height, -rounded_height, part.points))
+                raise_sliver(triangles, f, 2.0 * rounded_height, -most_sunk * rounded_height, part.points))
                 any = true;
     }
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -23,7 +24,6 @@ constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
-constexpr Index least_plate = 3;          // faces of a plate of a round body: two are a quadrilateral, as animals have
 
 constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut
 constexpr int most_border_fits = 4;   // of a border under noise
@@ -67,18 +67,14 @@ public:
         return sum;
     }
 
-    /// Of a round body, such as a ball with a base, only the plates stay: planes that are not small, mostly between
-    /// creases. @return whether there are any
-    bool keep_plates(double least)
+    /// Of a round body, such as a ball with a base, only the plates stay. @return whether there are any
+    bool keep_plates()
     {
-        std::vector<Index> count(charts_.region.size(), 0);
-        for (const Index region : charts_.region) ++count[region];
-        const auto in_plate = [&](Index f) {
-            return charts_.plane[f] >= least && count[charts_.region[f]] >= least_plate;
-        };
         bool any = false;
         for (std::size_t k = 0; k < islands_.size(); ++k) {
-            if (is_plate(islands_[k], in_plate)) {
+            std::vector<Index> plate;
+            std::ranges::copy_if(islands_[k], std::back_inserter(plate), [&](Index f) { return charts_.plate[f]; });
+            if (surface_.areas(plate).sum() > tolerance::majority * surface_.areas(islands_[k]).sum()) {
                 any = true;
                 continue;
             }
@@ -137,23 +133,6 @@ public:
     }
 
 private:
-    template <class InPlate>
-    bool is_plate(const std::vector<Index>& faces, const InPlate& in_plate) const
-    {
-        double flat = 0.0;
-        for (const Index f : faces)
-            if (in_plate(f)) flat += surface_.areas[f];
-        if (!(flat > tolerance::majority * surface_.areas(faces).sum())) return false;
-        double outline = 0.0, creased = 0.0;
-        for (const Index f : faces)
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                if (charts_.net.twin[h] != no_twin) continue;
-                outline += surface_.lengths[h];
-                if (twin(h) == no_twin || charts_.crease[h]) creased += surface_.lengths[h];
-            }
-        return creased > tolerance::majority * outline;
-    }
-
     /// The motion that brings the face across a crease to the crease's place.
     PlaneMotion motion_to(Index h) const
     {
@@ -297,9 +276,8 @@ std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, Executio
 {
     const double area = surface.areas.sum();
     Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options);
-    const double least = tuning::small_area * area;
-    const bool is_hard = unfolding.hard_area(least) >= least_hard * area;
-    if (!is_hard && !unfolding.keep_plates(least)) return {};
+    const bool is_hard = unfolding.hard_area(tuning::small_area * area) >= least_hard * area;
+    if (!is_hard && !unfolding.keep_plates()) return {};
     if (options.roomy && is_hard) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
     if (is_hard) unfolding.attach_rest(context);
