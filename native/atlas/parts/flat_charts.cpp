@@ -9,6 +9,7 @@
 #include "parts/regions.h"
 #include "parts/tension.h"
 #include "planar/rigid_fit.h"
+#include "surface/face_vectors.h"
 
 #include <Eigen/Geometry>
 
@@ -29,6 +30,7 @@ constexpr double turned_by_noise = 1.0;  // radians that an edge as short as the
 constexpr double same_place = 1e-5;      // in roots of the surface's area
 constexpr double most_single = 0.75;     // of a chart's area, in faces that are alone in their planes
 constexpr Index least_plate = 3;         // faces of a plate: two are a quadrilateral, as animals have
+constexpr double core = 0.5;             // least cosine to its plane of a face that stays if the plane overlaps itself
 constexpr double plate_to_strip = 2.0;   // a plate is so many times larger than its neighbours
 
 class ChartLayer {
@@ -257,6 +259,26 @@ private:
         return true;
     }
 
+    /// Lays a plane without the slivers that noise has turned into it: they belong to the faces beside it, and become
+    /// the rest. @return false, and nothing is cut, if there are none
+    bool settle_core(const SeamedMesh& plane_chart)
+    {
+        const RegionPlane& own = plane(plane_chart.face.front());
+        bool any = false;
+        for (const Index f : plane_chart.face) {
+            if (&plane(f) != &own) return false;
+            const bool stays =
+                twice_area_vector(surface_.vertices, net_.corners, f).dot(own.normal) > 2.0 * core * surface_.areas[f];
+            group_[f] = stays ? 0 : -1;
+            any = any || !stays;
+        }
+        if (!any || !(regions_.noise > 0.0)) return false;
+        for (const SeamedMesh& piece : cut_between_groups(plane_chart))
+            if (group_[piece.face.front()] < 0 || !settle(piece, 0))
+                charts_.rest.insert(charts_.rest.end(), piece.face.begin(), piece.face.end());
+        return true;
+    }
+
     /// Cuts a chart between faces of different groups. @return its pieces
     std::vector<SeamedMesh> cut_between_groups(SeamedMesh chart)
     {
@@ -296,6 +318,8 @@ private:
         std::vector<char> is_plate(area.size());
         for (std::size_t p = 0; p < area.size(); ++p)
             is_plate[p] = area[p] >= std::max(least, plate_to_strip * largest[p]);
+        for (std::size_t f = 0; f < planar.size(); ++f)
+            if (charts_.plate[chart.face[f]]) is_plate[planar[f]] = 1;
         DisjointSets rolled(area.size());
         for (const auto& [pair, length] : borders)
             if (const auto [p, q] = pair;
@@ -314,7 +338,7 @@ private:
             }
         }
         for (const SeamedMesh& piece : cut_between_groups(chart)) {
-            if (settle(piece, 0)) continue;
+            if (settle(piece, 0) || settle_core(piece)) continue;
             for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
             for (const SeamedMesh& strip : cut_between_groups(piece)) {
                 if (looseness(strip, piece) <= tolerance::rolled_outline && settle(strip, 0)) continue;
