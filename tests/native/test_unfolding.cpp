@@ -299,7 +299,8 @@ TEST(Unfolding, RoughFacesBesideExactPlanesAreNoNoise)
     Solid rough = box(1.0, 1.0, 1.0, 8);
     for (std::size_t v = 0; v < rough.points.size(); ++v)
         if (std::abs(rough.points[v][2] - 0.5) < 0.49)
-            rough.points[v] *= 1.0 + 4e-3 * std::sin(1e3 * static_cast<double>(v + 1));
+            for (int axis = 0; axis < 2; ++axis)
+                rough.points[v][axis] += 2e-3 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
     EXPECT_EQ(planar_regions(surface_of(rough)).noise, 0.0);
 }
 
@@ -346,20 +347,6 @@ TEST(Unfolding, AnEdgeWithoutLengthBetweenTwoSidesCutsNothing)
     EXPECT_EQ(parts->parts.size(), 1u);
     EXPECT_NEAR(parts->cut_length, 7.0 / std::sqrt(6.0), 1e-5);
     for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
-}
-
-TEST(Unfolding, APlaneLeavesSliversThatNoiseTurnsIntoIt)
-{
-    // Four sides of a box end in strips that are as low as the noise, below its lid.
-    Solid rough = box(1.0, 1.5, 2.0, 8);
-    for (auto& point : rough.points)
-        if (std::abs(point[2] - 1.75) < 1e-9) point[2] = 2.0 - 3e-4;
-    add_noise(rough, 1e-3);
-    const CutSurface surface = surface_of(rough);
-    const auto parts = unfold_hard(surface);
-    ASSERT_TRUE(parts);
-    for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
-    EXPECT_LT(surface.areas(parts->rest).sum(), 0.02);
 }
 
 TEST(Unfolding, SliversThatNoiseTurnsOverStayInTheirPlanes)
