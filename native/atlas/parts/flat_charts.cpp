@@ -89,9 +89,9 @@ private:
         for (const Index region : regions_.of) ++faces[region];
         for (Index h = 0; h < net_.halfedge_count(); ++h) {
             const Index t = twin(h), own = regions_.of[face_of(h)];
-            const bool is_sharp = t == no_twin || charts_.crease[h];
-            if (is_sharp || regions_.of[face_of(t)] != own) outline[own] += surface_.lengths[h];
-            if (is_sharp) creased[own] += surface_.lengths[h];
+            if (t == no_twin) continue;
+            if (charts_.crease[h]) creased[own] += surface_.lengths[h];
+            if (charts_.crease[h] || regions_.of[face_of(t)] != own) outline[own] += surface_.lengths[h];
         }
         const double small = tuning::small_area * surface_.areas.sum();
         for (const Index region : regions_.of)

@@ -23,7 +23,8 @@ constexpr double least_border = 0.12;     // of a chart's boundary: a shorter co
 constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
-constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
+constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface,
+constexpr double large_plate = 0.05;      // or one plate: the ends of a figure's arms are smaller
 
 constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut
 constexpr int most_border_fits = 4;   // of a border under noise
@@ -67,22 +68,24 @@ public:
         return sum;
     }
 
-    /// Of a round body, such as a ball with a base, only the plates stay. @return whether there are any
+    /// Of a round body, such as a ball with a base, only the plates stay, if one of them is large.
+    /// @return whether there are any
     bool keep_plates()
     {
-        bool any = false;
+        double largest = 0.0;
         for (std::size_t k = 0; k < islands_.size(); ++k) {
             std::vector<Index> plate;
             std::ranges::copy_if(islands_[k], std::back_inserter(plate), [&](Index f) { return charts_.plate[f]; });
-            if (surface_.areas(plate).sum() > tolerance::majority * surface_.areas(islands_[k]).sum()) {
-                any = true;
+            if (const double flat = surface_.areas(plate).sum();
+                flat > tolerance::majority * surface_.areas(islands_[k]).sum()) {
+                largest = std::max(largest, flat);
                 continue;
             }
             for (const Index f : islands_[k]) chart_[f] = -1;
             charts_.rest.insert(charts_.rest.end(), islands_[k].begin(), islands_[k].end());
             islands_[k].clear();
         }
-        return any;
+        return largest >= large_plate * surface_.areas.sum();
     }
 
     /// @param smooth_only not over creases
