@@ -24,7 +24,7 @@ constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
 constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface,
-constexpr double large_plate = 0.05;      // or one plate: the ends of a figure's arms are smaller
+constexpr double large_plate = 0.1;       // or one plate: the flat sides of a figure's trunk are smaller
 
 constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut
 constexpr int most_border_fits = 4;   // of a border under noise

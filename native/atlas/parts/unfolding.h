@@ -38,7 +38,7 @@ std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContex
 /// in both directions. Regions are cut apart and joined as above. A planar region stays whole, with its holes.
 /// @param surface of any genus, with or without boundary
 /// @return no value if the surface is not hard: large flat and rolled regions hold less than a quarter of the area. If
-/// one plate holds a twentieth, only the plates are parts
+/// one plate holds a tenth, only the plates are parts
 std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
                                         const UnfoldOptions& options = {});
 
