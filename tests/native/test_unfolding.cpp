@@ -215,12 +215,17 @@ TEST(Unfolding, APlateStaysFlatRoundADent)
             EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::Unit(axis), height), 1e-12);
 }
 
+void add_noise(Solid& solid, double noise)
+{
+    for (std::size_t v = 0; v < solid.points.size(); ++v)
+        for (int axis = 0; axis < 3; ++axis)
+            solid.points[v][axis] += noise * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
+}
+
 TEST(Unfolding, NoiseDoesNotHideTheSidesOfABox)
 {
     Solid rough = box(1.0, 1.5, 2.0, 8);
-    for (std::size_t v = 0; v < rough.points.size(); ++v)
-        for (int axis = 0; axis < 3; ++axis)
-            rough.points[v][axis] += 2e-3 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
+    add_noise(rough, 2e-3);
     const CutSurface surface = surface_of(rough);
     const auto parts = unfold_hard(surface);
     ASSERT_TRUE(parts);
@@ -230,27 +235,26 @@ TEST(Unfolding, NoiseDoesNotHideTheSidesOfABox)
     EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), 0.0, 1.5 * noise), 8.0 * noise);
 }
 
-TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
+/// A ball of radius 1 cut by a plane at this height: a plate with so many rings.
+Solid ball_with_plate(double height, int plate_rings)
 {
-    // A ball cut by a plane: the plate is a fifth of the area.
     constexpr int n = 40;
     Solid ball;
     std::vector<std::vector<Index>> rings;
-    const auto add_ring = [&](double radius, double height) {
+    const auto add_ring = [&](double radius, double at) {
         rings.emplace_back();
         for (int k = 0; k < n; ++k) {
             const double turn = 2.0 * std::numbers::pi * k / n;
             rings.back().push_back(static_cast<Index>(ball.points.size()));
-            ball.points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), height);
+            ball.points.emplace_back(radius * std::cos(turn), radius * std::sin(turn), at);
         }
     };
-    const double plate = std::sqrt(0.75);
-    for (int i = 1; i <= 6; ++i) add_ring(plate * i / 6.0, -0.5);
+    for (int i = 1; i <= plate_rings; ++i) add_ring(std::sqrt(1.0 - height * height) * i / plate_rings, height);
     for (int i = 1; i < 18; ++i) {
-        const double down = 2.0 * std::numbers::pi / 3.0 * (1.0 - i / 18.0);
+        const double down = std::acos(height) * (1.0 - i / 18.0);
         add_ring(std::sin(down), std::cos(down));
     }
-    for (const double height : {-0.5, 1.0}) ball.points.emplace_back(0.0, 0.0, height);
+    for (const double end : {height, 1.0}) ball.points.emplace_back(0.0, 0.0, end);
     const Index top = static_cast<Index>(ball.points.size()) - 1;
     for (int k = 0; k < n; ++k) {
         const int next = (k + 1) % n;
@@ -259,15 +263,90 @@ TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
             ball.polygons.push_back({rings[i][k], rings[i][next], rings[i + 1][next], rings[i + 1][k]});
         ball.polygons.push_back({rings.back()[k], rings.back()[next], top});
     }
-    for (std::size_t v = 0; v < ball.points.size(); ++v)
-        for (int axis = 0; axis < 3; ++axis)
-            ball.points[v][axis] += 1e-4 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
-    const CutSurface surface = surface_of(ball);
-    const PlanarRegions regions = planar_regions(surface);
-    EXPECT_GT(regions.noise, 0.0);
-    double largest = 0.0;
-    for (const RegionPlane& plane : regions.planes) largest = std::max(largest, plane.area);
-    EXPECT_NEAR(largest, 0.2, 0.01);
+    return ball;
+}
+
+TEST(Unfolding, ASmallPlateOfABallStaysFlat)
+{
+    for (const double height : {-0.5, -0.75}) {
+        const CutSurface surface = surface_of(ball_with_plate(height, 6));
+        const auto parts = unfold_hard(surface);
+        ASSERT_TRUE(parts);
+        ASSERT_EQ(parts->parts.size(), 1u);
+        const double low = surface.vertices.col(2).minCoeff();
+        EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), low), 1e-12);
+        EXPECT_EQ(parts->rest.size(), surface.areas.size() - parts->parts.front().faces.size());
+    }
+}
+
+TEST(Unfolding, NoiseIsFoundOnASmallPlateOfABall)
+{
+    // The plate is a fifth of the area, or a tenth.
+    for (const auto& [height, noise, share] :
+         {std::tuple(-0.5, 1e-4, 0.2), std::tuple(-0.75, 1e-4, 0.111), std::tuple(-0.75, 6e-4, 0.111)}) {
+        Solid ball = ball_with_plate(height, 6);
+        add_noise(ball, noise);
+        const PlanarRegions regions = planar_regions(surface_of(ball));
+        EXPECT_GT(regions.noise, 0.0);
+        double largest = 0.0;
+        for (const RegionPlane& plane : regions.planes) largest = std::max(largest, plane.area);
+        EXPECT_NEAR(largest, share, 0.01) << height << " " << noise;
+    }
+}
+
+TEST(Unfolding, RoughFacesBesideExactPlanesAreNoNoise)
+{
+    Solid rough = box(1.0, 1.0, 1.0, 8);
+    for (std::size_t v = 0; v < rough.points.size(); ++v)
+        if (std::abs(rough.points[v][2] - 0.5) < 0.49)
+            for (int axis = 0; axis < 2; ++axis)
+                rough.points[v][axis] += 2e-3 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
+    EXPECT_EQ(planar_regions(surface_of(rough)).noise, 0.0);
+}
+
+TEST(Unfolding, APlaneThatTouchesItselfInAVertexStaysWhole)
+{
+    // Two pyramids stand on a floor, and meet in a corner.
+    Solid solid;
+    for (int i = 0; i < 25; ++i) solid.points.emplace_back(i / 5, i % 5, 0.0);
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            const std::vector<Index> square{5 * i + j, 5 * i + j + 5, 5 * i + j + 6, 5 * i + j + 1};
+            if (i != j || i == 0 || i == 3) {
+                solid.polygons.push_back(square);
+                continue;
+            }
+            const Index apex = static_cast<Index>(solid.points.size());
+            solid.points.emplace_back(i + 0.5, j + 0.5, 0.8);
+            for (std::size_t k = 0; k < 4; ++k) solid.polygons.push_back({square[k], square[(k + 1) % 4], apex});
+        }
+    const CutSurface surface = surface_of(solid);
+    const auto parts = unfold_hard(surface);
+    ASSERT_TRUE(parts);
+    EXPECT_TRUE(parts->rest.empty());
+    for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
+    EXPECT_LT(most_bent(surface, *parts, Eigen::RowVector3d::UnitZ(), 0.0), 1e-3);
+}
+
+TEST(Unfolding, AnEdgeWithoutLengthBetweenTwoSidesCutsNothing)
+{
+    // In the middle of an edge lie two vertices, and each side has a needle between them.
+    Solid solid = box(1.0, 1.0, 1.0, 1);
+    const Index a = solid.polygons[0][0], b = solid.polygons[0][1], middle = static_cast<Index>(solid.points.size());
+    for (int i = 0; i < 2; ++i) solid.points.push_back((solid.points[a] + solid.points[b]) / 2.0);
+    for (auto& polygon : solid.polygons)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Index from = polygon[k], to = polygon[(k + 1) % 4];
+            if (std::minmax(from, to) != std::minmax(a, b)) continue;
+            std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>((k + 2) % 4));
+            polygon.insert(polygon.end() - 1, {middle + (from == b), middle + (from == a)});
+            break;
+        }
+    const auto parts = unfold(surface_of(solid));
+    ASSERT_TRUE(parts);
+    EXPECT_EQ(parts->parts.size(), 1u);
+    EXPECT_NEAR(parts->cut_length, 7.0 / std::sqrt(6.0), 1e-5);
+    for (const FlatPart& part : parts->parts) EXPECT_TRUE(lies_one_to_one(part, part.points));
 }
 
 TEST(Unfolding, SliversThatNoiseTurnsOverStayInTheirPlanes)
@@ -276,9 +355,8 @@ TEST(Unfolding, SliversThatNoiseTurnsOverStayInTheirPlanes)
     Solid rough = box(1.0, 1.5, 2.0, 8);
     for (std::size_t v = 0; v < rough.points.size(); ++v) {
         if (std::abs(rough.points[v][0] - 0.375) < 1e-9) rough.points[v][0] = 0.25 + 1e-4;
-        for (int axis = 0; axis < 3; ++axis)
-            rough.points[v][axis] += 1e-3 * std::sin(1e3 * static_cast<double>(3 * v + axis + 1));
     }
+    add_noise(rough, 1e-3);
     const CutSurface surface = surface_of(rough);
     const auto parts = unfold_hard(surface);
     ASSERT_TRUE(parts);

@@ -9,6 +9,7 @@
 #include "parts/regions.h"
 #include "parts/tension.h"
 #include "planar/rigid_fit.h"
+#include "surface/face_vectors.h"
 
 #include <Eigen/Geometry>
 
@@ -28,6 +29,8 @@ constexpr double flat_angle = 1e-3;      // radians by which the angles round a 
 constexpr double turned_by_noise = 1.0;  // radians that an edge as short as the noise may add to that
 constexpr double same_place = 1e-5;      // in roots of the surface's area
 constexpr double most_single = 0.75;     // of a chart's area, in faces that are alone in their planes
+constexpr Index least_plate = 3;         // faces of a plate: two are a quadrilateral, as animals have
+constexpr double core = 0.5;             // least cosine to its plane of a face that stays if the plane overlaps itself
 constexpr double plate_to_strip = 2.0;   // a plate is so many times larger than its neighbours
 
 class ChartLayer {
@@ -52,9 +55,10 @@ public:
         for (Index h = 0; h < net_.halfedge_count(); ++h)
             if (charts_.crease[h]) net_.cut(h);
         number_fans(net_);
+        find_plates();
         for (const SeamedMesh& chart : connected_parts(net_)) {
             if (is_curved(chart))
-                charts_.rest.insert(charts_.rest.end(), chart.face.begin(), chart.face.end());
+                settle_plates(chart);
             else if (!settle(chart, most_tips_))
                 settle_mixed(chart);
         }
@@ -78,8 +82,34 @@ private:
         return std::atan2(a.cross(b).norm(), a.dot(b)) > least_fold_;
     }
 
-    /// Whether a chart is curved in both directions, so that nothing of it can be laid flat: most faces are alone in
-    /// their planes, and the total curvature of its inner vertices is that of half a ball.
+    void find_plates()
+    {
+        std::vector<Index> faces(regions_.planes.size(), 0);
+        std::vector<double> outline(faces.size(), 0.0), creased(outline);
+        for (const Index region : regions_.of) ++faces[region];
+        for (Index h = 0; h < net_.halfedge_count(); ++h) {
+            const Index t = twin(h), own = regions_.of[face_of(h)];
+            if (t == no_twin) continue;
+            if (charts_.crease[h]) creased[own] += surface_.lengths[h];
+            if (charts_.crease[h] || regions_.of[face_of(t)] != own) outline[own] += surface_.lengths[h];
+        }
+        const double small = tuning::small_area * surface_.areas.sum();
+        for (const Index region : regions_.of)
+            charts_.plate.push_back(faces[region] >= least_plate && regions_.planes[region].area >= small &&
+                                    creased[region] > tolerance::majority * outline[region]);
+    }
+
+    /// Of a curved chart only the plates are laid flat.
+    void settle_plates(const SeamedMesh& chart)
+    {
+        for (const Index f : chart.face) group_[f] = charts_.plate[f] ? regions_.of[f] : -1;
+        for (const SeamedMesh& piece : cut_between_groups(chart))
+            if (group_[piece.face.front()] < 0 || !settle(piece, 0))
+                charts_.rest.insert(charts_.rest.end(), piece.face.begin(), piece.face.end());
+    }
+
+    /// Whether a chart is curved in both directions, so that only plates of it can be laid flat: most faces are alone
+    /// in their planes, and the total curvature of its inner vertices is that of half a ball.
     bool is_curved(const SeamedMesh& chart) const
     {
         std::vector<double> defect(static_cast<std::size_t>(chart.fan_count), 2.0 * std::numbers::pi);
@@ -229,6 +259,26 @@ private:
         return true;
     }
 
+    /// Lays a plane without the slivers that noise has turned into it: they belong to the faces beside it, and become
+    /// the rest. @return false, and nothing is cut, if there are none
+    bool settle_core(const SeamedMesh& plane_chart)
+    {
+        const RegionPlane& own = plane(plane_chart.face.front());
+        bool any = false;
+        for (const Index f : plane_chart.face) {
+            if (&plane(f) != &own) return false;
+            const bool stays =
+                twice_area_vector(surface_.vertices, net_.corners, f).dot(own.normal) > 2.0 * core * surface_.areas[f];
+            group_[f] = stays ? 0 : -1;
+            any = any || !stays;
+        }
+        if (!any || !(regions_.noise > 0.0)) return false;
+        for (const SeamedMesh& piece : cut_between_groups(plane_chart))
+            if (group_[piece.face.front()] < 0 || !settle(piece, 0))
+                charts_.rest.insert(charts_.rest.end(), piece.face.begin(), piece.face.end());
+        return true;
+    }
+
     /// Cuts a chart between faces of different groups. @return its pieces
     std::vector<SeamedMesh> cut_between_groups(SeamedMesh chart)
     {
@@ -268,6 +318,8 @@ private:
         std::vector<char> is_plate(area.size());
         for (std::size_t p = 0; p < area.size(); ++p)
             is_plate[p] = area[p] >= std::max(least, plate_to_strip * largest[p]);
+        for (std::size_t f = 0; f < planar.size(); ++f)
+            if (charts_.plate[chart.face[f]]) is_plate[planar[f]] = 1;
         DisjointSets rolled(area.size());
         for (const auto& [pair, length] : borders)
             if (const auto [p, q] = pair;
@@ -286,7 +338,7 @@ private:
             }
         }
         for (const SeamedMesh& piece : cut_between_groups(chart)) {
-            if (settle(piece, 0)) continue;
+            if (settle(piece, 0) || settle_core(piece)) continue;
             for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
             for (const SeamedMesh& strip : cut_between_groups(piece)) {
                 if (looseness(strip, piece) <= tolerance::rolled_outline && settle(strip, 0)) continue;

@@ -28,8 +28,9 @@ struct FlatCharts {
     std::set<Index> tips;                   ///< vertices where darts end
     std::vector<Index> region;              ///< (F) planar region (regions.h)
     std::vector<double> plane;              ///< (F) area of the planar region (regions.h) that a face belongs to
-    double noise = 0.0;                     ///< as in PlanarRegions
-    double near = 0.0;                      ///< places are the same up to this distance
+    std::vector<char> plate;  ///< (F) 1 in regions of several faces that are not small, mostly between creases
+    double noise = 0.0;       ///< as in PlanarRegions
+    double near = 0.0;        ///< places are the same up to this distance
 };
 
 /// Cuts the surface along its creases, which are bent by more than an angle, and lays the charts flat, plane by

@@ -8,6 +8,7 @@
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"
+#include "surface/face_vectors.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ namespace {
 constexpr double box_slack = 1e-3;  // UV units: how far a repair may leave the part's box, a quarter of the least gap
 constexpr double rounded_height = 2.5e-7;  // UV units: a face with that height is upright as stored
 constexpr int most_nudges = 200;           // rounds in which a face gets it
+constexpr double most_sunk = 16.0;         // of it: how deep raising faces may push another one
 constexpr Eigen::Index large_part = 1000;  // faces: in a larger part
 constexpr double most_mended = 0.01;       // more flips than this share are not turned back
 constexpr double drawn_out = 0.1;          // of the noise: gap between edges that it made cross
@@ -105,6 +107,26 @@ PlanarPoints embedded_anew(const Vertices& vertices, const Surface& surface, con
     std::ranges::stable_sort(loops, std::ranges::greater(),
                              [&](const VertexLoop& loop) { return loop_edges(vertices, loop).sum(); });
     return freely_embedded(vertices, surface, loops, context);
+}
+
+void raise_slivers(FlatPart& part)
+{
+    const Triangles& triangles = part.surface.triangles;
+    const auto has_height = [&](Eigen::Index f) {
+        double longest = 0.0;
+        for (int k = 0; k < 3; ++k)
+            longest = std::max(longest,
+                               (part.points.row(triangles(f, k)) - part.points.row(triangles(f, (k + 1) % 3))).norm());
+        return twice_area_vector(part.vertices, triangles, f).norm() > rounded_height * longest;
+    };
+    bool any = true;
+    for (int round = 0; any && round < most_nudges; ++round) {
+        any = false;
+        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+            if (!(signed_area(part.points, triangles, f) > 0.0) && !has_height(f) &&
+                raise_sliver(triangles, f, 2.0 * rounded_height, -most_sunk * rounded_height, part.points))
+                any = true;
+    }
 }
 
 void mend_noise(FlatPart& part, double noise)

@@ -9,6 +9,9 @@ namespace koebe {
 /// A map that is one to one, for any part. The longest loop is the outer loop.
 PlanarPoints embedded_anew(const Vertices& vertices, const Surface& surface, const ExecutionContext& context);
 
+/// Raises slivers that have no height in space either, such as faces at an edge without length, by rounding.
+void raise_slivers(FlatPart& part);
+
 /// Mends a part that overlaps itself by noise: moves corners of slivers that are turned over, and vertices of the
 /// boundary that lie behind another edge of it, each time by at most the noise. Nothing changes if that does not help.
 /// @param noise in the unit of the points

@@ -41,6 +41,7 @@ bool lies_on_edge(const FlatPart& part, const VertexLoop& loop, Index v, double 
 }
 
 /// (V) 1 for boundary vertices where the surface touches itself: holes may meet at a point, and cracks have no width.
+/// The two sides of a cut are one vertex of the surface. They stay if they lie in two places.
 std::vector<char> touching(const FlatPart& part, double near)
 {
     std::map<std::array<double, 3>, Index> first;
@@ -50,8 +51,10 @@ std::vector<char> touching(const FlatPart& part, double near)
         for (const Index v : loop) {
             const auto found =
                 first.try_emplace({part.vertices(v, 0), part.vertices(v, 1), part.vertices(v, 2)}, v).first;
-            // The two sides of a cut are one vertex of the surface, and stay where they are.
-            if (part.original[v] != part.original[found->second]) touches[v] = touches[found->second] = 1;
+            const Index other = found->second;
+            if (other != v && (part.original[v] != part.original[other] ||
+                               (part.points.row(v) - part.points.row(other)).norm() < near))
+                touches[v] = touches[other] = 1;
             if (crack && lies_on_edge(part, loop, v, near)) touches[v] = 1;
         }
     }
@@ -91,7 +94,12 @@ std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& c
     } catch (const TopologyError&) {  // two islands that close a ring meet in one vertex
         return {};
     }
-    if (charts.noise > 0.0 && !lies_one_to_one(part, part.points)) mend_noise(part, charts.noise);
+    if (!lies_one_to_one(part, part.points)) {
+        if (charts.noise > 0.0)
+            mend_noise(part, charts.noise);
+        else
+            raise_slivers(part);
+    }
     if (!lies_one_to_one(part, part.points) && !draw_apart(part, touching(part, charts.near), narrow_gap)) return {};
     if (!survives_storing(part)) return {};
     part.rims.assign(part.surface.loops.begin(), part.surface.loops.end());

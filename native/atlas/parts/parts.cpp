@@ -35,6 +35,9 @@
 namespace koebe {
 namespace {
 
+constexpr double rigid_edge = 1e-5;  // in roots of the area: edges of rigid faces keep their length up to this,
+constexpr double most_rigid = 1e-3;  // and up to this share of it
+
 constexpr const char* lower_price = "A lower price makes more parts, and more even ones";
 
 /// The value below which a share of the weight lies. @param values (value, weight), rising; not empty
@@ -151,8 +154,36 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
     return warnings;
 }
 
-/// Makes polygons convex with free rims, as long as the part stays one to one. Divided edges stay straight. Packing
-/// keeps the parts apart afterwards.
+/// (V) 1 for vertices of faces that lie true to size, as flat and rolled regions do.
+std::vector<char> at_rigid_faces(const FlatPart& part, double noise)
+{
+    std::vector<char> rigid(part.original.size(), 0);
+    for (const auto& face : part.surface.triangles.rowwise()) {
+        const auto is_rigid = [&](int k) {
+            const Index a = face[k], b = face[(k + 1) % 3];
+            const double length = (part.vertices.row(a) - part.vertices.row(b)).norm();
+            return std::abs((part.points.row(a) - part.points.row(b)).norm() - length) <=
+                   std::min(std::max(rigid_edge, 2.0 * noise), most_rigid * length);
+        };
+        if (is_rigid(0) && is_rigid(1) && is_rigid(2)) rigid[face[0]] = rigid[face[1]] = rigid[face[2]] = 1;
+    }
+    return rigid;
+}
+
+/// The vertices of the input at such faces.
+std::vector<Index> rigid_vertices(const FlatMesh& mesh)
+{
+    std::vector<Index> vertices;
+    for (const FlatPart& part : mesh.parts) {
+        const std::vector<char> rigid = at_rigid_faces(part, mesh.layout.noise);
+        for (std::size_t v = 0; v < rigid.size(); ++v)
+            if (rigid[v] != 0) vertices.push_back(part.original[v]);
+    }
+    return vertices;
+}
+
+/// Makes polygons convex with free rims, as long as the part stays one to one. Rigid faces and divided edges stay.
+/// Packing keeps the parts apart afterwards.
 void mend_rims(FlatMesh& mesh, int threads, ExecutionContext& context)
 {
     if (mesh.polygon.empty()) return;
@@ -165,8 +196,10 @@ void mend_rims(FlatMesh& mesh, int threads, ExecutionContext& context)
         const std::vector<Index> polygons = values_at(mesh.polygon, part.faces), turned;
         SurfacePolygons surface{part.vertices, part.surface.triangles, polygons, turned};
         surface.free_rims = true;
+        const std::vector<char> rigid = at_rigid_faces(part, mesh.layout.noise);
         for (std::size_t v = 0; v < part.held.size(); ++v)
-            if (part.held[v] != 0 || straight[part.original[v]] != 0) surface.held.push_back(static_cast<Index>(v));
+            if (part.held[v] != 0 || straight[part.original[v]] != 0 || rigid[v] != 0)
+                surface.held.push_back(static_cast<Index>(v));
         PlanarPoints moved = part.points;
         if (mend_disk_polygons(surface, moved, own) && lies_one_to_one(part, moved)) part.points = std::move(moved);
     });
@@ -290,9 +323,9 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
         result.stacked.push_back(
             {static_cast<Index>(k), static_cast<Index>(packed.twins[k]->of), packed.twins[k]->mirrored});
     }
+    const std::vector<Index> none, rigid = rigid_vertices(mesh);
     PartsLayout layout = layout_at(std::move(mesh), packed.places, mirrored);
-    const std::vector<Index> none;
-    const SurfacePolygons polygons{layout.vertices, layout.triangles, options.polygon, none};
+    const SurfacePolygons polygons{layout.vertices, layout.triangles, options.polygon, none, rigid};
     mend_polygons(polygons, layout.uv, context);
 
     // Report what is stored.

@@ -36,7 +36,8 @@ struct PlanarRegions {
 /// again until the region stops to grow. So thin faces, whose own normals are only rounding, belong to the plane around
 /// them. The tolerance is that of stored coordinates. If few faces share a plane then, larger tolerances are tried, up
 /// to 0.4 % of the diagonal of the surface's box. The first one is taken for the noise at which large regions, whose
-/// edges bend to both sides, hold as much of the area as at the next one.
+/// edges bend to both sides, hold as much of the area as at the next two. Where many faces share planes exactly, noise
+/// is slight at most.
 PlanarRegions planar_regions(const CutSurface& surface);
 
 }  // namespace koebe

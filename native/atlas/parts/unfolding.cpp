@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -22,7 +23,8 @@ constexpr double least_border = 0.12;     // of a chart's boundary: a shorter co
 constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
-constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface
+constexpr double least_hard = 0.25;       // of the area: hold so much of a hard surface,
+constexpr double large_plate = 0.1;       // or one plate: the flat sides of a figure's trunk are smaller
 
 constexpr double side_of_nut = 1.80;  // longest island, in roots of its surface's area: the six sides of a nut
 constexpr int most_border_fits = 4;   // of a border under noise
@@ -64,6 +66,26 @@ public:
             sum += at_planar > tolerance::majority * outline ? area : planar;
         }
         return sum;
+    }
+
+    /// Of a round body, such as a ball with a base, only the plates stay, if one of them is large.
+    /// @return whether there are any
+    bool keep_plates()
+    {
+        double largest = 0.0;
+        for (std::size_t k = 0; k < islands_.size(); ++k) {
+            std::vector<Index> plate;
+            std::ranges::copy_if(islands_[k], std::back_inserter(plate), [&](Index f) { return charts_.plate[f]; });
+            if (const double flat = surface_.areas(plate).sum();
+                flat > tolerance::majority * surface_.areas(islands_[k]).sum()) {
+                largest = std::max(largest, flat);
+                continue;
+            }
+            for (const Index f : islands_[k]) chart_[f] = -1;
+            charts_.rest.insert(charts_.rest.end(), islands_[k].begin(), islands_[k].end());
+            islands_[k].clear();
+        }
+        return largest >= large_plate * surface_.areas.sum();
     }
 
     /// @param smooth_only not over creases
@@ -257,10 +279,11 @@ std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, Executio
 {
     const double area = surface.areas.sum();
     Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options);
-    if (!(unfolding.hard_area(tuning::small_area * area) >= least_hard * area)) return {};
-    if (options.roomy) unfolding.cut_strips();
+    const bool is_hard = unfolding.hard_area(tuning::small_area * area) >= least_hard * area;
+    if (!is_hard && !unfolding.keep_plates()) return {};
+    if (options.roomy && is_hard) unfolding.cut_strips();
     unfolding.join_charts(options.cut_hard, context);
-    unfolding.attach_rest(context);
+    if (is_hard) unfolding.attach_rest(context);
     UnfoldedParts found{unfolding.parts(), {}, unfolding.rest(), unfolding.cut_length(), unfolding.noise()};
     if (options.roomy && !options.cut_hard) found.roomier = unfolding.roomier(found.parts, context);
     return found;

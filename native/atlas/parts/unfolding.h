@@ -37,7 +37,8 @@ std::optional<UnfoldedParts> unfolded(const CutSurface& surface, ExecutionContex
 /// The flat and rolled regions of a hard surface, as parts that keep all lengths, and the rest: faces that are curved
 /// in both directions. Regions are cut apart and joined as above. A planar region stays whole, with its holes.
 /// @param surface of any genus, with or without boundary
-/// @return no value if the surface is not hard: large flat and rolled regions hold less than half of the area
+/// @return no value if the surface is not hard: large flat and rolled regions hold less than a quarter of the area. If
+/// one plate holds a tenth, only the plates are parts
 std::optional<UnfoldedParts> hard_parts(const CutSurface& surface, ExecutionContext& context,
                                         const UnfoldOptions& options = {});
 
