@@ -23,10 +23,10 @@ struct NoiseLevel {
     double tolerance, share, large;
     bool waves = false;
 };
-constexpr NoiseLevel noise_levels[] = {{3e-5, 0.04, 0.01}, {1e-4, 0.04, 0.01}, {3e-4, 0.08, 0.01},
-                                       {1e-3, 0.08, 0.01}, {2e-3, 0.4, 0.02},  {4e-3, 0.6, 0.03}};
+constexpr NoiseLevel noise_levels[] = {{3e-5, 0.04, 0.01}, {1e-4, 0.04, 0.01}, {3e-4, 0.25, 0.01},
+                                       {1e-3, 0.25, 0.01}, {2e-3, 0.4, 0.02},  {4e-3, 0.6, 0.03}};
 constexpr NoiseLevel slight_noise[] = {{1e-4, 0.15, 0.01}};  // tried first: most surfaces have none
-constexpr NoiseLevel any_noise[] = {{1e-4, 0.04, 0.01}, {1e-3, 0.08, 0.01}, {4e-3, 0.15, 0.01}};
+constexpr NoiseLevel any_noise[] = {{1e-4, 0.04, 0.01}, {3e-4, 0.15, 0.01}, {4e-3, 0.15, 0.01}};
 constexpr NoiseLevel sheet_waves{4e-3, 0.6, 0.03, true};  // tried last: a sheet with low waves is flat
 constexpr double most_worth_noise = 0.1;   // of the area: large regions hold so much more with noise, or half as
                                            // much as at least
