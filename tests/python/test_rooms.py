@@ -23,7 +23,7 @@ MAY_IMPORT = {
     "ui": {"maps", "blender", "state", "operators"},
     "headless": {"maps", "blender"},
     "batch.py": {"maps", "solver", "blender", "jobs", "headless"},
-    "__init__.py": {"state", "operators", "ui"},
+    "__init__.py": {"blender", "state", "operators", "ui"},
 }
 BLENDERS = {"bpy", "bmesh", "gpu", "gpu_extras", "blf", "mathutils", "bl_ui", "bl_operators", "addon_utils"}
 NEVER_BLENDER = (
