@@ -337,7 +337,7 @@ TEST(Unfolding, AnEdgeWithoutLengthBetweenTwoSidesCutsNothing)
         for (std::size_t k = 0; k < 4; ++k) {
             const Index from = polygon[k], to = polygon[(k + 1) % 4];
             if (std::minmax(from, to) != std::minmax(a, b)) continue;
-            std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>((k + 2) % 4));
+            std::rotate(polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>((k + 2) % 4), polygon.end());
             polygon.insert(polygon.end() - 1, {middle + (from == b), middle + (from == a)});
             break;
         }
