@@ -24,7 +24,6 @@ namespace {
 
 constexpr EvenEffort stitch_effort{6, 4, 60, 4};
 constexpr int most_stitches_tried = 12;
-constexpr double most_work = 80.0;  // Newton steps of all trials, over the faces: a few times the usual
 
 /// What a layout costs, in energy, beside its cuts and islands.
 struct LayoutState {
@@ -203,7 +202,7 @@ bool stitch_parts(std::vector<HeldPart>& held, double even, const ThroughPrice& 
     double faces = 0.0, work = 0.0;
     for (const FlatPart& part : parts) faces += static_cast<double>(part.faces.size());
     bool any = false;
-    for (int tried = 0; tried < most_stitches_tried && work < most_work * faces; ++tried) {
+    for (int tried = 0; tried < most_stitches_tried && work < most_trial_work * faces; ++tried) {
         context.checkpoint();
         const auto stitch = best_stitch(parts, price, refused);
         if (!stitch) break;

@@ -9,6 +9,9 @@
 
 namespace koebe {
 
+/// Most Newton steps of the trials of cuts of a piece, or of all stitches, over the faces: a few times the usual.
+inline constexpr double most_trial_work = 80.0;
+
 /// Where a through cut begins and ends.
 struct CutEnds {
     Eigen::RowVector3d from, to;

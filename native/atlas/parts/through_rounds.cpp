@@ -21,7 +21,6 @@ namespace {
 
 constexpr EvenEffort trial_effort{6, 2};
 constexpr int most_failures = 2;          // rounds in which no cut of a piece pays
-constexpr double most_work = 80.0;        // Newton steps of a piece's trials, over its faces: a few times the usual
 constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room, unless it is true to size
 
 /// A cut as vertices of the whole: cuts of other parts have numbers of their own.
@@ -70,7 +69,7 @@ public:
     MirrorGroup(std::vector<HeldPart> parts, const ThroughPrice& price) : price_(price)
     {
         for (HeldPart& part : parts) {
-            work_left_ += most_work * static_cast<double>(part.flat.faces.size());
+            work_left_ += most_trial_work * static_cast<double>(part.flat.faces.size());
             pieces_.push_back({std::move(part.flat)});
         }
     }
