@@ -82,6 +82,8 @@ private:
         return std::atan2(a.cross(b).norm(), a.dot(b)) > least_fold_;
     }
 
+    /// Plates are planar regions of several faces that are not small, and whose outline is mostly creases: so the flat
+    /// base of a ball is one, but a facet of its round side is none.
     void find_plates()
     {
         std::vector<Index> faces(regions_.planes.size(), 0);
@@ -103,6 +105,13 @@ private:
     void settle_plates(const SeamedMesh& chart)
     {
         for (const Index f : chart.face) group_[f] = charts_.plate[f] ? regions_.of[f] : -1;
+        settle_groups(chart);
+    }
+
+    /// Lays the groups of a chart flat, each by itself. Faces in no group, and groups that cannot be laid, are the
+    /// rest.
+    void settle_groups(const SeamedMesh& chart)
+    {
         for (const SeamedMesh& piece : cut_between_groups(chart))
             if (group_[piece.face.front()] < 0 || !settle(piece, 0))
                 charts_.rest.insert(charts_.rest.end(), piece.face.begin(), piece.face.end());
@@ -273,9 +282,7 @@ private:
             any = any || !stays;
         }
         if (!any || !(regions_.noise > 0.0)) return false;
-        for (const SeamedMesh& piece : cut_between_groups(plane_chart))
-            if (group_[piece.face.front()] < 0 || !settle(piece, 0))
-                charts_.rest.insert(charts_.rest.end(), piece.face.begin(), piece.face.end());
+        settle_groups(plane_chart);
         return true;
     }
 

@@ -55,6 +55,20 @@ bool raise_sliver(const Triangles& triangles, Eigen::Index f, double height, dou
     return true;
 }
 
+/// Raises the faces that are turned over by at most this much, of those that may be raised. @return whether there are
+/// any
+template <typename MayRaise>
+bool raise_turned(FlatPart& part, double most, const MayRaise& may_raise)
+{
+    const Triangles& triangles = part.surface.triangles;
+    bool any = false;
+    for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+        if (!(signed_area(part.points, triangles, f) > 0.0) && may_raise(f) &&
+            raise_sliver(triangles, f, 2.0 * rounded_height, -most, part.points))
+            any = true;
+    return any;
+}
+
 /// Moves a corner of each face that only rounding turns over, such as a sliver where solids were cut, by that rounding.
 /// So parts true to size stay so. @param uv in [0, 1]^2 or another tile
 PlanarPoints without_rounded_flips(const FlatPart& part, PlanarPoints uv)
@@ -120,13 +134,8 @@ void raise_slivers(FlatPart& part)
         return twice_area_vector(part.vertices, triangles, f).norm() > rounded_height * longest;
     };
     bool any = true;
-    for (int round = 0; any && round < most_nudges; ++round) {
-        any = false;
-        for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-            if (!(signed_area(part.points, triangles, f) > 0.0) && !has_height(f) &&
-                raise_sliver(triangles, f, 2.0 * rounded_height, -most_sunk * rounded_height, part.points))
-                any = true;
-    }
+    for (int round = 0; any && round < most_nudges; ++round)
+        any = raise_turned(part, most_sunk * rounded_height, [&](Eigen::Index f) { return !has_height(f); });
 }
 
 void mend_noise(FlatPart& part, double noise)
@@ -158,11 +167,7 @@ void mend_noise(FlatPart& part, double noise)
     };
     bool any = true;
     for (int round = 0; any && round < most_nudges; ++round) {
-        any = false;
-        for (Eigen::Index f = 0; f < part.surface.triangles.rows(); ++f)
-            if (!(signed_area(points, part.surface.triangles, f) > 0.0) &&
-                raise_sliver(part.surface.triangles, f, 2.0 * rounded_height, -most, points))
-                any = true;
+        any = raise_turned(part, most, [](Eigen::Index) { return true; });
         if (any) continue;
         for (const auto& [a, b] : crossing_boundary_edges(part.surface.loops, points, 0.0))
             if (draw_out({a, next[a]}, {b, next[b]}, most, points) || draw_in(a, b)) any = true;

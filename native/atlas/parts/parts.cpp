@@ -170,10 +170,11 @@ std::vector<char> at_rigid_faces(const FlatPart& part, double noise)
     return rigid;
 }
 
-/// The vertices of the input at such faces.
+/// The vertices of the input at such faces; none of a mesh of triangles, whose vertices nothing moves.
 std::vector<Index> rigid_vertices(const FlatMesh& mesh)
 {
     std::vector<Index> vertices;
+    if (mesh.polygon.empty()) return vertices;
     for (const FlatPart& part : mesh.parts) {
         const std::vector<char> rigid = at_rigid_faces(part, mesh.layout.noise);
         for (std::size_t v = 0; v < rigid.size(); ++v)

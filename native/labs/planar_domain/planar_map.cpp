@@ -279,17 +279,18 @@ PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions&
             continue;
         }
 
+        const Moebius last = normalizing_map(found);
         PlanarResult result;
         result.order = domain.order;
         result.circles = normalized_circles(found);
         result.module = conformal_module(result.circles);
-        result.residuals = moved_residuals(residuals, found, normalizing_map(found));
+        result.residuals = moved_residuals(residuals, found, last);
         result.sweeps = iteration.sweeps + 1;
         result.unknowns = iteration.unknowns;
         estimate_errors(result, coarser);
         result.converged = !coarser.empty() && result.error <= options.tolerance;
         result.map = PlanarMap(middle, size, domain.polygons, std::move(iteration.maps), iteration.outer());
-        result.map.normalize(normalizing_map(found), result.circles, *std::ranges::max_element(result.residuals));
+        result.map.normalize(last, result.circles, *std::ranges::max_element(result.residuals));
         // An error without a coarser resolution is a residual alone; and rounding may make finer ones worse.
         const bool is_better = !was_compared || result.converged || (!coarser.empty() && result.error < best.error);
         was_compared = was_compared || !coarser.empty();
