@@ -114,6 +114,15 @@ def test_units(units, factor):
     assert sorted(result.pieces[0]["size_mm"]) == pytest.approx([80, 120], abs=1e-3)
 
 
+def test_a_face_divided_at_a_junction_is_measured_whole():
+    """A plate whose long edge has a vertex of other faces in its middle: it is flat, and has these faces only."""
+    vertices = np.array([[0, 0], [2, 0], [2, 1], [0, 1], [1, 0], [0, -1], [1, -1], [2, -1]], float)
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [0, 5, 4], [5, 6, 4], [4, 6, 1], [6, 7, 1]], np.int32)
+    result = koebe.flatten(np.column_stack([50 * vertices, 0 * vertices[:, 0]]), triangles)
+    assert result.stretch_percent["max"] < 1e-6
+    assert sorted(f for piece in result.pieces for f in piece["faces"]) == list(range(len(triangles)))
+
+
 def test_pages_share_pieces_or_are_tiled():
     vertices, triangles = rolled_panel()
     one = koebe.flatten(vertices, triangles, page="A4")

@@ -189,7 +189,7 @@ PatternSeam report_seam(const Seam& seam, const std::vector<FlatPart>& parts, co
 
 PatternPiece report_piece(const FlatPart& part, const PlanarPoints& at, int sheet)
 {
-    PatternPiece piece{part.kind, part.faces};
+    PatternPiece piece{.kind = part.kind};
     const Eigen::RowVector2d size = box_size(at);
     piece.width = size[0];
     piece.height = size[1];
@@ -277,6 +277,7 @@ FlattenResult compute(const Vertices& vertices, const Triangles& triangles, cons
     // UVs of the input's corners, and their distortion.
     const std::vector<LeftOutFace> left_out = mesh.left_out;
     PartsLayout layout = layout_at(std::move(mesh), placed.points);
+    for (std::size_t k = 0; k < result.pieces.size(); ++k) result.pieces[k].faces = layout.parts[k].faces;
     measure_stretch(layout, unit, result);
     std::vector<Index> mapped;
     for (std::size_t f = 0; f < layout.part.size(); ++f)

@@ -180,6 +180,8 @@ void CanonicalMesh::name_vertices(std::vector<Index>& vertices) const
 
 void CanonicalMesh::name_faces(std::vector<Index>& faces) const
 {
+    // Pieces of divided faces have numbers beyond the mesh, and the face's own number is there too.
+    std::erase_if(faces, [&](Index f) { return f >= static_cast<Index>(triangles.rows()); });
     for (Index& f : faces) name_face(f);
     std::ranges::sort(faces);
 }
