@@ -106,3 +106,31 @@ def test_a_count_of_no_facets_is_the_reason(tmp_path):
     (tmp_path / "in.stl").write_bytes(binary_stl(0))
     done = run("parts", "in.stl", "out.obj", cwd=tmp_path)
     assert done.returncode == 3 and "counts no facet" in done.stderr
+
+
+PLY_HEADER = "ply\nformat {} 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+PLY_HEADER += "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], "<f4")
+HALVES = b"".join(b"\3" + np.array(face, "<i4").tobytes() for face in ([0, 1, 2], [0, 2, 3]))
+PLY_TEXT = PLY_HEADER.format("ascii").encode() + b"0 0 0 1 0 0 1 1 0 0 1 0\n3 0 1 2\n3 0 2 3\n"
+PLY_BINARY = PLY_HEADER.format("binary_little_endian").encode() + SQUARE.tobytes() + HALVES
+
+
+@pytest.mark.parametrize(
+    "name, data, reason",
+    [
+        ("a.ply", PLY_TEXT + b"3 0 1 3\n", "counts fewer elements"),
+        ("b.ply", PLY_BINARY + HALVES[:13], "counts fewer elements"),
+        ("c.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n\0\0\0f 1 2 3\nf 2 4 3\n", "byte 32"),
+    ],
+)
+def test_no_face_is_lost_without_a_word(tmp_path, name, data, reason):
+    (tmp_path / name).write_bytes(data)
+    done = run("parts", name, "out.obj", cwd=tmp_path)
+    assert done.returncode == 3 and reason in done.stderr
+
+
+@pytest.mark.parametrize("data", [PLY_TEXT + b"\n \r\n", PLY_BINARY + b"\r\n"])
+def test_blanks_may_end_a_ply(tmp_path, data):
+    (tmp_path / "in.ply").write_bytes(data)
+    succeeded("parts", "in.ply", "out.obj", cwd=tmp_path)

@@ -33,6 +33,8 @@ private:
 /// changes the last digits of numbers, and Assimp keeps 32 bits.
 PolygonMesh read_obj(std::string_view bytes)
 {
+    if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos)
+        throw InputError("byte " + std::to_string(zero) + " of the OBJ file is no text");
     std::vector<double> coordinates;
     PolygonMesh mesh;
     TextLines lines(bytes);

@@ -234,6 +234,12 @@ bool PlyValues::skip_item(const PlyElement& element)
     return std::ranges::all_of(element.properties, [&](const PlyProperty& property) { return skip(property); });
 }
 
+bool PlyValues::is_at_end() const
+{
+    std::string_view rest = data_;
+    return encoding_ == PlyEncoding::text ? take_word(rest).empty() : rest.size() <= 2;
+}
+
 bool PlyValues::copy(const PlyProperty& property, TextWriter& text, bool blank_first)
 {
     return with_items(property, [&](PlyType type) {

@@ -77,6 +77,8 @@ public:
     /// Skips the value, or the length and the items of a list.
     bool skip(const PlyProperty& property);
     bool skip_item(const PlyElement& element);
+    /// Whether nothing follows but blanks of a text, or the end of a line.
+    bool is_at_end() const;
     /// Adds the values as text, each after a blank except perhaps the first: the words of a text, or for a binary file
     /// the shortest ones that read back to the same number.
     bool copy(const PlyProperty& property, TextWriter& text, bool blank_first);

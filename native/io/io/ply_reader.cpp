@@ -78,7 +78,7 @@ void read_vertices(const PlyElement& element, const char* data, Vertices& vertic
     });
 }
 
-/// @return false if the data end before the faces
+/// @return false if the data end before the faces, or behind them
 bool read_faces(const PlyElement& element, std::string_view data, PolygonMesh& mesh)
 {
     const Layout layout(element);
@@ -98,7 +98,8 @@ bool read_faces(const PlyElement& element, std::string_view data, PolygonMesh& m
         if (corners >= most_elements) return false;
         mesh.face_begin[f + 1] = static_cast<Index>(corners);
     }
-    if (element.count * layout.bytes + sizeof(Index) * corners > data.size()) return false;
+    const std::size_t all = element.count * layout.bytes + sizeof(Index) * corners;
+    if (all > data.size() || data.size() - all > 2) return false;
     mesh.corners.resize(corners);
     in_pieces(element.count, items_at_a_time, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
@@ -157,6 +158,7 @@ public:
                 if (!read_item(element, roles))
                     refuse(element.name, i, "is missing, is cut short or has a word that is no number");
         }
+        if (!values_.is_at_end()) throw InputError("the header of the PLY file counts fewer elements than follow");
     }
 
     PolygonMesh take()
