@@ -157,6 +157,7 @@ bool chains_meet(const PlacedEar& a, const PlacedEar& b)
 void settle(std::vector<PlacedEar*>& ears, const VectorXcd& hole, const ExecutionContext& context)
 {
     const Complex middle = hole.mean();
+    // Begin with each ear's natural shape.
     for (PlacedEar* ear : ears) {
         ear->natural = flatten_freely(ear->vertices, ear->triangles, {0, 1}, {ear->image[0], ear->image[1]});
         draw(*ear, middle);
@@ -167,6 +168,7 @@ void settle(std::vector<PlacedEar*>& ears, const VectorXcd& hole, const Executio
         draw(ear, middle);
         return true;
     };
+    // Flatten where two ears meet, until nothing changes. Levels only rise, so this ends.
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t i = 0; i < ears.size(); ++i) {

@@ -243,6 +243,7 @@ private:
     {
         Vertices old(static_cast<Eigen::Index>(vertices.size()), 3);
         std::vector<Index> freed;
+        // Back to the sphere. Rims that slid return to their circle; those that were freed leave it.
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Eigen::Index row = static_cast<Eigen::Index>(i);
             const Index v = vertices[i];
@@ -255,6 +256,7 @@ private:
                 freed.push_back(v);
             map_.points.row(v) = place.transpose();
         }
+        // Judge, and undo if nothing is gained.
         const bool better = tangled(faces).size() < before && loops_hold(vertices);
         if (!better) {
             for (std::size_t i = 0; i < vertices.size(); ++i)

@@ -206,6 +206,8 @@ std::vector<std::vector<Index>> read_gltf_marks(std::string_view glb, CutAt at)
     const auto wanted = [at](CutAt kind) { return at == kind || at == CutAt::all; };
     const tinygltf::Model model = io::read_gltf_model(glb);
     std::vector<std::vector<Index>> all;
+    // A mark is a normal, a material and a primitive, of which the kind asks for some. Corners with equal marks get one
+    // number.
     for (const GltfMesh& mesh : read_gltf_meshes(glb)) {
         std::map<std::array<double, 5>, Index> numbers;
         std::vector<Index>& marks = all.emplace_back();

@@ -79,6 +79,7 @@ bool take(PlyFile& file, const std::string& line, int number, bool& has_format, 
     std::istringstream stream(line);
     const Words words(std::istream_iterator<std::string>(stream), {});
     if (words.empty()) return true;
+    // Each word of the header in its order: ply, format, element, property. Any other is no header.
     if (words[0] == "comment" || words[0] == "obj_info") {
         file.comments.push_back(line.substr(0, line.find_last_not_of(" \t\r") + 1));
         return true;

@@ -70,14 +70,17 @@ private:
     void on_one_sheet()
     {
         const std::vector<Outline> outlines = outlines_of(pieces_);
+        // A square that should have room.
         double side = square_for(pieces_, 2.0 * allowance_);
         const double margin = 2.0 * allowance_ + std::min(gap, least_gap_share * side);
         if (pieces_.size() >= many_pieces) side = std::max(side, room_of_many * square_for(pieces_, margin));
         SheetPacking packing = pack_on_sheets(outlines, margin, {side, side});
+        // Larger ones, by the share of the area that found a place.
         while (packing.sheets != 1 || std::ranges::count(packing.sheet, -1) > 0) {
             side *= std::clamp(std::sqrt(1.0 / share_on_first(packing)), larger_sheet, largest_step);
             packing = pack_on_sheets(outlines, margin, {side, side});
         }
+        // The sheet is the box of what was placed.
         placed_.pattern.sheets.emplace_back();
         Eigen::RowVector2d low = Eigen::RowVector2d::Constant(INFINITY), high = -low;
         for (std::size_t k = 0; k < pieces_.size(); ++k) {

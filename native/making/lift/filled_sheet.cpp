@@ -127,6 +127,7 @@ private:
         std::vector<Index> corners;
         std::vector<Complex> uv;
         std::set<std::array<Index, 2>> inside;
+        // All or nothing: cut up each polygon, and note its inner edges.
         for (const GapPolygon& polygon : polygons) {
             const Triangles faces = divided_polygon(polygon.places, {}, {});
             const Index n = static_cast<Index>(polygon.places.size());
@@ -143,6 +144,7 @@ private:
                 uv.push_back(polygon.places[i]);
             }
         }
+        // Nothing was wrong: add all.
         edges_.merge(inside);
         corners_.insert(corners_.end(), corners.begin(), corners.end());
         uv_.insert(uv_.end(), uv.begin(), uv.end());

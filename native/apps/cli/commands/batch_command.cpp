@@ -93,6 +93,7 @@ struct BatchRequest {
 
 void add_batch_options(CLI::App& app, BatchRequest& request)
 {
+    // What is mapped, and where the results go.
     app.add_option("INPUTS", request.inputs, "mesh files, and folders to search with all their folders")->required();
     app.add_option("--output", request.folder,
                    "folder for the results. Each file keeps its path below its input folder, with a .json beside it")
@@ -100,6 +101,7 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
         ->type_name("FOLDER");
     app.add_option("--base", request.base, "names are relative to this folder, for runs on single files of it")
         ->type_name("FOLDER");
+    // How: files at a time, for how long, in which format.
     app.add_option("--workers", request.workers, "files at a time; 0: one for each core")
         ->check(whole_number(0))
         ->capture_default_str();
@@ -111,6 +113,7 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
         formats.insert(formats.end(), pattern_formats.begin(), pattern_formats.end());
     app.add_option("--format", request.format, "format of the results: by default obj, and dxf of patterns")
         ->check(CLI::IsMember(formats));
+    // Which part of the work: runs of several hosts share a folder by claims.
     app.add_flag("--retry", request.retry, "try meshes again that could not be mapped");
     app.add_option("--stale", request.stale, "seconds without a sign of life until another host's claim is taken over")
         ->check(number_in({.above = 0.0}))
@@ -122,10 +125,12 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
     app.add_flag("--summary-only", request.summary_only, "map nothing, write the table of the results in the folder")
         ->excludes(list)
         ->excludes(none);
+    // How the run ends, and what it prints.
     app.add_flag("--exit-zero", request.exit_zero,
                  "for farms: exit code 0 even if a mesh was not mapped, 3 only if the machine failed");
     app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
+    // The map, and the program that maps .blend files.
     app.add_option("--domain", request.domain,
                    "the map of each file. disk: koebe uniformize; each other word: the command of this name")
         ->check(CLI::IsMember(domain_names()))
@@ -324,11 +329,13 @@ int run_batch(const BatchRequest& request)
 {
     if (request.ends_with_input) end_with_input();
     if (!request.quiet) require_standard_output();
+    // What there is to map.
     const batch::FileList list = files_of(request);
     if (list.blends_passed_over > 0 && !request.quiet)
         std::fprintf(stderr, "%s of Blender's skipped: give the Blender program with --blender\n",
                      counted(list.blends_passed_over, "file").c_str());
     if (list.files.empty()) throw WrongUsage("there is no mesh file in " + request.inputs.front());
+    // Runs that map nothing: a list, or the table of what is there.
     const fs::path output = fs::weakly_canonical(batch::path_of(request.folder));
     if (request.list) {
         print_list(list);
@@ -339,6 +346,7 @@ int run_batch(const BatchRequest& request)
         if (!request.quiet) print(one_line("the table is " + batch::utf8(output / batch::summary_json)) + "\n");
         return done;
     }
+    // The maps. A failed map ends with its own exit code, unless a farm would take that for a failed machine.
     const batch::BatchOptions options = batch_options(request, output);
     const batch::BatchCount count = run_batch(list.files, options);
     if (count.interrupted) {
