@@ -29,27 +29,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A kind of map, the command that makes it, and the words by which the add-on's batch.py makes it; null: it does not.
-struct Domain {
-    const char* name;
-    AddSubcommand add;
-    const char* of_blender;
-    bool makes_pattern = false;  ///< a drawing in place of a mesh
-};
-
-constexpr Domain domains[]{{"disk", add_uniformize, ""},
-                           {"torus", add_torus, "--domain=torus"},
-                           {"ring", add_ring, "--domain=ring"},
-                           {"sphere", add_sphere, "--domain=sphere"},
-                           {"schottky", add_schottky, "--domain=schottky"},
-                           {"parts", add_parts, "--parts"},
-                           {"pack", add_pack, nullptr},
-                           KOEBE_OF_MAKING({"flatten", add_flatten, nullptr, true})};
 const std::vector<std::string> pattern_formats{"dxf", "svg"};
 
 /// A domain's command as it is parsed alone: checks the options of a batch, and knows their defaults.
 struct DomainCommand {
-    Domain domain;
+    BatchDomain domain;
     std::shared_ptr<CLI::App> app = std::make_shared<CLI::App>();
     Subcommand command = domain.add(*app);
 
@@ -73,7 +57,7 @@ struct DomainCommand {
 std::vector<std::string> domain_names()
 {
     std::vector<std::string> names;
-    for (const Domain& domain : domains) names.emplace_back(domain.name);
+    for (const BatchDomain& domain : batch_domains) names.emplace_back(domain.name);
     return names;
 }
 
@@ -82,7 +66,7 @@ struct BatchRequest {
     std::vector<DomainCommand> commands;
     const DomainCommand* chosen = nullptr;
     nlohmann::ordered_json recipe;  ///< the settings that a map depends on beside the mesh
-    std::string domain = domains[0].name;
+    std::string domain = batch_domains[0].name;
     std::vector<std::string> inputs, blender_arguments;
     std::string folder, base, format, blender, blender_script;
     int workers = 0;
@@ -109,7 +93,7 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
         ->check(number_in({.above = 0.0}))
         ->type_name("SECONDS");
     std::vector<std::string> formats = io::format_names(io::FormatName::bare, true);
-    if (std::ranges::any_of(domains, &Domain::makes_pattern))
+    if (std::ranges::any_of(batch_domains, &BatchDomain::makes_pattern))
         formats.insert(formats.end(), pattern_formats.begin(), pattern_formats.end());
     app.add_option("--format", request.format, "format of the results: by default obj, and dxf of patterns")
         ->check(CLI::IsMember(formats));
@@ -160,7 +144,7 @@ std::string domains_with(const BatchRequest& request, const std::string& flag)
 /// Adds each option of the domains once, as text that the domain's command checks.
 void add_domain_options(CLI::App& app, BatchRequest& request)
 {
-    for (const Domain& domain : domains) request.commands.push_back({domain});
+    for (const BatchDomain& domain : batch_domains) request.commands.push_back({domain});
     for (const DomainCommand& command : request.commands)
         for (const CLI::Option* const option : command.command.options->get_options()) {
             const OptionRow* const row = command.row_of(*option);
@@ -201,7 +185,7 @@ void choose_domain(BatchRequest& request)
 {
     request.chosen = &*std::ranges::find(request.commands, request.domain,
                                          [](const DomainCommand& command) { return std::string(command.domain.name); });
-    const Domain& domain = request.chosen->domain;
+    const BatchDomain& domain = request.chosen->domain;
     for (const CLI::Option* option : request.forwarded)
         if (option->count() > 0 && request.chosen->find(option->get_name()) == nullptr)
             throw CLI::ValidationError(option->get_name(),
@@ -218,7 +202,7 @@ void choose_domain(BatchRequest& request)
     request.recipe = request.chosen->command.entries->at("options");
     if (request.format == "svg" && request.recipe.at("page") != "none")
         throw CLI::ValidationError("--format", "svg needs --page none: it has a file for each page");
-    if (request.domain != domains[0].name) request.recipe["domain"] = request.domain;
+    if (request.domain != batch_domains[0].name) request.recipe["domain"] = request.domain;
 }
 
 std::vector<std::string> map_command(const BatchRequest& request, const std::string& own_program,
