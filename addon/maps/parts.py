@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from .beside import OVER, PINNED_OVER, in_place, new_overlaps, put_beside
-from .errors import MapError
+from .errors import MapError, failing_alone
 from .islands import cut_into_islands, put_together
-from .mapping import failing_alone
 from .option_table import ROWS, solver_default
 from .options import PartsChoice
 from .outcomes import LATER, Outcome, Progress, Task
