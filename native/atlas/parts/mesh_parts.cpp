@@ -124,13 +124,10 @@ private:
     bool is_cut() const
     {
         std::size_t count = 0;
-        double length = 0.0;
-        for (const MeshPiece& own : pieces_)
-            for (const FlatPart& part : own.parts) {
-                ++count;
-                length += part.slit + part.dart_length;
-            }
-        return count > 1 || length > 0.0;
+        for (const MeshPiece& own : pieces_) count += own.parts.size();
+        return count > 1 || std::ranges::any_of(pieces_, [](const MeshPiece& own) {
+                   return std::ranges::any_of(own.parts, &FlatPart::is_cut_open);
+               });
     }
 
     /// @param stitch whether parts may be joined again @return E; nothing if only an uncut mesh is asked for, and the
