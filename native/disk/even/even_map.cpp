@@ -129,7 +129,7 @@ public:
     {
         FoldoverProblem problem = surface_problem();
         const FoldoverResult done = minimize(problem, iterations, grid_, &pattern_);
-        take(problem, done, result);
+        take_solution(problem, done, result);
         return done.hindered;
     }
 
@@ -161,7 +161,7 @@ private:
             }
             const FoldoverResult done = minimize(problem, steps_a_round, grid_ > 0 ? std::max(grid_, fine_grid) : 0);
             const PlanarPoints last = flat_.points;
-            take(problem, done, result);
+            take_solution(problem, done, result);
             if (flat_.points == last) return;
             ++result.rounds;
             const double now = energy();
@@ -335,7 +335,7 @@ private:
         }
     }
 
-    void take(const FoldoverProblem& problem, const FoldoverResult& done, EvenMap& result)
+    void take_solution(const FoldoverProblem& problem, const FoldoverResult& done, EvenMap& result)
     {
         result.iterations += done.iterations;
         const PlanarPoints points = problem.points.topRows(flat_.points.rows());

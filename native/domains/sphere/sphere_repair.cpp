@@ -206,7 +206,7 @@ private:
         effort_.spend(problem.triangles.rows(),
                       minimize_foldover_free(problem, context_, {.max_iterations = affordable}).iterations);
         if (!problem.points.allFinite()) return;
-        take(
+        write_if_better(
             faces, vertices, problem,
             [&](const Eigen::RowVector2d& at) {
                 const Eigen::RowVector2d place = middle + size * at;
@@ -238,8 +238,8 @@ private:
 
     /// Keeps the new places if fewer faces are flipped.
     template <typename Lift>
-    void take(const std::vector<Index>& faces, const std::vector<Index>& vertices, const FoldoverProblem& problem,
-              const Lift& lift, std::size_t before)
+    void write_if_better(const std::vector<Index>& faces, const std::vector<Index>& vertices,
+                         const FoldoverProblem& problem, const Lift& lift, std::size_t before)
     {
         Vertices old(static_cast<Eigen::Index>(vertices.size()), 3);
         std::vector<Index> freed;

@@ -120,7 +120,7 @@ public:
         }
     }
 
-    PolygonMesh take(const std::string& name)
+    PolygonMesh take_mesh(const std::string& name)
     {
         if (!out_of_range_.empty())
             throw InputError(name + ": faces name a vertex that does not exist (faces listed)", ElementKind::faces,
@@ -169,7 +169,7 @@ GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
         builder.add(points, primitive.corner_vertex);
         mesh.primitives.push_back(std::move(primitive));
     }
-    mesh.polygons = builder.take(mesh_name(mesh));
+    mesh.polygons = builder.take_mesh(mesh_name(mesh));
     return mesh;
 }
 

@@ -94,7 +94,7 @@ private:
         const Complex shift(0.5 * margin - low[0], 0.5 * margin - low[1]);
         for (std::size_t k = 0; k < pieces_.size(); ++k) {
             packing.places[k].offset += shift;
-            put(k, packing.places[k], 0);
+            place_piece(k, packing.places[k], 0);
         }
     }
 
@@ -152,7 +152,7 @@ private:
             throw InputError("the pattern needs " + std::to_string(static_cast<long long>(std::min(pages, 1e15))) +
                              " pages: choose a larger page or none, and the units that the mesh has");
         for (std::size_t k = 0; k < pieces_.size(); ++k)
-            if (packing.sheet[k] >= 0) put(k, packing.places[k], packing.sheet[k]);
+            if (packing.sheet[k] >= 0) place_piece(k, packing.places[k], packing.sheet[k]);
         for (const std::size_t k : large) put_on_own_sheet(k, packing.places[k]);
     }
 
@@ -187,10 +187,10 @@ private:
         const Eigen::RowVector2d low = at.colwise().minCoeff();
         island.offset = 0.5 * Complex(sheet.width - size[0], sheet.height - size[1]) - Complex(low[0], low[1]);
         placed_.pattern.sheets.push_back(std::move(sheet));
-        put(k, island, static_cast<int>(placed_.pattern.sheets.size()) - 1);
+        place_piece(k, island, static_cast<int>(placed_.pattern.sheets.size()) - 1);
     }
 
-    void put(std::size_t k, const IslandPlace& island, int sheet)
+    void place_piece(std::size_t k, const IslandPlace& island, int sheet)
     {
         const PieceShape& piece = pieces_[k];
         const PlanarPoints& at = placed_.points[k] = place_island(piece.points, island, 1.0);
