@@ -54,7 +54,7 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
         CancelToken token;
     };
     auto shared = std::make_shared<Shared>();
-    // The computation. What it owns is freed before its end is told.
+    // The computation. What it owns is freed before its end is reported.
     std::thread thread([shared, compute = std::move(compute), stage = detail::stage_here()]() mutable {
         const ProfiledThread profiled(stage);
         ExecutionContext inner(
