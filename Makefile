@@ -87,7 +87,7 @@ $(DONE)/wheel-%: $(NATIVE_SOURCES) scripts/wheel.sh scripts/pack_wheel.py build/
 	@mkdir -p $(@D) && touch $@
 
 # Wheels that were made for other Pythons go into the zip too, and are made again when the sources change.
-$(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) native/options/options.json docs/guide.md docs/troubleshooting.md $(wildcard docs/data/*.csv) scripts/package_extension.py scripts/guide_html.py
+$(DONE)/package: $(WHEEL) $(wildcard $(DONE)/wheel-*) $(ADDON_SOURCES) $(wildcard native/options/*) docs/guide.md docs/troubleshooting.md $(wildcard docs/data/*.csv) scripts/package_extension.py scripts/guide_html.py
 	/usr/bin/python3 scripts/package_extension.py
 	@touch $@
 

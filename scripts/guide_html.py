@@ -13,7 +13,7 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
-DATA = re.compile(r"^- \[([^\]]+)\]\((data/\w+\.csv)\)$", re.MULTILINE)
+DATA = re.compile(r"^- \[([^\]]+)\]\(([\w./]+\.csv)\)$", re.MULTILINE)
 PAGES = ("guide", "troubleshooting")  # of docs/, in the zip
 STYLE = (
     "body{max-width:50em;margin:2em auto;padding:0 1em;font:16px/1.5 sans-serif;color:#222;background:#fff}"

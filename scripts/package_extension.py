@@ -87,7 +87,8 @@ def members(addon: Path, version: str, wheels: list[Path]) -> dict[str, bytes]:
     files["LICENSE"] = (ROOT / "LICENSE").read_bytes()
     for name in PAGES:
         files[f"{name}.html"] = page((ROOT / "docs" / f"{name}.md").read_text("utf-8"), f"Koebe UV: {name}").encode()
-    files.update({f"maps/{path.name}": path.read_bytes() for path in (ROOT / "native" / "options").glob("*.json")})
+    tables = (path for path in (ROOT / "native" / "options").iterdir() if path.suffix in {".json", ".csv"})
+    files.update({f"maps/{path.name}": path.read_bytes() for path in tables})
     files.update({f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels})
     return files
 

@@ -82,6 +82,7 @@ def _remove_new(names: set[str]) -> None:
 
 def _build(tree: Any, layer: str, pattern: Pattern) -> None:
     tree.nodes.clear()
+    # Two checkers, the coarse one as a shade over the fine one, on a plain surface.
     uv = _node(tree, "ShaderNodeUVMap", (-800, 0), uv_map=layer)
     fine = _node(tree, "ShaderNodeTexChecker", (-560, 120), name="Fine")
     coarse = _node(tree, "ShaderNodeTexChecker", (-560, -120), name="Coarse")
@@ -97,6 +98,7 @@ def _build(tree: Any, layer: str, pattern: Pattern) -> None:
     link = tree.links.new
     place = uv.outputs["UV"]
     if pattern.matrix is not None:
+        # A pattern that is turned or scaled: rows of a matrix, as dot products.
         point = _node(tree, "ShaderNodeCombineXYZ", (-740, 0))
         for name, axis in (("Across", "X"), ("Up", "Y")):
             row = _node(tree, "ShaderNodeVectorMath", (-920, 0), name=name, operation="DOT_PRODUCT")
@@ -104,6 +106,7 @@ def _build(tree: Any, layer: str, pattern: Pattern) -> None:
             link(row.outputs["Value"], point.inputs[axis])
         uv.location.x -= 300
         place = point.outputs["Vector"]
+    # The fine squares, shaded by the coarse ones, are the base colour.
     link(place, fine.inputs["Vector"])
     link(place, coarse.inputs["Vector"])
     link(fine.outputs["Color"], shade.inputs["Color1"])

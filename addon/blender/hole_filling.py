@@ -160,6 +160,7 @@ def _surroundings(loop: list[bmesh.types.BMLoop]) -> tuple[np.ndarray, np.ndarra
     Only faces that share an edge are joined. Faces that meet in a vertex alone are separated, so that the loop's
     surroundings are a manifold in any mesh.
     """
+    # Corners that are one vertex: union-find over the edges that faces share.
     faces = _faces_around(loop)
     corners = [corner for face in faces for corner in face.loops]
     rank = {corner: i for i, corner in enumerate(corners)}
@@ -176,6 +177,7 @@ def _surroundings(loop: list[bmesh.types.BMLoop]) -> tuple[np.ndarray, np.ndarra
         if other in rank:
             parent[root(rank[corner])] = root(rank[other.link_loop_next])
             parent[root(rank[corner.link_loop_next])] = root(rank[other])
+    # Number them, the loop's first.
     number: dict[int, int] = {}
     positions: list[mathutils.Vector] = []
     for corner in [*loop, *corners]:

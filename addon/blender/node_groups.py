@@ -245,11 +245,14 @@ def _moebius(build: NodeBuilder) -> None:
     disk, radius = build.given("Disk"), build.given("Radius")
     centre = build.given("Centre")
     ax, ay, _ = build.parts(centre)
+    # Keep |a| below 1: beyond, the map would turn the disk inside out.
     length = build.node("ShaderNodeVectorMath", "Value", {0: build.vector(ax, ay)}, operation="LENGTH")
     inside = build.math("MINIMUM", build.math("DIVIDE", INSIDE, build.math("MAXIMUM", length, TINY)), 1.0)
     ax, ay = (build.math("MULTIPLY", one, inside) for one in (ax, ay))
+    # z = (UV - disk) / radius.
     whole = build.vector_math("SUBTRACT", build.given("UV"), disk)
     x, y, _ = build.parts(build.scaled(whole, build.math("DIVIDE", 1.0, build.math("MAXIMUM", radius, TINY))))
+    # (z - a) / (1 - conj(a) z), as numerator times conjugate over a square.
     above = build.math("SUBTRACT", x, ax), build.math("SUBTRACT", y, ay)
     below = (
         build.math("SUBTRACT", 1.0, _dot(build, (ax, ay), (x, y))),
@@ -258,6 +261,7 @@ def _moebius(build: NodeBuilder) -> None:
     length_2 = build.math("MAXIMUM", _dot(build, below, below), TINY)
     real = build.math("DIVIDE", _dot(build, above, below), length_2)
     imaginary = build.math("DIVIDE", _cross(build, below, above), length_2)
+    # Times exp(i turn).
     turn = build.given("Turn")
     cos, sin = build.math("COSINE", turn), build.math("SINE", turn)
     turned = build.vector(

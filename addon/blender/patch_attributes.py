@@ -43,8 +43,10 @@ class Continued:
         rim = [corner.vert for corner in loop]
         given, added = positions[: len(rim)], positions[len(rim) :]
         mix = _Mixer(koebe, positions, triangles, len(rim))
+        # Weights of vertex groups at the rim; 0 where a vertex is in no group.
         deform = mesh.verts.layers.deform.active
         groups = [dict(vertex[deform].items()) if deform else {} for vertex in rim]
+        # A shape key moves the rim; the patch follows.
         shapes = {}
         for name, places in keys.items():
             here = np.array([places[vertex.index] for vertex in rim], dtype=np.float64)
@@ -73,10 +75,12 @@ class Continued:
 
         They were made after examples on the rim. The corners are copied here, which invalidates references to them.
         """
+        # Faces take the data of the nearest rim corners, which also fills what cannot be mixed.
         rim = len(corners)
         for face, triangle in zip(faces, triangles, strict=True):
             for corner, v in zip(face.loops, triangle, strict=True):
                 corner.copy_from(corners[v if v < rim else self.nearest[v - rim]])
+        # Then what was mixed: shape keys, weights, layers of vertices and corners.
         new = range(rim, rim + len(added))
         for name, values in self.shapes.items():
             layer = mesh.verts.layers.shape[name]

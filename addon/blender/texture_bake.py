@@ -98,12 +98,14 @@ def carry(run: Transaction, obj: MeshObject, layer: str, margin: int) -> list[bp
     The former materials and images stay in the file. Returns the new images. Raises TransferError.
     """
     mesh = obj.data
+    # The images that lie by other UVs, and by which.
     shown = [slot.material for slot in obj.material_slots]
     layers = {one.name for one in mesh.uv_layers}
     laid = {one: laid_images(one, rendered(mesh), layers, layer) for one in set(shown) if one is not None}
     keys = list(dict.fromkeys(_key(one) for material in shown if material for one in laid[material]))
     if not keys:
         raise TransferError(f"{obj.name}: no image of its materials lies by other UVs than those of {layer}")
+    # A stage of its own for the bakes. It goes in the end, and after an error.
     known = _known()
     run.before_write(_remove_others, known)
     stage = _Stage.of(obj, layer, min(margin, MOST_MARGIN))
@@ -113,6 +115,7 @@ def carry(run: Transaction, obj: MeshObject, layer: str, margin: int) -> list[bp
         made[key] = _baked(run, stage, of_slot, key[0])
     _remove_others(known, KINDS[:-1])
     bpy.data.images.remove(stage.blank)
+    # Materials that show the baked images.
     copies = {material: _copied(material, laid[material], made, layer) for material in laid if laid[material]}
     for index, material in enumerate(shown):
         if material not in copies:

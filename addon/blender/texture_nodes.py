@@ -88,6 +88,7 @@ def baking_material(laid: LaidImage, alpha: bool, target: bpy.types.Image) -> bp
     for output in [one for one in tree.nodes if one.type == "OUTPUT_MATERIAL"]:
         tree.nodes.remove(output)
     output = tree.nodes.new("ShaderNodeOutputMaterial")
+    # Normals are baked from a surface, at full strength; colours as light.
     if laid.normal and not alpha:
         shader = tree.nodes.new("ShaderNodeBsdfDiffuse")
         reader = _normal_maps(node)[0]

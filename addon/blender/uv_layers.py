@@ -79,6 +79,7 @@ def write_uv(
     UVs of these faces are selected, as Blender's own unwrap leaves them. The UVs of other faces stay as they are.
     """
     mesh = obj.data
+    # What a rollback needs: the layer's UVs and selection.
     with arrays(obj) as old:
         known = old.uv_layers.get(layer_name)
         uv = None if known is None else compat.corner_uv(known)
@@ -90,6 +91,7 @@ def write_uv(
             raise TransferError(f"{obj.name}: the name {layer_name!r} is taken: choose another layer name")
     elif uv is not None:
         run.before_write(_write, obj, layer_name, uv, surface, faces)
+    # Write, and select as Blender's unwrap does.
     _write(obj, layer_name, values, surface, faces)
     if select:
         run.before_write(_select, obj, layer_name, selected, surface, faces)

@@ -73,10 +73,12 @@ def map_automatically(
     The outcome says which was taken, and why. A disk that does not serve is taken if parts fail, or are worse.
     `koebe.Cancelled` goes on.
     """
+    # Disks keep no pins.
     if task.pins is not None:
         parts = cut_into_parts(koebe, task, choice, progress, cancel)
         parts.chosen = f"Automatic took Parts: {PINNED}"
         return parts
+    # A disk takes a fraction of the time of parts, so it is first.
     (disk,) = map_surfaces(koebe, [task], options, share_of(progress, 0, 1, PARTS_WORK + 1), cancel)
     reason = unserved(disk)
     if not reason:

@@ -10,9 +10,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from .domain import Domain
-from .errors import MapError
+from .errors import MapError, failing_alone
 from .islands import cut_into_islands
-from .mapping import check_area, failing_alone
+from .mapping import check_area
 from .options import Chosen
 from .outcomes import LATER, Outcome, Progress, Task, in_numbers, share_of
 from .seams import cut_edges

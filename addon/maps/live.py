@@ -251,6 +251,7 @@ def joined(surface: Surface, cleared: np.ndarray, uv: np.ndarray) -> np.ndarray 
 
     None if an island has no place beside the others.
     """
+    # The pieces before, and the islands that they form now.
     start = uv.astype(np.float64)
     cuts = (surface.seam | uv_cuts(surface, uv)) & ~cleared
     piece = np.zeros(len(uv), dtype=np.int32)
@@ -259,6 +260,7 @@ def joined(surface: Surface, cleared: np.ndarray, uv: np.ndarray) -> np.ndarray 
     for island in cut_into_islands(dataclasses.replace(surface, seam=cuts)):
         at, vertex = island.corners, island.corner_vertex
         there = np.bincount(piece[at]).argmax()
+        # From the largest piece outwards: next is the piece that meets most corners of those that lie already.
         done = piece[at] == there
         while not done.all():
             place = np.full((len(island.vertices), 2), np.nan)

@@ -1,31 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Maps surfaces to UV coordinates of their corners: the one function behind operator and batch."""
 
-import contextlib
 import dataclasses
 import functools
 import itertools
-import traceback
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from . import places
-from .beside import OVER, put_beside
 from .disk_outcomes import IslandOutcome, SurfaceOutcome
-from .errors import MapError
+from .disk_placement import lay_out
+from .errors import MapError, failing_alone, foreseen
 from .islands import cut_into_islands, whole_island
 from .opening import Opening, open_island
 from .options import Options
 from .outcomes import Progress, Task
-from .packing import Placement, fit_placement, packed
 from .side_by_side import Unit, side_by_side
 from .stored import SERVES, judge, lost_text, turned_of
 from .surface import Island
 from .symmetry import make_symmetric
-from .triangles import areas, flipped_triangles, signed_areas
+from .triangles import areas, flipped_triangles
 from .tube import unroll
 from .upright import upright_turn
 from .wording import counted
@@ -50,7 +47,7 @@ def map_surfaces(
     outcomes = [SurfaceOutcome(task, islands) for task, islands in zip(tasks, run.map(tasks), strict=True)]
     for outcome in outcomes:
         _unroll(koebe, outcome, options)
-    _lay_out(koebe, outcomes, options, cancel)
+    lay_out(koebe, outcomes, options, cancel)
     for outcome in outcomes:
         for one in outcome.mapped:
             if not np.isfinite(one.uv).all():  # computed here, on this thread
@@ -283,28 +280,6 @@ def _are_flat(vertices: np.ndarray, triangles: np.ndarray) -> bool:
         return bool((areas(vertices, triangles) <= FLAT * extent * longest).all())
 
 
-@contextlib.contextmanager
-def failing_alone(koebe: ModuleType, islands: Iterable[Any]) -> Iterator[None]:
-    """Makes any exception inside the error of these islands; the run goes on."""
-    try:
-        yield
-    except koebe.Cancelled:
-        raise
-    except Exception as error:
-        for one in islands:
-            one.error = foreseen(koebe, error)
-
-
-def foreseen(koebe: ModuleType, error: Exception) -> Exception:
-    """The error, if its text is for the artist; else an error that says so, with its origin on the console."""
-    if isinstance(error, (koebe.KoebeError, MapError)):
-        return error
-    traceback.print_exception(type(error), error, error.__traceback__)
-    unforeseen = MapError(f"an unexpected error: {type(error).__name__}: {error}")
-    unforeseen.__cause__ = error
-    return unforeseen
-
-
 def _shape(one: IslandOutcome, options: Options) -> None:
     """Give a mapped island its shape: the unchanged disk."""
     one.sheet, one.shape = one.island, one.result.uv
@@ -348,78 +323,3 @@ def _outer_loop(island: Island, outer: str | int) -> str | int:
         return outer
     here = np.flatnonzero(island.source_vertex == outer)
     return int(here[0]) if len(here) else "auto"
-
-
-def _lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Options, cancel: Any) -> None:
-    """Give every mapped island its placement."""
-    moved = [outcome for outcome in outcomes if not (options.placement == "keep" and _keep_places(outcome))]
-    groups = [[(outcome.task, one) for one in outcome.mapped] for outcome in moved]
-    if options.placement == "together":
-        groups = [list(itertools.chain.from_iterable(groups))]
-    for group in groups:
-        with failing_alone(koebe, [one for _, one in group]):
-            _pack(koebe, group, options.margin / options.pixels)
-    for outcome in moved:
-        if outcome.task.rest is None or not outcome.mapped:
-            continue
-        if options.placement == "together" and len(moved) > 1:  # one square for the other faces of all objects
-            outcome.remarks.append(OVER)
-        else:
-            with failing_alone(koebe, outcome.mapped):
-                _put_beside(koebe, outcome, options, cancel)
-
-
-def _put_beside(koebe: ModuleType, outcome: SurfaceOutcome, options: Options, cancel: Any) -> None:
-    """Move the placed islands of a surface into the room that the islands of the other faces leave."""
-    mapped = outcome.mapped
-    placed = [one.placement.apply(one.flat) for one in mapped]
-    corners = np.concatenate([one.sheet.corners for one in mapped])
-    uv = np.concatenate([at[one.sheet.corner_vertex] for one, at in zip(mapped, placed, strict=True)])
-    made = put_beside(koebe, outcome.task, corners, uv, options.margin, options.pixels, cancel=cancel)
-    if made is None:
-        return
-    layer = np.zeros((len(outcome.task.surface.corner_vertex), 2))
-    layer[corners] = made.uv
-    for one in mapped:
-        placement = fit_placement(one.flat, layer[one.sheet.some_corner()])
-        if placement is None:
-            raise MapError("it is too small beside the other faces: unwrap them together")
-        one.placement = placement
-    outcome.remarks += [made.remark] * bool(made.remark)
-
-
-def _pack(koebe: ModuleType, group: list[tuple[Task, IslandOutcome]], margin: float) -> None:
-    if len(group) == 1:
-        group[0][1].placement = Placement(scale=0.5 / _half_size(group[0][1]))
-    elif group:
-        most = koebe.maps.layout.MOST_IMPORTANT
-        sizes = [_natural_radius(one.sheet, one.flat, task.importance, most) for task, one in group]
-        for (_, one), placement in zip(group, packed(koebe, sizes, margin), strict=True):
-            one.placement = placement
-
-
-def _half_size(one: IslandOutcome) -> float:
-    """Half the side of the smallest square around 0 that holds an island: 1 for a disk."""
-    return float(np.abs(one.flat).max()) if one.unrolled else 1.0
-
-
-def _keep_places(outcome: SurfaceOutcome) -> bool:
-    """Place every island at its former place, or none. Returns whether all had a place."""
-    if outcome.task.old_uv is None:
-        return False
-    found = [fit_placement(one.flat, outcome.task.old_uv[one.sheet.some_corner()]) for one in outcome.mapped]
-    placements = [placement for placement in found if placement is not None]
-    if len(placements) < len(found):
-        return False
-    for one, placement in zip(outcome.mapped, placements, strict=True):
-        one.placement = placement
-    return True
-
-
-def _natural_radius(island: Island, uv: np.ndarray, importance: np.ndarray | None, most_important: float) -> float:
-    """Radius of the disk where the island's mean texel density is one; up to `most_important` times as large."""
-    in_disk, on_surface = np.abs(signed_areas(uv, island.triangles)).sum(), island.areas
-    if importance is not None:
-        weight = importance[island.source_vertex][island.triangles].mean(axis=1)
-        on_surface = on_surface * most_important ** (2.0 * weight)
-    return float(np.sqrt(on_surface.sum() / in_disk))

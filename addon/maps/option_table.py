@@ -72,10 +72,15 @@ def _row(entry: dict[str, Any]) -> Row:
     )  # fmt: skip
 
 
+def table_file(name: str) -> Path:
+    """A file of native/options/, which is beside this one in the add-on's zip."""
+    packed = Path(__file__).with_name(name)
+    return packed if packed.exists() else SOURCE / name
+
+
 def table(name: str) -> Any:
-    """One of the tables that the command, Python and the add-on have in common: "options", "warnings", "exit_codes"."""
-    packed = Path(__file__).with_name(f"{name}.json")
-    return json.loads((packed if packed.exists() else SOURCE / packed.name).read_text(encoding="utf-8"))
+    """One of the tables that the command, Python and the add-on have in common: "options", "exit_codes"."""
+    return json.loads(table_file(f"{name}.json").read_text(encoding="utf-8"))
 
 
 def _table() -> list[dict[str, Any]]:

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from .beside import OVER, PINNED_OVER, in_place, new_overlaps, put_beside
-from .errors import MapError
+from .errors import MapError, failing_alone
 from .islands import cut_into_islands, put_together
-from .mapping import failing_alone
 from .option_table import ROWS, solver_default
 from .options import PartsChoice
 from .outcomes import LATER, Outcome, Progress, Task
@@ -184,6 +183,7 @@ def move_parts(koebe: ModuleType, outcome: PartsOutcome, choice: PartsChoice, ke
         return
     with failing_alone(koebe, [one]):
         uv, remark = one.uv.astype(np.float64), ""
+        # To their old place, or to their pins; and what is free beside the others.
         kept = in_place(task, one.corners, uv) if keep else None
         is_moved = kept is not None or task.pins is not None
         uv, free = uv if kept is None else kept, np.ones(len(uv), dtype=bool)
@@ -200,6 +200,7 @@ def move_parts(koebe: ModuleType, outcome: PartsOutcome, choice: PartsChoice, ke
         outcome.remarks += [remark] * bool(remark)
         if is_moved:
             _take_place(one, task.surface, uv)
+        # Pins bend parts: their figures are others now.
         if task.pins is not None:
             one.bent = _figures(koebe, one, task)
             layer = np.full((len(task.surface.corner_vertex), 2), np.nan) if task.rest is None else task.rest.copy()

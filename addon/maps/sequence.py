@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from .disk_outcomes import IslandOutcome, SurfaceOutcome
-from .errors import MapError
-from .mapping import check_area, failing_alone, judge_island, map_surfaces
+from .errors import MapError, failing_alone
+from .mapping import check_area, judge_island, map_surfaces
 from .options import Options
 from .outcomes import Outcome, Progress, Task, share_of
 from .surface import Surface

@@ -1,19 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The solver's warnings in an artist's words: what is seen, and what to do about it."""
 
+import csv
 from collections.abc import Iterable
 from typing import Any
 
-from .option_table import table
+from .option_table import table_file
 from .wording import counted
 
-# By the kind of the warning: the kind of its elements, and the sentence. {count} counts the elements in that noun, and
-# {are}, {have} and {them} are the words in its number. "blender_cut" is of a surface that was cut open: there the mesh
-# is not at fault.
-_ROWS: list[dict[str, str]] = table("warnings")
+# By the kind of the warning: the kind of its elements, and the sentence. {count} counts the elements in that noun,
+# {are}, {have} and {them} are the words in its number, and {text} is the warning's own text. CUT_WORDS are of a surface
+# that was cut open: there the mesh is not at fault.
+with table_file("warnings.csv").open(encoding="utf-8", newline="") as _file:
+    _ROWS = list(csv.reader(_file))[1:]
 WORDS, CUT_WORDS = (
-    {row["kind"]: ("" if row["elements"] == "none" else row["elements"], row[of]) for row in _ROWS if of in row}
-    for of in ("blender", "blender_cut")
+    {row[0]: ("" if row[1] == "none" else row[1], row[column]) for row in _ROWS if row[column]} for column in (3, 4)
 )
 NOUNS = {"faces": ("face", None), "vertices": ("vertex", "vertices"), "loops": ("boundary", "boundaries")}
 WHOLE = "the whole map"  # what a warning is about that names no elements
@@ -36,7 +37,8 @@ def in_words(warnings: Iterable[dict[str, Any]], is_cut: bool = False) -> list[d
     for warning in warnings:
         kind, text = warning["kind"], warning["text"]
         of, sentence = sentences.get(kind, ("", ""))
-        one = found.setdefault(kind if sentence else text, {"text": sentence or text, "of": of, "elements": set()})
+        said = sentence.replace("{text}", text) or text
+        one = found.setdefault(said, {"text": said, "of": of, "elements": set()})
         one["elements"].update(warning["elements"] if of else ())
     return [_filled(**one) for one in found.values()]
 

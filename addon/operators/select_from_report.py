@@ -28,6 +28,7 @@ class ReportOperator(OperatorBase):
     """Mixin of operators that select elements of the report's island in Edit Mode."""
 
     bl_options = {"REGISTER", "UNDO"}
+    missing = ""  # why there is nothing to select
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -37,6 +38,14 @@ class ReportOperator(OperatorBase):
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
             cls.poll_message_set("Works in Object Mode and in Edit Mode")
             return False
+        if not cls._has_elements(selectable_entries(context)):
+            cls.poll_message_set(cls.missing)
+            return False
+        return True
+
+    @classmethod
+    def _has_elements(cls, entries: list[KoebeIslandReport]) -> bool:
+        """Whether there is something to select."""
         return True
 
     def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
@@ -62,15 +71,11 @@ class UV_OT_koebe_select_offenders(ReportOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_select_offenders"
     bl_label = "Select Elements at Fault"
+    missing = "The report names no wrong elements"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if not super().poll(context):
-            return False
-        if not selectable_entries(context)[0].offenders:
-            cls.poll_message_set("The report names no wrong elements")
-            return False
-        return True
+    def _has_elements(cls, entries: list[KoebeIslandReport]) -> bool:
+        return bool(entries[0].offenders)
 
     def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
         return json.loads(entry.offenders)
@@ -144,15 +149,11 @@ class UV_OT_koebe_select_cuts(ReportOperator, bpy.types.Operator):
 
     bl_idname = "uv.koebe_select_cuts"
     bl_label = "Select Cuts"
+    missing = "This object was not cut"
 
     @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        if not super().poll(context):
-            return False
-        if not any(entry.cuts or entry.cut_edges for entry in selectable_entries(context)):
-            cls.poll_message_set("This object was not cut")
-            return False
-        return True
+    def _has_elements(cls, entries: list[KoebeIslandReport]) -> bool:
+        return any(entry.cuts or entry.cut_edges for entry in entries)
 
     def _chosen(self, obj: MeshObject, entry: KoebeIslandReport) -> tuple[str, list[int]]:
         entries = selectable_entries(bpy.context)

@@ -69,6 +69,7 @@ def draw() -> None:
     draw_dragged(context)
     if not report.show_circles:
         return
+    # Circles in pixels, with as many segments as their size asks for.
     to_region = context.region.view2d.view_to_region
     units = [unit_circle(count) for count in SEGMENTS]
     rims: list[np.ndarray] = []
@@ -83,6 +84,7 @@ def draw() -> None:
             strip = np.array([x, y]) + (right - x) * units[bisect.bisect(PIXELS, right - x)]
             (holes if index else rims).append(strip)
             if index and right - x > SMALLEST_NUMBER:
+                # A number inside, or beside a circle that is too small for it.
                 aside = 0.0 if right - x > ROOM else right - x + 5.0
                 numbers.append((str(index), x + aside, y - 4.0 + aside))
     drawing.lines(rims, RIM, WIDTH)

@@ -82,6 +82,7 @@ class KOEBE_MT_tools(bpy.types.Menu):
         layout, settings = self.layout, settings_of(context)
         assert layout is not None
         layout.operator_context = "INVOKE_DEFAULT"
+        # Buttons that take settings of the panel.
         checker_button = layout.operator(UV_OT_koebe_checker.bl_idname, text="Checker On or Off", icon="TEXTURE")
         for name in ("layer", "checker_size", "checker_even"):
             setattr(checker_button, name, getattr(settings, name))

@@ -190,6 +190,7 @@ def draw_details(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
     """Figures of a mapped island, and buttons that select its loops."""
     table = column.column(align=True)
     sweeps = ("Iterations", f"{entry.sweeps}" if entry.converged else f"{entry.sweeps}, not converged")
+    # Rows that differ by the kind of map.
     of_circles = [("Roundness", f"{entry.roundness:.1e}"), sweeps]
     of_parts = [
         ("Parts", f"{entry.parts}"),

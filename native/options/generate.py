@@ -4,6 +4,7 @@
 Usage: generate.py FOLDER        writes there what differs: C++ for every layer, and _signatures.py
 """
 
+import csv
 import json
 import sys
 from pathlib import Path
@@ -11,8 +12,14 @@ from typing import Any
 
 
 def table(name: str) -> Any:
-    """One of the tables: "options", "warnings" or "exit_codes"."""
+    """One of the tables: "options" or "exit_codes"."""
     return json.loads(Path(__file__).with_name(f"{name}.json").read_text(encoding="utf-8"))
+
+
+def warnings() -> list[list[str]]:
+    """The rows of the table of warnings, which docs/troubleshooting.md shows."""
+    with Path(__file__).with_name("warnings.csv").open(encoding="utf-8", newline="") as file:
+        return list(csv.reader(file))[1:]
 
 
 ROWS: list[dict[str, Any]] = table("options")
@@ -63,14 +70,14 @@ def each_option() -> str:
 
 def warning_kind() -> str:
     """The header with the kinds of warnings."""
-    kinds = "".join(f"    {row['kind']},  ///< {row['is']}\n" for row in table("warnings"))
-    count = f"inline constexpr int warning_kind_count = {len(table('warnings'))};"
+    kinds = "".join(f"    {kind},  ///< {text}\n" for kind, _, text, *_ in warnings())
+    count = f"inline constexpr int warning_kind_count = {len(warnings())};"
     return header("The kinds of warnings", f"enum class WarningKind {{\n{kinds}}};\n\n{count}\n")
 
 
 def warning_rows() -> str:
     """For each kind of warning its name and what it lists, in the order of the enumeration."""
-    return "".join(f'{{"{row["kind"]}", ElementKind::{row["elements"]}}},\n' for row in table("warnings"))
+    return "".join(f'{{"{kind}", ElementKind::{elements}}},\n' for kind, elements, *_ in warnings())
 
 
 def exit_codes() -> str:

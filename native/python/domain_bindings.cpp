@@ -55,6 +55,7 @@ private:
 
 void bind_domains(py::module_& m)
 {
+    // Parts: the result, a sketch that other threads may read, the map.
     bind_result<PartsResult>(m, "PartsResult").def_property_readonly("part", [](const PartsResult& r) {
         return array_of(r.part);
     });
@@ -85,6 +86,7 @@ void bind_domains(py::module_& m)
         });
     bind_map<PartsOptions, PartsResult>(m, "parts", parts_of);
 
+    // Layers of UVs: packed, sewn, and the coarse surface for a quick look.
     bind_result<PackedLayer>(m, "PackedLayer").def_property_readonly("island", [](const PackedLayer& r) {
         return array_of(r.part);
     });
@@ -106,6 +108,7 @@ void bind_domains(py::module_& m)
         return py::make_tuple(std::move(coarse.vertices), std::move(coarse.triangles), array_of(coarse.vertex));
     });
 
+    // The other domains.
     bind_options<TileOptions>(m, "TileOptions");
     bind_result<TileResult>(m, "TileResult");
     bind_map<TileOptions, TileResult>(m, "torus_map", torus_map);

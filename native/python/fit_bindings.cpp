@@ -34,6 +34,7 @@ std::vector<TemplateRim> rims_of(const std::vector<bool>& rotates, const std::ve
 
 void bind_fit(py::module_& m)
 {
+    // A map to given circles.
     py::class_<CircleTemplate>(m, "CircleTemplate")
         .def(py::init([](const PlanarPoints& centers, const VectorXd& radii, const std::vector<std::string>& names,
                          const std::vector<int>& loops, const std::vector<bool>& rotates,
@@ -54,6 +55,7 @@ void bind_fit(py::module_& m)
                   return fit_circles(vertices, triangles, wanted, {.map = options, .extremal = extremal}, context);
               });
           });
+    // The extremal map of one domain to another.
     py::class_<TeichmuellerMap>(m, "TeichmuellerMap")
         .def_readonly("dilatation", &TeichmuellerMap::dilatation)
         .def_readonly("lower", &TeichmuellerMap::lower)

@@ -21,6 +21,7 @@ void bind_planar(py::module_& m)
 {
     bind_options<PlanarOptions>(m, "PlanarOptions").def_readwrite("pole", &PlanarOptions::pole);
     py::class_<PlanarResult>(m, "PlanarResult")
+        // Figures, which are plain copies.
         .def_property_readonly("circles", [](const PlanarResult& result) { return arrays_of(result.circles); })
         .def_readonly("order", &PlanarResult::order)
         .def_property_readonly("module", [](const PlanarResult& result) { return VectorXd(result.module); })
@@ -39,6 +40,7 @@ void bind_planar(py::module_& m)
                                    for (const Slit& slit : result.slits) ends.emplace_back(slit.begin, slit.end);
                                    return ends;
                                })
+        // Places. The map is shared, so that another thread can go on without Python's lock.
         .def("slit_image",
              [](const PlanarResult& result, Points places) {
                  return detached([map = result.map, z = complex(places)] { return planar(map.slit_images(z)); });

@@ -33,6 +33,7 @@ namespace koebe::python {
 
 void bind_shapes(py::module_& m)
 {
+    // A surface with its map, and the module of its circles.
     py::class_<MappedSurface>(m, "MappedSurface")
         .def(py::init([](const Vertices& vertices, const Triangles& triangles, const PlanarPoints& uv,
                          const std::vector<VertexLoop>& loops, const std::vector<std::vector<Index>>& off_circle,
@@ -47,6 +48,7 @@ void bind_shapes(py::module_& m)
         return detached([circles = circles_of(centers, radii), order] { return conformal_module(circles, order); },
                         true);
     });
+    // Errors: enclosures, finer meshes, polygonal rims.
     bind_options<CapacityOptions>(m, "CapacityOptions");
     m.def("certified_capacities",
           [](const Vertices& vertices, const Triangles& triangles,
@@ -85,6 +87,7 @@ void bind_shapes(py::module_& m)
         for (std::size_t k = 0; k < own.size(); ++k) loops[k].shrunk = !own[k];
         require_own_circles(loops);
     });
+    // Which loop corresponds to which.
     m.def("canonical_order", [](const PlanarPoints& centers, const VectorXd& radii, bool any_outer) {
         return detached(
             [circles = circles_of(centers, radii), any_outer] { return canonical_order(circles, any_outer); });
@@ -113,6 +116,7 @@ void bind_shapes(py::module_& m)
               return separation_distance(circles_of(centers_a, radii_a), circles_of(centers_b, radii_b), match);
           });
 
+    // One domain laid over another.
     py::class_<DomainAlignment>(m, "DomainAlignment",
                                 "An automorphism of the unit disk that lays one circle domain "
                                 "over another: z -> turn (z - a) / (1 - conj(a) z).")
@@ -142,6 +146,7 @@ void bind_shapes(py::module_& m)
                                        state[8].cast<bool>(),
                                        state[9].cast<double>()};
             }));
+    // Points of one surface on another, through the two domains.
     py::class_<SurfacePoint>(m, "SurfacePoint")
         .def("place", [](const SurfacePoint& point, const PlanarPoints& uv, const Triangles& triangles) {
             const Eigen::RowVector2d at = point.of(uv, triangles);
@@ -183,6 +188,7 @@ void bind_shapes(py::module_& m)
               parts["warnings"] = to_object(to_json(found.warnings));
               return parts;
           });
+    // The same on spheres.
     py::class_<SpherePlaces>(m, "SpherePlaces")
         .def(py::init<const Vertices&, const Triangles&>())
         .def("at", [](const SpherePlaces& all, const Vertices& places) {

@@ -41,6 +41,7 @@ struct Shared {
 
 void bind_shared(py::module_& m)
 {
+    // A factorized surface that maps many vertex positions.
     using Solver = Shared<SurfaceSolver>;
     py::class_<Solver>(m, "Surface")
         .def(py::init([](Positions vertices, Faces triangles, const UniformizeOptions& options) {
@@ -55,6 +56,7 @@ void bind_shared(py::module_& m)
                  });
              });
 
+    // A map that follows a slider, and pins.
     using Dial = Shared<EvenDial>;
     py::class_<Dial>(m, "EvenDial")
         .def(py::init([](Positions vertices, Faces triangles, Points points, bool round) {

@@ -68,6 +68,7 @@ std::pair<PlanarPoints, double> annulus_by(AnnulusBackend backend, const Vertice
 
 void bind_steps(py::module_& m)
 {
+    // A mesh before its map: loops, holes, polygons, welding. Small meshes are not worth a thread.
     m.def("boundary_loops", [](Faces triangles, Index vertex_count) {
         return detached(
             [faces = Triangles(triangles), vertex_count] { return analyze_surface(faces, vertex_count).loops; },
@@ -108,11 +109,13 @@ void bind_steps(py::module_& m)
         };
         return to_object(to_json(detached(find, triangles.rows() < small_mesh)));
     });
+    // Files.
     m.attr("mesh_formats") = io::format_names(io::FormatName::extension);
     m.def("parse_mesh", [](const std::string& bytes, const std::string& extension) {
         const PolygonMesh mesh = detached([bytes, extension] { return parse_mesh(bytes, extension); });
         return std::make_tuple(mesh.vertices, array_of(mesh.corners), array_of(mesh.face_begin));
     });
+    // Single steps of the method: harmonic maps, disk, annulus.
     m.def("harmonic_map", [](Positions vertices, Faces triangles, const std::vector<Index>& fixed, Points values,
                              bool uniform) {
         return detached(
@@ -139,6 +142,7 @@ void bind_steps(py::module_& m)
             return annulus_by(static_cast<AnnulusBackend>(backend), positions, faces);
         });
     });
+    // Judges of a map, and places in it.
     m.def("distortion", [](Positions vertices, Faces triangles, Points uv) {
         const auto measure = [positions = Vertices(vertices), faces = Triangles(triangles), points = PlanarPoints(uv)] {
             return Distortion{measure_distortion(positions, faces, points), judge_disk(positions, faces, points)};
@@ -158,6 +162,7 @@ void bind_steps(py::module_& m)
                             return find_mirror(points, faces, polygon);
                         }).vertex);
     });
+    // Helpers of the shapes and of the add-on.
     m.attr("most_important") = most_important;
     m.def("pack_disks", [](const std::vector<double>& radii, double margin) {
         return arrays_of(detached([radii, margin] { return pack_disks(radii, margin); }));

@@ -59,6 +59,7 @@ koebe.errors.Cancelled: ...
         .def("cancel", &CancelToken::cancel, "Raise the flag. It stays raised.")
         .def_property_readonly("cancelled", &CancelToken::cancelled, "Whether the flag is raised.");
 
+    // Options and results.
     bind_options<KoebeMeshOptions>(m, "KoebeMeshOptions");
     bind_options<UniformizeOptions>(m, "UniformizeOptions")
         .def_readonly("mesh", &UniformizeOptions::mesh)
@@ -80,6 +81,7 @@ koebe.errors.Cancelled: ...
 
     bind_result<CutUniformizeResult>(m, "CutUniformizeResult");
 
+    // The maps.
     bind_map<UniformizeOptions, UniformizeResult>(m, "uniformize", uniformize);
     m.def("make_polygons_convex", [](Positions vertices, Faces triangles, UniformizeResult& result,
                                      const std::vector<Index>& polygon, bool mend, const CancelToken& cancel) {

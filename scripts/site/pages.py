@@ -13,7 +13,7 @@ PLACE = re.compile(r"^(?:\.\./)*(?:docs/)?(?:developers/)?")
 FILE_NAME = re.compile(r"\[(?:docs/)?(?:developers/)?(\w+)\.(?:md|ipynb)\](\(\1\.)")
 CONTENT = re.compile(r"^(?:(.+) <([\w/]+)>|(?!:)([\w/]+))$", re.MULTILINE)
 PICTURE = re.compile(r"^!\[([^\]]+)\]\((images/[^)\s]+)\)", re.MULTILINE)
-DATA = re.compile(r"^- \[([^\]]+)\]\((data/\w+\.csv)\)$", re.MULTILINE)  # a list of data files
+DATA = re.compile(r"^- \[([^\]]+)\]\(([\w./]+\.csv)\)$", re.MULTILINE)  # a list of data files
 # Files and releases of the repository, which are not on the site.
 ELSEWHERE = re.compile(r"\[([^\]]+)\]\((?:(?:\.\./)+releases|LICENSE|blend_samples/[\w.]+)\)")
 SOME_ROWS = re.compile(r"<!-- figures: (\w+) \|.*?<!-- end -->", re.DOTALL)  # of a table of docs/figures.json
@@ -37,8 +37,9 @@ def flat(text):
 
 def table_of_file(data):
     """A folded table to sort (site.js) in place of a link to a data file, and the link below it."""
-    return (f"\n<details><summary>{data[1]}</summary>\n\n:::{{csv-table}}\n:file: {data[2]}\n:header-rows: 1\n"
-            f":class: sortable\n:::\n\n[{data[2]}]({data[2]})\n\n</details>\n")  # fmt: skip
+    file = PLACE.sub("", data[2])
+    return (f"\n<details><summary>{data[1]}</summary>\n\n:::{{csv-table}}\n:file: {file}\n:header-rows: 1\n"
+            f":class: sortable\n:::\n\n[{file}]({file})\n\n</details>\n")  # fmt: skip
 
 
 def with_all_rows(some):

@@ -29,6 +29,11 @@ def test_warnings_of_a_kind_are_one_sentence_with_all_their_elements(addon):
     assert " no effect on the whole map, " in said[3]["text"]
 
 
+def test_a_warning_that_speaks_for_itself_still_names_its_faces(addon):
+    said = addon("maps.warning_words").in_words([warning("lost_area", 7, 3), warning("lost_area", 4)])
+    assert said == [{"text": "as the solver says it", "of": "faces", "elements": [3, 4, 7]}]
+
+
 def test_faces_that_a_cut_has_loosened_are_not_the_meshs_fault(addon):
     (said,) = addon("maps.warning_words").in_words([warning("ears", 7, 3)], is_cut=True)
     assert said["text"].startswith("2 faces beside a cut are squeezed ") and "Subdivide" not in said["text"]

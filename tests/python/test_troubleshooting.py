@@ -1,11 +1,9 @@
 """docs/troubleshooting.md has an entry for every error that the add-on can show."""
 
 import ast
-import csv
 import re
 from pathlib import Path
 
-import koebe
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -105,10 +103,3 @@ def test_every_error_has_an_entry(file, message):
 @pytest.mark.parametrize("kind", topology_kinds())
 def test_every_kind_of_topology_error_has_an_entry(kind):
     assert key(reasons()[kind].split(": ")[0]) in PAGE
-
-
-def test_every_kind_of_warning_has_its_row():
-    lines = (ROOT / "docs" / "data" / "warnings.csv").read_text(encoding="utf-8").splitlines()
-    rows = [row[:2] for row in csv.reader(lines)][1:]
-    assert dict(rows) == koebe.WARNING_ELEMENTS
-    assert len(rows) == len(koebe.WARNING_ELEMENTS)

@@ -13,6 +13,7 @@ nlohmann::ordered_json to_json(const FlattenResult& result)
 {
     using Json = nlohmann::ordered_json;
     Json pieces = Json::array(), seams = Json::array(), sheets = Json::array();
+    // Lengths are in mm, as they are printed.
     for (const PatternPiece& piece : result.pieces)
         pieces.push_back({{"kind", to_string(piece.kind)},
                           {"faces", piece.faces},
@@ -26,6 +27,7 @@ nlohmann::ordered_json to_json(const FlattenResult& result)
                          {"length_mm", seam.length},
                          {"lengths_mm", seam.lengths},
                          {"closed", seam.closed}});
+    // Sheets of pages, with the places of all labels.
     for (const PatternSheet& sheet : result.pattern.sheets) {
         Json labels = Json::array();
         for (const PatternLabel& label : sheet.labels)

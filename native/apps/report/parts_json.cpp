@@ -7,6 +7,7 @@ namespace koebe {
 nlohmann::ordered_json to_json(const PartsResult& result)
 {
     using Json = nlohmann::ordered_json;
+    // Each island, then copies that lie on others, then figures of the whole layout.
     Json parts = Json::array();
     for (const PartReport& part : result.parts)
         parts.push_back({{"kind", to_string(part.kind)},

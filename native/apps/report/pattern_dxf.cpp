@@ -89,6 +89,7 @@ PlanarPoints box(double left, double low, double width, double height)
 void add_tables(DxfText& dxf)
 {
     dxf.begin_section("TABLES");
+    // One line type: solid. Group code 72 is 65 ('A') by definition, 73 and 40 say that it has no dashes.
     dxf.add(0, "TABLE");
     dxf.add(2, "LTYPE");
     dxf.add(70, 1);
@@ -100,6 +101,7 @@ void add_tables(DxfText& dxf)
     dxf.add(73, 0);
     dxf.add(40, 0.0);
     dxf.add(0, "ENDTAB");
+    // The layers: name, flags, colour, line type.
     dxf.add(0, "TABLE");
     dxf.add(2, "LAYER");
     dxf.add(70, static_cast<int>(layers.size()));

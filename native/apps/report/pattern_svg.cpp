@@ -97,12 +97,14 @@ private:
     std::string frame() const
     {
         const double m = page_.margin, right = m + frame_width(), low = m + frame_height();
+        // The page's frame, and a bar under it by which the print's scale is checked.
         std::string svg = "<rect class=\"page\"" + attribute("x", number(m)) + attribute("y", number(m)) +
                           attribute("width", number(frame_width())) + attribute("height", number(frame_height())) +
                           "/>\n";
         const double bar = frame_width() > 3.0 * bar_length ? bar_length : 10.0, under = low + 0.5 * m;
         svg += strokes('M' + number(m) + " " + number(under - 1.0) + "v2M" + number(m) + " " + number(under) + "h" +
                        number(bar) + "m0 -1v2");
+        // Which page it is.
         std::string words =
             number(bar) + " mm · page " + std::to_string(page_number(column_, row_)) + " of " + std::to_string(all_);
         if (sheet_.pages() > 1)
@@ -110,6 +112,7 @@ private:
                      std::to_string(row_ + 1) + " of " + std::to_string(sheet_.rows);
         svg += note(m + bar + 2.0, under + 0.35 * page_text, words);
         if (sheet_.pages() == 1) return svg;
+        // For a sheet of several pages: crosses at the corners, and a mark at each joint.
         for (const double px : {m, right})
             for (const double py : {m, low})
                 svg += strokes('M' + number(px - cross_arm) + " " + number(py) + "h" + number(2.0 * cross_arm) + "M" +

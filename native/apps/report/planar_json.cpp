@@ -75,6 +75,7 @@ PlanarRim rim_of(const PlanarEntry& entry)
         entry.refuse("must be one of points, bezier, circle, ellipse and fourier");
     const std::string kind = entry.value.begin().key();
     const PlanarEntry said = entry.at(kind.c_str());
+    // Each kind of rim becomes Bezier segments, or a Fourier series.
     if (kind == "points") return polygon_rim(said.places(3));
     if (kind == "bezier") {
         std::vector<Complex> curve = said.places(6);

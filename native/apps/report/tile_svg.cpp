@@ -8,11 +8,13 @@ namespace koebe {
 
 std::string tile_svg(const TileResult& result)
 {
+    // The tile's faces as one path, which the copies use.
     std::string faces;
     for (Eigen::Index c = 0; c < result.uv.rows(); ++c) {
         faces += (c % 3 == 0 ? 'M' : 'L') + pixels(result.uv(c, 0)) + " " + pixels(-result.uv(c, 1));
         if (c % 3 == 2) faces += "z";
     }
+    // The view: the tile, with a part of its neighbours around it.
     const Eigen::RowVector2d low = result.uv.colwise().minCoeff(), high = result.uv.colwise().maxCoeff();
     const bool torus = result.periods.size() > 1;
     const double wide = 0.35 * (high[0] - low[0]), tall = (torus ? 0.35 : 0.05) * (high[1] - low[1]);
@@ -23,6 +25,7 @@ std::string tile_svg(const TileResult& result)
                       "\"/></defs>\n<rect x=\"" + pixels(left) + "\" y=\"" + pixels(top) +
                       "\" width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n"
                       "<g stroke=\"#33415c\" stroke-width=\"6\" stroke-linejoin=\"round\">\n";
+    // The tile and its images under the periods.
     for (int i = -2; i <= 2; ++i)
         for (int j = torus ? -2 : 0; j <= (torus ? 2 : 0); ++j) {
             double u = i * result.periods[0][0], v = i * result.periods[0][1];

@@ -26,8 +26,10 @@ struct Histogram {
 Histogram histogram(const PartMesh& part, const VectorXd& t, const VectorXd& v)
 {
     Histogram result;
+    // The range of t and v.
     double t_low = 0.0, v_low = std::numeric_limits<double>::infinity(), v_high = -v_low;
     const auto counts = [&](Eigen::Index f) { return t[f] > deepest && std::isfinite(v[f]); };
+    // The area in each bin, in row and column 1 on.
     for (Eigen::Index f = 0; f < t.size(); ++f) {
         if (!counts(f)) continue;
         t_low = std::min(t_low, t[f]);
@@ -45,6 +47,7 @@ Histogram histogram(const PartMesh& part, const VectorXd& t, const VectorXd& v)
         const int a = std::clamp(static_cast<int>((v[f] - v_low) / result.v_step), 0, v_bins - 1);
         result.sums[i + 1][a + 1] += part.areas[f];
     }
+    // Sums of the rectangles from the corner: any rectangle is then four look-ups.
     for (int i = 1; i <= t_bins; ++i)
         for (int a = 1; a <= v_bins; ++a)
             result.sums[i][a] += result.sums[i - 1][a] + result.sums[i][a - 1] - result.sums[i - 1][a - 1];
@@ -92,12 +95,14 @@ LogPolar log_polar(const PartMesh& part, const PartMap& map, Complex about, int 
     const auto depth = [&](Complex z) {
         return std::log(std::max(std::abs(z - about) / std::abs(1.0 - std::conj(about) * z), 1e-300));
     };
+    // With m = (z - c) / (1 - conj(c) z): t = log |m|, and v = u + log |m' / m|, the scale in the plane of log m.
     const VectorXd near = 0.5 * (map.centers.array() - about).abs2().max(tiny).log();
     const VectorXd far = 0.5 * (1.0 - std::conj(about) * map.centers.array()).abs2().max(tiny).log();
     polar.t = near - far;
     polar.v = map.u.array() + std::log(1.0 - std::norm(about)) - near.array() - far.array();
     for (Eigen::Index f = 0; f < polar.t.size(); ++f)
         if (map.lost[f]) polar.t[f] = -std::numeric_limits<double>::infinity();
+    // The loops' ranges of t, but for the outer one and the hole in the middle.
     for (std::size_t k = 0; k < part.surface.loops.size(); ++k) {
         if (static_cast<int>(k) == map.outer || static_cast<int>(k) == hole) continue;
         double low = std::numeric_limits<double>::infinity(), high = -low;

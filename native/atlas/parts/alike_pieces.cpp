@@ -95,11 +95,13 @@ std::map<Index, Index> faces_of_twin(const Piece& piece, const Piece& other, con
         std::ranges::sort(corners);
         return corners;
     };
+    // The other piece's faces by their corners, in any order.
     std::map<std::array<Index, 3>, Index> there;
     for (Index f = 0; f < static_cast<Index>(other.whole.faces.size()); ++f) {
         const auto row = other.whole.surface.triangles.row(f);
         there[key({row[0], row[1], row[2]})] = other.whole.faces[f];
     }
+    // Each face has an image, and polygons go to polygons one to one.
     std::map<Index, Index> face, polygon_there, polygon_here;
     for (Index f = 0; f < static_cast<Index>(piece.whole.faces.size()); ++f) {
         const auto row = piece.whole.surface.triangles.row(f);

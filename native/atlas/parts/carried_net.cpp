@@ -277,9 +277,11 @@ std::vector<CarriedPath> carried_paths(const Proxy& proxy, const CoarseNet& net,
     const PathFinder first(proxy, net);
     const auto is_needed = [&](const Path& chain) { return !first.is_dart(chain); };
     std::vector<Path> chains = chains_of(proxy.surface, net.open);
+    // Chains that a part needs come before darts, which may stay out.
     std::stable_partition(chains.begin(), chains.end(), is_needed);
     std::vector<CarriedPath> best;
     std::size_t fewest = chains.size() + 1;
+    // A path can block a later one: so blocked chains go first in the next round.
     for (int order = 0; order < most_orders && fewest > 0; ++order) {
         PathFinder finder(proxy, net);
         std::vector<CarriedPath> all;

@@ -127,6 +127,7 @@ std::int64_t CellShape::cells() const
 
 CellShape cells_near(const std::vector<GridLoop>& loops, std::int64_t reach, bool on_board)
 {
+    // The box of all within reach. On a board it begins at a whole cell.
     GridPoint least = {INT64_MAX, INT64_MAX}, most = {INT64_MIN, INT64_MIN};
     for (const GridLoop& loop : loops)
         for (const GridPoint& point : loop)
@@ -140,6 +141,7 @@ CellShape cells_near(const std::vector<GridLoop>& loops, std::int64_t reach, boo
     shape.origin = least;
     shape.width = static_cast<int>(ceil_ratio(most[0] - least[0], grid_cell));
     shape.height = static_cast<int>(ceil_ratio(most[1] - least[1], grid_cell));
+    // Paint the cells near edges, then those inside.
     std::vector<GridLoop> moved = loops;
     for (GridLoop& loop : moved)
         for (GridPoint& point : loop)

@@ -105,6 +105,7 @@ std::vector<Index> matched(const PolygonEdges& part, const PolygonEdges& other, 
 {
     std::vector<Index> vertex(vertex_count, -1), back(vertex_count, -1), image(part.halfedges(), no_twin);
     std::vector<std::pair<Index, Index>> open{start};
+    // Pairs two vertices, if neither has another partner.
     const auto pair = [&](Index v, Index w) {
         if (vertex[v] < 0 && back[w] < 0) {
             vertex[v] = w;
@@ -113,6 +114,7 @@ std::vector<Index> matched(const PolygonEdges& part, const PolygonEdges& other, 
         return vertex[v] == w && back[w] == v;
     };
     Index count = 0;
+    // From edge to edge: round the polygon, and across. One difference ends it.
     while (!open.empty()) {
         const auto [h, g] = open.back();
         open.pop_back();

@@ -124,6 +124,7 @@ private:
     {
         Trial& trial = trials_[k];
         if (trial.darts.empty()) return;
+        // Cut the part along the trial's darts. Each face belongs to the nearest of them.
         HeldPart part = parts_[k];
         std::vector<std::vector<Index>> cuts;
         for (const Dart& dart : trial.darts) cuts.push_back(dart.vertices);
@@ -132,6 +133,7 @@ private:
         if (!source) return;
         FlatPart& flat = part.flat;
         hold_both_ends(part.round, *source, parts_[k].flat.points.rows());
+        // Relax, from the points of the trial with more darts where they still lie one to one.
         bool is_warm = false;
         if (before && part.round.empty()) {
             const PlanarPoints points = with_fewer_darts(*before, *source, parts_[k].flat.points.rows());
@@ -141,6 +143,7 @@ private:
         const EvenEffort& effort = tips_ == DartTips::strained ? strained_effort : is_warm ? warm_effort : trial_effort;
         if (!make_even(flat_surface(flat, part.round), even_, packed_side, context, effort).moved) return;
         if (!survives_storing(flat)) return;
+        // A dart's gain: the energy that its faces lost.
         const VectorXd released = energy_[k] - forces_of(flat).energy;
         trial.gain.assign(trial.darts.size(), 0.0);
         for (std::size_t f = 0; f < nearest.size(); ++f)

@@ -244,10 +244,7 @@ private:
     }
 
     /// Whether a single part has all of the surface without a cut: a long sheet stays as long as it is.
-    bool is_uncut_sheet() const
-    {
-        return parts_.size() == 1 && parts_.front().flat.slit == 0.0 && parts_.front().flat.dart_length == 0.0;
-    }
+    bool is_uncut_sheet() const { return parts_.size() == 1 && !parts_.front().flat.is_cut_open(); }
 
     bool cut_for_room()
     {

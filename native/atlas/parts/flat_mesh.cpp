@@ -132,11 +132,6 @@ std::vector<FlatPiece> mesh_pieces(OpenedSurface& opened, const Vertices& vertic
     return pieces;
 }
 
-bool is_uncut(const FlatMesh& mesh)
-{
-    return mesh.parts.size() == 1 && mesh.layout.slit_length + mesh.layout.dart_length == 0.0;
-}
-
 struct Pockets {
     CutEdges rims = {};           ///< by vertices of the input
     bool may_be_a_sheet = false;  ///< one of the surfaces that have them might lie flat as it is
@@ -262,7 +257,8 @@ FlatMesh flat_mesh(const Vertices& vertices, const Triangles& triangles, const P
     const bool may_have_pockets = options.cut && rims_are_free(options);
     std::optional<FlatMesh> mesh =
         flat_mesh_of(undivided, vertices, triangles, options, kept, may_have_pockets ? &pockets : nullptr, context);
-    if (mesh && (pockets.rims.empty() || is_uncut(*mesh))) return std::move(*mesh);
+    const bool is_uncut = mesh && mesh->parts.size() == 1 && !mesh->parts.front().is_cut_open();
+    if (mesh && (pockets.rims.empty() || is_uncut)) return std::move(*mesh);
     PartsOptions cut = options;
     cut.cuts.insert(cut.cuts.end(), pockets.rims.begin(), pockets.rims.end());
     return *flat_mesh_of(undivided, vertices, triangles, cut, kept, nullptr, context);

@@ -33,6 +33,8 @@ struct FlatPart {
     bool has_copy = false;                 ///< another part has the same map, not mirrored (twins.h)
     bool one_to_one = true;                ///< false: its boundary crosses itself
     bool is_near = false;                  ///< nearly as even as it can be: it was relaxed on a coarse surface
+
+    bool is_cut_open() const { return slit + dart_length > 0.0; }
 };
 
 struct FlatOptions {

@@ -218,6 +218,7 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
     std::vector<FlatParts> flats(parts.size());
     std::vector<SplitEffort> efforts(parts.size());
     std::vector<char> opened(whole.surface.twin.size(), 0);
+    // On a mirrored surface a tube's slit is the image of its partner's: so one after the other.
     const bool in_turn = !mirror.image.empty();
     side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
         Part& part = *parts[k];
@@ -231,6 +232,7 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
         if (in_turn && flats[k].parts.size() == 1) note_slit(part.mesh, flats[k].parts.front(), opened);
         parts[k].reset();
     });
+    // Join in the parts' order, whatever thread was first.
     FlatParts all;
     for (FlatParts& own : flats) {
         add(own.flaws, all.flaws);
@@ -243,9 +245,11 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
 std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, FlatParts& parts, double part_price,
                                       ExecutionContext& context)
 {
+    // Worth a try? Not if the parts have no faults, and angles that nobody sees or that one map cannot better.
     const double error = angle_error(parts.parts);
     const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < tuning::crumpled_error;
     if (!parts.flaws.broken() && (error < tuning::unseen_error || (is_cut && hopeless_as_one(*root, error)))) return {};
+    // One map of the whole. It must beat the parts before its repair, and after it.
     std::optional<FlatPart> found;
     try {
         found = as_one_map(whole, root, parts.flaws.broken(), context);
@@ -262,6 +266,7 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     const double own = error_of_one();
     if (parts.flaws.broken()) return found;
     if (own >= most) return {};
+    // Its cost must be lower too, and its angles better than those of polished parts.
     double cost = 0.0;
     for (const FlatPart& part : parts.parts) cost += cost_of(part, part_price);
     if (cost_of(one, part_price) >= cost) return {};

@@ -134,6 +134,7 @@ private:
     void add_faces(const PlanarPoints& points, std::vector<Eigen::Triplet<Complex, Index>>& entries,
                    VectorXcd& right) const
     {
+        // mu = f_zbar / f_z, with the larger of both as denominator, so that flipped faces stay bounded.
         VectorXcd mu(faces_.rows());
         VectorXd scale(faces_.rows());
         for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
@@ -145,6 +146,7 @@ private:
             scale[f] = 1.0 / std::max({std::abs(z), std::abs(zbar), 1e-300});
             mu[f] = scale[f] * zbar;
         }
+        // One step for sum |mu| by weights 1 / |mu| (iteratively reweighted least squares).
         const double least = least_distortion * mu.cwiseAbs().mean() + 1e-30;
         for (Eigen::Index f = 0; f < faces_.rows(); ++f) {
             const double weight = 1.0 / std::max(std::abs(mu[f]), least);

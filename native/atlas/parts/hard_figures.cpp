@@ -93,6 +93,7 @@ private:
 
     void measure_regions(HardFigures& figures) const
     {
+        // Regions: faces joined across edges that do not bend.
         DisjointSets sets(layout_.part.size());
         each_edge([&](auto begin, auto end) {
             for (auto side = begin + 1; side < end; ++side)
@@ -106,6 +107,7 @@ private:
             regions[sets.find(static_cast<Index>(f))].push_back(f);
             total += areas_[f];
         }
+        // Of the planar ones that are large enough, the area that lies whole in one island. Slivers do not decide.
         for (auto& [root, faces] : regions) {
             double area = 0.0;
             for (const Eigen::Index f : faces) area += areas_[f];
@@ -177,6 +179,7 @@ private:
 
     void measure_edges(HardFigures& figures) const
     {
+        // Edges of the outlines, and the directions in which outlines leave each vertex.
         std::vector<FaceSide> outer;
         each_edge([&](auto begin, auto end) {
             if (end - begin != 2 || !meet(*begin, *(begin + 1))) outer.insert(outer.end(), begin, end);
@@ -190,6 +193,7 @@ private:
         const auto goes_on = [&](Index v, const Eigen::RowVector3d& along) {
             return std::ranges::any_of(leaving.at(v), [&](const auto& d) { return d.dot(along) > goes_on_straight; });
         };
+        // Long edges, and short ones that continue straight: how much of their length lies along an axis.
         const double least = long_outer_edge * std::sqrt(areas_.sum());
         double all = 0.0, along_axes = 0.0;
         for (const FaceSide& side : outer) {

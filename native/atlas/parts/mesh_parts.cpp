@@ -71,6 +71,7 @@ public:
         for (std::size_t i = 0; i < pieces_.size(); ++i)
             if (pieces_[i].parts.empty())
                 (8 * pieces_[i].input.piece.triangles.rows() > total_ ? big : small).push_back(i);
+        // Progress by faces.
         std::vector<SplitEffort> efforts(pieces_.size());
         double done = 0.0;
         const auto stage = [&](double faces) {
@@ -78,6 +79,7 @@ public:
             done = std::min(1.0, done + faces / static_cast<double>(total_));
             context_.begin_stage("split", 0.05 + 0.75 * from, 0.05 + 0.75 * done);
         };
+        // The large ones, then all others at once.
         for (const std::size_t i : big) {
             stage(static_cast<double>(pieces_[i].input.piece.triangles.rows()));
             decide_parts(pieces_[i], total_, options_, options_.threads, context_, efforts[i]);
@@ -87,6 +89,7 @@ public:
         side_by_side(small.size(), options_.threads, context_, [&](std::size_t k, ExecutionContext& own) {
             decide_parts(pieces_[small[k]], total_, options_, 1, own, efforts[small[k]]);
         });
+        // The report counts maps of the whole mesh.
         for (std::size_t i = 0; i < pieces_.size(); ++i)
             result_.maps += efforts[i].maps * static_cast<double>(pieces_[i].input.piece.triangles.rows()) /
                             static_cast<double>(total_);
@@ -121,13 +124,10 @@ private:
     bool is_cut() const
     {
         std::size_t count = 0;
-        double length = 0.0;
-        for (const MeshPiece& own : pieces_)
-            for (const FlatPart& part : own.parts) {
-                ++count;
-                length += part.slit + part.dart_length;
-            }
-        return count > 1 || length > 0.0;
+        for (const MeshPiece& own : pieces_) count += own.parts.size();
+        return count > 1 || std::ranges::any_of(pieces_, [](const MeshPiece& own) {
+                   return std::ranges::any_of(own.parts, &FlatPart::is_cut_open);
+               });
     }
 
     /// @param stitch whether parts may be joined again @return E; nothing if only an uncut mesh is asked for, and the

@@ -131,12 +131,14 @@ std::vector<Warning> warnings_of(const PartsLayout& layout, const std::vector<In
                                  const Distortion& distortion)
 {
     std::vector<Warning> warnings;
+    // Of the mesh.
     if (!left_out.empty())
         warnings.push_back(
             {WarningKind::collapsed_faces,
              counted(left_out.size(), "face") + " in no part: without area, or with the same vertices as another face",
              left_out});
     warn_reoriented(layout.reoriented, warnings);
+    // Of the UVs as stored. A face too small for them may lie either way.
     if (!distortion.below_resolution.empty())
         warnings.push_back({WarningKind::below_resolution,
                             counted(distortion.below_resolution.size(), "face") + " below the resolution of 32-bit UVs",

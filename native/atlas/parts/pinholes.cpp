@@ -67,12 +67,14 @@ std::optional<PieceInput> without_pinholes(const PieceInput& input, const Surfac
     PieceInput filled = input;
     filled.face.clear();
     SurfacePiece& piece = filled.piece;
+    // A fan in each pinhole: a vertex and as many faces as the rim has edges.
     FilledSurface fans = fill_holes(piece.vertices, piece.triangles, ranks);
     const auto added = static_cast<std::size_t>(fans.triangles.rows() - piece.triangles.rows());
     piece.vertices = std::move(fans.vertices);
     piece.triangles = std::move(fans.triangles);
     piece.source_face.resize(piece.source_face.size() + added, -1);
     piece.turned.resize(piece.turned.size() + added, 0);
+    // New faces have no source. A hub has that of a vertex beside it.
     for (const Index k : ranks) {
         const Index beside = surface.loops[k].front();
         piece.source_vertex.push_back(piece.source_vertex[beside]);

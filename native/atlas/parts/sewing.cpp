@@ -55,6 +55,7 @@ public:
           before(static_cast<std::size_t>(triangles.rows())),
           after(static_cast<std::size_t>(triangles.rows()))
     {
+        // Edges whose sides meet in the UVs already.
         const std::map<EdgeEnds, EdgeCorners> edges = edge_corners(triangles);
         const PlanarPoints& uv = options.uv;
         const auto same = [&](const std::array<Index, 2>& at) {
@@ -66,6 +67,7 @@ public:
             join(edge);
             before.join(edge.low[0] / 3, edge.low[1] / 3);
         }
+        // Edges that are to be sewn.
         for (const auto& [a, b] : options.edges) {
             const auto found = edges.find(sorted_ends(a, b));
             if (found == edges.end()) throw InputError("a pair of vertices is no edge", ElementKind::edges, {a, b});

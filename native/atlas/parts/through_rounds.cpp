@@ -32,12 +32,14 @@ struct NamedCut {
 /// The cut along these vertices of the whole, if it runs through this part.
 std::optional<ThroughCut> cut_in(const FlatPart& flat, const NamedCut& named)
 {
+    // The cut's edges by their vertices in the whole.
     std::map<EdgeEnds, std::size_t> wanted;
     for (std::size_t i = 0; i + 1 < named.vertices.size(); ++i)
         wanted.emplace(sorted_ends(named.vertices[i], named.vertices[i + 1]), i);
     const Triangles& triangles = flat.surface.triangles;
     ThroughCut cut{std::vector<Index>(named.vertices.size(), -1), std::vector<Index>(wanted.size(), no_twin)};
     if (wanted.size() + 1 != named.vertices.size()) return {};
+    // Find them in the part. A vertex that the part has twice excludes the cut.
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h) {
         if (flat.surface.twin[h] < h) continue;
         const Index a = origin(triangles, h), b = target(triangles, h);
@@ -52,6 +54,7 @@ std::optional<ThroughCut> cut_in(const FlatPart& flat, const NamedCut& named)
         }
     }
     if (std::ranges::count(cut.halfedges, no_twin) > 0) return {};
+    // It begins and ends on the border, and stays inside between.
     const std::vector<char> outside = boundary_mask(flat.surface);
     for (std::size_t i = 0; i < cut.vertices.size(); ++i)
         if ((outside[cut.vertices[i]] != 0) != (i == 0 || i + 1 == cut.vertices.size())) return {};
@@ -117,6 +120,7 @@ private:
         std::vector<ThroughCut> cuts = promising_through_cuts(pieces_[k].flat, even, price_, pieces_[k].refused);
         if (cuts.empty()) return false;
         if (!pieces_[k].flat.image.empty()) cuts.resize(1);
+        // Open, relax, compare. If some cuts do not pay, the others are tried again without them.
         while (!cuts.empty()) {
             std::optional<Trial> trial = opened(k, cuts);
             if (trial && !relax(*trial, even, context)) trial.reset();

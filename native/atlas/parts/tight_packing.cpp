@@ -118,6 +118,7 @@ private:
 
     bool pack_coarsely(std::int64_t most)
     {
+        // Start: random places, or those of an earlier packing.
         drawn_ = draw(side_);
         Separation separation(drawn_.masks);
         for (std::uint64_t k = 0; k < seed_ * islands_.size(); ++k) separation.random();
@@ -126,8 +127,10 @@ private:
             spot = {0, static_cast<int>(separation.random() % coarse_side),
                     static_cast<int>(separation.random() % coarse_side)};
         if (from_) begin_with(*from_);
+        // A board on which they come apart at all.
         for (int k = 0; !separation.separate(side_, spots_, false, most); side_ += side_ / 20)
             if (++k == most_larger || separation.work() > most || is_over()) return false;
+        // Smaller boards: the step is halved after failures, then islands are shaken.
         int step = side_ / 32;
         for (int failures = 0; failures < most_failures && separation.work() < most && !is_over();) {
             std::vector<IslandSpot> spots = squeezed(side_ - step);

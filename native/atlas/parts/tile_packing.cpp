@@ -83,6 +83,8 @@ private:
     /// Spreads the islands over the tiles at the largest scale found.
     void spread()
     {
+        // The largest scale at which an island fits on a tile, and all areas on all tiles. Smaller ones, until they
+        // fit.
         double area = 0.0;
         for (const double own : area_) area += own;
         const double room = std::sqrt(static_cast<double>(tiles_.size()) / area);
@@ -90,6 +92,7 @@ private:
         std::optional<SheetPacking> best;
         for (int k = 0; !(best = on_sheets(scale)); scale *= next_scale_of_tiles)
             if (++k == most_scales_of_tiles) throw SolverError("the islands have no room on the tiles");
+        // Bisection of its logarithm between the last two.
         double step = 1.0 / next_scale_of_tiles;
         for (int k = 0; k < halvings && outlines_.size() <= many_on_tiles; ++k) {
             step = std::sqrt(step);
@@ -98,6 +101,7 @@ private:
                 scale *= step;
             }
         }
+        // Note each island on its tile.
         for (std::size_t i = 0; i < outlines_.size(); ++i) {
             OneTile& tile = tiles_[static_cast<std::size_t>(best->sheet[i])];
             tile.islands.push_back(i);

@@ -38,6 +38,7 @@ void straight_runs(const FlatPart& part, const VertexLoop& loop, double least, s
         const auto point = part.points.row(loop[i % count]);
         return Complex(point[0], point[1]);
     };
+    // Begin at a corner, so that no run is cut in two.
     std::size_t corner = 0;
     while (corner < count && direction(corner).dot(direction(corner + count - 1)) > tolerance::straight) ++corner;
     for (std::size_t i = corner; i < corner + count;) {
@@ -49,6 +50,7 @@ void straight_runs(const FlatPart& part, const VertexLoop& loop, double least, s
             drawn += std::abs(at(i + 1) - at(i));
             ++i;
         } while (i < corner + count && direction(i).dot(first) > tolerance::straight);
+        // A run counts if it is long, and drawn straight too. Its angle is taken modulo 90 degrees.
         const Complex chord = at(i) - at(begin);
         if (!(in_space >= least) || !(std::abs(chord) >= straight_as_drawn * drawn)) continue;
         constexpr double quarter = 0.5 * std::numbers::pi;

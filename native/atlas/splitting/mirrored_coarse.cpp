@@ -213,6 +213,7 @@ bool corresponds(const Surface& fine, const CoarseSurface& coarse)
         return false;
     }
     if (own.genus != fine.genus || own.loops.size() != fine.loops.size()) return false;
+    // Loop and number of each fine vertex on a rim.
     std::vector<std::pair<int, Index>> place(static_cast<std::size_t>(fine.vertex_count), {-1, -1});
     for (std::size_t k = 0; k < fine.loops.size(); ++k)
         for (std::size_t i = 0; i < fine.loops[k].size(); ++i)
@@ -222,6 +223,7 @@ bool corresponds(const Surface& fine, const CoarseSurface& coarse)
         const int fine_loop = place[coarse.vertex[loop.front()]].first;
         if (fine_loop < 0 || taken[fine_loop]) return false;
         taken[fine_loop] = 1;
+        // In the same direction, once round: the number falls exactly once.
         int descents = 0;
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const auto here = place[coarse.vertex[loop[i]]], next = place[coarse.vertex[loop[(i + 1) % loop.size()]]];

@@ -39,12 +39,14 @@ std::vector<PieceLoop> piece_loops(const PartMesh& part, const PartMap& map, con
     std::vector<char> seen(triangles.size(), 0);
     std::vector<PieceLoop> loops;
     std::vector<Complex> points;
+    // From each edge on the border of a piece, once round.
     for (Index first = 0; first < static_cast<Index>(triangles.size()); ++first) {
         if (seen[first] || piece[face_of(first)] < 0 || inside(first)) continue;
         points.clear();
         for (Index h = first; !seen[h];) {
             seen[h] = 1;
             points.push_back(map.positions[origin(triangles, h)]);
+            // The next border edge around the end vertex.
             h = next_halfedge(h);
             while (inside(h)) h = next_halfedge(surface.twin[h]);
         }
@@ -105,6 +107,7 @@ std::vector<PieceForecast> forecast_pieces(const PartMesh& part, const PartMap& 
                                            Index count)
 {
     std::vector<PieceForecast> forecasts(count);
+    // Areas, and the faces that the map has not lost.
     std::vector<std::vector<Index>> faces(count);
     for (std::size_t f = 0; f < piece.size(); ++f) {
         if (piece[f] < 0) continue;
@@ -115,11 +118,13 @@ std::vector<PieceForecast> forecast_pieces(const PartMesh& part, const PartMap& 
         else
             faces[piece[f]].push_back(static_cast<Index>(f));
     }
+    // Loops, the widest first: it is the outer one.
     std::vector<std::vector<PieceLoop>> loops(count);
     for (const PieceLoop& loop : piece_loops(part, map, piece)) loops[loop.piece].push_back(loop);
     for (Index k = 0; k < count; ++k) {
         if (loops[k].empty()) continue;
         std::ranges::iter_swap(loops[k].begin(), std::ranges::max_element(loops[k], {}, &PieceLoop::width));
+        // Judge by a sample of the faces.
         std::vector<Index> picked;
         const std::size_t stride = std::max<std::size_t>(1, faces[k].size() / most_samples);
         for (std::size_t i = 0; i < faces[k].size(); i += stride) picked.push_back(faces[k][i]);

@@ -103,10 +103,12 @@ Proposal propose(const PartMap& map, const Window& window)
 /// The places where the map shrinks most, in each piece below the window; the costliest piece first.
 std::vector<Complex> tips(const PartMesh& part, const PartMap& map, const Window& window)
 {
+    // Pieces of the faces that are smaller than the window shows.
     std::vector<int> label(part.faces.size());
     for (std::size_t f = 0; f < label.size(); ++f) label[f] = map.u[static_cast<Eigen::Index>(f)] < window.from;
     Index count = 0;
     const std::vector<Index> piece = connected_pieces(part, label, count);
+    // Their cost in area times log density, and the smallest face.
     struct Tip {
         double cost = 0.0, u = std::numeric_limits<double>::infinity();
         Complex place;
@@ -122,6 +124,7 @@ std::vector<Complex> tips(const PartMesh& part, const PartMap& map, const Window
             tip.place = map.centers[face];
         }
     }
+    // The costliest ones.
     std::ranges::sort(all, [](const Tip& a, const Tip& b) { return a.cost > b.cost; });
     std::vector<Complex> places;
     for (const Tip& tip : all)

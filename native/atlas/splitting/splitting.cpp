@@ -189,8 +189,10 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
                ExecutionContext& context)
 {
     Step step;
+    // A map that lost much of the part says nothing of its splits: map it anew.
     if (!part->map.measured && part->map.lost_area > tuning::noticeable * part->mesh.area)
         map_anew(whole, *part, context, step.effort);
+    // Split where it pays.
     Split split;
     if (!part->settled && part->map.overflow > options.part_price && !is_late)
         split = best_split(whole, part, options, threads, context, step.effort);
@@ -198,6 +200,7 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
         step.open = std::move(split.children);
         return step;
     }
+    // Else judge by a map of its own, which may show a split after all.
     if (!part->map.measured) {
         map_anew(whole, *part, context, step.effort);
         if (part->map.overflow > options.part_price && !is_late) {
@@ -205,6 +208,7 @@ Step take_step(const CutSurface& whole, const SplitOptions& options, const PartP
             return step;
         }
     }
+    // Texels so uneven that any cut is better.
     if (part->map.overflow > most_uncut(part->mesh.area, options.part_price) && !is_late)
         step.open = halved(whole, part, threads, context, step.effort);
     if (!step.open.empty()) return step;

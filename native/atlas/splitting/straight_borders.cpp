@@ -71,6 +71,7 @@ private:
     bool divide(const Path& from, const Path& to, int left, int right, std::vector<Index> (&faces)[2]) const
     {
         const std::vector<Index>& twin = whole_.surface.twin;
+        // Walls: the borders of both parts, with the new border in place of the old one.
         std::vector<char> is_closed(twin.size(), 0);
         for (const Part* part : {parts_[left].get(), parts_[right].get()})
             for (const Index f : part->mesh.faces)
@@ -79,6 +80,7 @@ private:
         for (const Index h : from) is_closed[h] = is_closed[twin[h]] = 0;
         for (const Index h : to) is_closed[h] = is_closed[twin[h]] = 1;
         std::vector<signed char> side(label_.size(), -1);
+        // Flood from either side of the new border. The floods may not meet, and must reach all faces.
         for (const int k : {0, 1}) {
             const Index seed = face_of(k == 0 ? to.front() : twin[to.front()]);
             if (side[seed] >= 0) return false;

@@ -300,6 +300,7 @@ private:
 std::vector<Path> chains_of(const Surface& surface, const std::vector<char>& is_cut)
 {
     const Triangles& triangles = surface.triangles;
+    // Cut edges that leave each vertex.
     std::vector<std::vector<Index>> leaving(static_cast<std::size_t>(surface.vertex_count));
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
         if (surface.twin[h] != no_twin && (is_cut[h] || is_cut[surface.twin[h]]))
@@ -307,6 +308,7 @@ std::vector<Path> chains_of(const Surface& surface, const std::vector<char>& is_
     const std::vector<char> outside = boundary_mask(surface);
     std::vector<char> seen(surface.twin.size(), 0);
     std::vector<Path> all;
+    // Chains end at the border, and where not two edges meet.
     const auto is_node = [&](Index v) { return outside[v] != 0 || leaving[v].size() != 2; };
     const auto walk = [&](Index h, Index start) {
         Path chain{h};
@@ -317,6 +319,7 @@ std::vector<Path> chains_of(const Surface& surface, const std::vector<char>& is_
         for (const Index own : chain) seen[own] = seen[surface.twin[own]] = 1;
         all.push_back(std::move(chain));
     };
+    // Chains between nodes first; what is left is closed.
     for (const bool closed : {false, true})
         for (Index v = 0; v < surface.vertex_count; ++v)
             if (is_node(v) != closed)

@@ -42,6 +42,7 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
 #ifdef __EMSCRIPTEN__  // no threads: a page ends the worker that computes
     return compute(context);
 #else
+    // All that both threads touch lives as long as the later one of them.
     struct Shared {
         detail::CountedRun counted;
         std::mutex mutex;
@@ -53,6 +54,7 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
         CancelToken token;
     };
     auto shared = std::make_shared<Shared>();
+    // The computation. What it owns is freed before its end is reported.
     std::thread thread([shared, compute = std::move(compute), stage = detail::stage_here()]() mutable {
         const ProfiledThread profiled(stage);
         ExecutionContext inner(
@@ -77,6 +79,7 @@ Result run_detachable(ExecutionContext& context, std::function<Result(ExecutionC
         shared->done = true;
         shared->changed.notify_one();
     });
+    // The caller passes reports on, and asks for a raised token every 20 ms.
     const ProfiledStage waiting("wait");
     try {
         std::unique_lock lock(shared->mutex);

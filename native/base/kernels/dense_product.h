@@ -147,10 +147,12 @@ static void add_narrow_product(int m, int n, int k, double alpha, View a, View b
     for (int j = 0; j < n; ++j) {
         double* to = &c(0, j);
         for (int p = 0; p < k; ++p) factors[p] = alpha * b(p, j);
+        // A's rows lie in one piece: scalar products.
         if (by_rows) {
             for (int i = 0; i < m; ++i) to[i] += scalar_product(k, a.data + i * a.row_step, factors);
             continue;
         }
+        // A's columns lie in one piece: four at a time, as C's column is then read and written a quarter as often.
         int p = 0;
         for (; p + 4 <= k; p += 4) {
             const double *first = a.data + p * a.column_step, *second = first + a.column_step,

@@ -83,6 +83,7 @@ std::vector<std::vector<Index>> FilledLaplacian::nodes(Index loop_size)
 FilledLaplacian::FilledLaplacian(const SparseMatrix& laplacian, const std::vector<std::vector<Index>>& loops)
     : loops_(loops),
       boundary_(laplacian, joined(loops)),
+      // Large disks get nodes of their own: unknowns past those of the surface.
       noded_([&] {
           std::vector<NodedLoop> noded;
           Index first = static_cast<Index>(laplacian.rows());
@@ -97,7 +98,9 @@ FilledLaplacian::FilledLaplacian(const SparseMatrix& laplacian, const std::vecto
       }()),
       surface_size_(static_cast<Index>(laplacian.rows())),
       factor_size_(surface_size_),
+      // So stiff that a loop is held at 0.
       stiff_(stiffness * laplacian.diagonal().maxCoeff()),
+      // One factorization with room for the blocks of all disks. Its last rows are those that change.
       cholesky_([&] {
           for (const NodedLoop& noded : noded_) factor_size_ += static_cast<Index>(noded.ties.size());
           const std::vector<std::vector<Index>> rows = disk_rows();

@@ -103,6 +103,7 @@ private:
 std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vector<std::vector<Index>>& sets)
 {
     const ProfiledStage profiled("invert");
+    // The supernodes of the sets, and all above them.
     std::vector<char> needed(l.count(), 0);
     for (const std::vector<Index>& set : sets)
         for (const Index v : set)
@@ -112,6 +113,7 @@ std::vector<MatrixXd> selected_inverse(const SupernodalFactor& l, const std::vec
         std::for_each(supernodes.rbegin(), supernodes.rend(), [&](Index s) { inverse.compute(s); });
     });
 
+    // Read the blocks, of which the pattern has the lower half in the order of elimination.
     std::vector<MatrixXd> result(sets.size());
     each_beside(sets.size(), [&](std::size_t k) {
         const std::vector<Index>& set = sets[k];
@@ -317,6 +319,7 @@ std::vector<MatrixXd> SparseCholesky::inverse_blocks(const std::vector<std::vect
 
 DirichletSolver::DirichletSolver(const SparseMatrix& laplacian, const std::vector<char>& fixed)
 {
+    // Split L in free and fixed unknowns: L_ff u_f = -L_fc u_c.
     std::vector<Index> rank(fixed.size());
     for (std::size_t v = 0; v < fixed.size(); ++v) {
         std::vector<Index>& part = fixed[v] ? fixed_ : free_;
@@ -324,6 +327,7 @@ DirichletSolver::DirichletSolver(const SparseMatrix& laplacian, const std::vecto
         part.push_back(static_cast<Index>(v));
     }
     if (free_.empty()) return;
+    // L_ff column by column, already sorted; L_fc as triplets.
     SparseMatrix inner(free_.size(), free_.size());
     inner.reserve(laplacian.nonZeros());
     std::vector<Eigen::Triplet<double, Index>> coupling;

@@ -59,6 +59,7 @@ void visit_crossings(const std::vector<VertexLoop>& loops, std::span<const LoopD
                      const Visit& visit)
 {
     const PlanarPoints& points = drawings.front().points;
+    // The box of each edge in the first drawing, wide enough for the others.
     std::vector<EdgeBox> boxes;
     for (const VertexLoop& loop : loops) {
         std::array<std::vector<Index>, most_drawings> begins;
@@ -73,6 +74,7 @@ void visit_crossings(const std::vector<VertexLoop>& loops, std::span<const LoopD
             boxes.emplace_back(low, high, edge);
         }
     }
+    // Where boxes meet, each drawing is asked exactly.
     detail::visit_meeting_boxes(boxes, [&](const EdgeBox& first, const EdgeBox& second) {
         const LoopEdge e = first.info(), f = second.info();
         for (std::size_t k = 0; k < drawings.size(); ++k)

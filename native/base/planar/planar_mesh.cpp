@@ -54,6 +54,7 @@ constexpr std::size_t run_length = 8;
 SizeField::SizeField(const std::vector<VectorXcd>& polygons, double longest, double gradation)
     : longest_(longest), gradation_(gradation), levels_(1)
 {
+    // Lowest level: the size at each corner, the mean of its two edges.
     for (const VectorXcd& polygon : polygons)
         for (Eigen::Index i = 0, n = polygon.size(); i < n; ++i) {
             const Complex here = polygon[i];
@@ -61,6 +62,7 @@ SizeField::SizeField(const std::vector<VectorXcd>& polygons, double longest, dou
                 0.5 * (distance(polygon[(i + 1) % n], here) + distance(here, polygon[(i + n - 1) % n]));
             levels_[0].push_back({0, 0, here, 0.0, length});
         }
+    // Each level has runs of the one below: a disk around them, and their shortest size, for bounds from below.
     while (levels_.back().size() > run_length) {
         const std::vector<Run>& below = levels_.back();
         std::vector<Run> runs;
@@ -175,10 +177,12 @@ std::vector<Candidate> candidates(PlanarRegion& region, const SizeField& size)
         if (!region.inside(f) || note.state == done) continue;
         const Complex a = to_complex(f->vertex(0)->point());
         const Complex u = to_complex(f->vertex(1)->point()) - a, v = to_complex(f->vertex(2)->point()) - a;
+        // a + arm is the circumcentre, |arm| the circumradius.
         const Complex centroid = a + (u + v) / 3.0;
         const Complex arm = Complex(0.0, 1.0) * (u * std::norm(v) - v * std::norm(u)) / (2.0 * cross(u, v));
         const double radius = distance(arm, 0.0);
         const bool is_new = note.state == unseen;
+        // A triangle is large by the size at its centroid. Sizes do not change, so they are asked once.
         if (is_new) note.wanted = size(centroid);
         if (radius <= split_ratio * note.wanted) {
             note.state = done;
@@ -189,6 +193,7 @@ std::vector<Candidate> candidates(PlanarRegion& region, const SizeField& size)
         if (note.state == pending) result.push_back({a + arm, split_ratio * note.there, radius / note.wanted, f});
         result.push_back({centroid, split_ratio * note.wanted, 0.0, f});
     }
+    // Largest first. Equal ones stay in order, so that the mesh is always the same.
     std::stable_sort(result.begin(), result.end(),
                      [](const Candidate& s, const Candidate& t) { return s.excess > t.excess; });
     return result;

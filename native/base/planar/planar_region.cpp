@@ -82,6 +82,7 @@ void PlanarRegion::mark_inside()
     constexpr char unknown = -1;
     for (auto f = cdt_.all_faces_begin(); f != cdt_.all_faces_end(); ++f) f->info().state = unknown;
     std::vector<Cdt::Face_handle> front{cdt_.infinite_face()}, beyond;
+    // From infinity inwards: each rim that is crossed changes between outside and inside.
     for (char side = 0; !front.empty(); side ^= 1) {
         beyond.clear();
         for (const Cdt::Face_handle face : front)

@@ -24,6 +24,7 @@ double least_area(const std::vector<Complex>& polygon, Complex x)
 /// The mean corner of the kernel, computed as the polygon's box cut by the line of each edge.
 std::optional<Complex> kernel_point(const std::vector<Complex>& polygon)
 {
+    // Begin with the box.
     double left = polygon[0].real(), right = left, low = polygon[0].imag(), high = low;
     for (const Complex p : polygon) {
         left = std::min(left, p.real());
@@ -32,6 +33,7 @@ std::optional<Complex> kernel_point(const std::vector<Complex>& polygon)
         high = std::max(high, p.imag());
     }
     std::vector<Complex> kernel{{left, low}, {right, low}, {right, high}, {left, high}}, cut;
+    // Cut it by the half plane left of each edge (Sutherland and Hodgman).
     for (std::size_t i = 0; i < polygon.size() && !kernel.empty(); ++i) {
         const Complex a = polygon[i], edge = polygon[(i + 1) % polygon.size()] - a;
         cut.clear();

@@ -49,6 +49,7 @@ FaceScales face_scales(const Vertices& vertices, const Triangles& triangles, con
     std::vector<Complex> centers;
     std::vector<double> log_ratio, weights;
     double whole = 0.0;
+    // log(area in the UVs / area on the surface) of a sample of faces. The whole area is that of all faces.
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
         const auto corner = [&](int c) { return Complex(uv(triangles(f, c), 0), uv(triangles(f, c), 1)); };
         const Eigen::RowVector3d e1 = vertices.row(triangles(f, 1)) - vertices.row(triangles(f, 0));
@@ -62,6 +63,7 @@ FaceScales face_scales(const Vertices& vertices, const Triangles& triangles, con
         log_ratio.push_back(std::log(uv_area / area));
         weights.push_back(area);
     }
+    // Relative to a map that keeps areas: there the ratio is pi / whole.
     const Eigen::Index count = static_cast<Eigen::Index>(centers.size());
     for (double& ratio : log_ratio) ratio -= std::log(std::numbers::pi / whole);
     return {Eigen::Map<VectorXcd>(centers.data(), count), Eigen::Map<VectorXd>(log_ratio.data(), count),

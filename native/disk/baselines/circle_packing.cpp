@@ -16,6 +16,8 @@ CirclePacking circle_packing(const Triangles& triangles, const EdgeLengths& leng
     const bool acute = kind == Packing::acute;
     VectorXd radii = VectorXd::Constant(vertex_count, acute ? 0.0 : std::numeric_limits<double>::infinity());
     VectorXd corners = VectorXd::Zero(vertex_count);
+    // In a face with lengths l_ij, circles that touch have the radius (l_ij + l_ik - l_jk) / 2: their mean at a vertex
+    // (acute), or the smallest (inversive).
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k) {
             const double radius = 0.5 * (lengths(f, k) + lengths(f, (k + 2) % 3) - lengths(f, (k + 1) % 3));
@@ -27,6 +29,7 @@ CirclePacking circle_packing(const Triangles& triangles, const EdgeLengths& leng
     for (Index v = 0; v < vertex_count; ++v)
         radii[v] = corners[v] == 0.0 ? 1.0 : std::max(acute ? radii[v] / corners[v] : radii[v], least);
 
+    // Inversive distance of an edge: eta = (l^2 - a^2 - b^2) / 2ab, here without cancellation.
     CirclePacking packing{radii.array().log(), EdgeLengths(lengths.rows(), 3), 0.0};
     for (Eigen::Index f = 0; f < triangles.rows(); ++f)
         for (int k = 0; k < 3; ++k) {

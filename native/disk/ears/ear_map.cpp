@@ -154,9 +154,10 @@ bool chains_meet(const PlacedEar& a, const PlacedEar& b)
 }
 
 /// Flattens ears until each is upright, inside the hole, and apart from the others.
-void settle(std::vector<PlacedEar*>& ears, const VectorXcd& hole, const ExecutionContext& context)
+void flatten_until_apart(std::vector<PlacedEar*>& ears, const VectorXcd& hole, const ExecutionContext& context)
 {
     const Complex middle = hole.mean();
+    // Begin with each ear's natural shape.
     for (PlacedEar* ear : ears) {
         ear->natural = flatten_freely(ear->vertices, ear->triangles, {0, 1}, {ear->image[0], ear->image[1]});
         draw(*ear, middle);
@@ -167,6 +168,7 @@ void settle(std::vector<PlacedEar*>& ears, const VectorXcd& hole, const Executio
         draw(ear, middle);
         return true;
     };
+    // Flatten where two ears meet, until nothing changes. Levels only rise, so this ends.
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t i = 0; i < ears.size(); ++i) {
@@ -213,7 +215,7 @@ std::vector<Index> lay_ears(const Vertices& vertices, const Triangles& triangles
         for (const Index v : loops[k])
             if (!cut[v]) hole[corners++] = {uv(v, 0), uv(v, 1)};
         hole.conservativeResize(corners);
-        settle(of_loop, hole, context);
+        flatten_until_apart(of_loop, hole, context);
         for (const PlacedEar* ear : of_loop)
             off_circle.insert(off_circle.end(), ear->names.begin() + 2, ear->names.begin() + 2 + ear->rim);
     }

@@ -68,6 +68,7 @@ private:
 
     void split(const EdgeLengths& lengths)
     {
+        // Flood from each face that has no part yet, up to chords.
         for (Index seed = 0; seed < static_cast<Index>(part_of_.size()); ++seed) {
             if (part_of_[seed] >= 0) continue;
             const Index id = static_cast<Index>(parts_.size());

@@ -170,19 +170,19 @@ private:
     void draw_and_mend(Attempt& best, const ExecutionContext& context)
     {
         draw(context);
-        note(best);
+        keep_if_better(best);
         for (int round = 0; round < refits && best.off > 0 && note_off() > 0 && map_.work() < most_work_; ++round) {
             for (std::size_t k = 1; k < loops_.size(); ++k)
                 if (off_[k]) map_.release(k);
             map_.relax({.regular = open_holes}, 12, context);
             if (!refit(off_, HoleCircle::inside)) break;
             draw(context);
-            note(best);
+            keep_if_better(best);
         }
     }
 
     /// Notes the map if fewer vertices are off their circles.
-    void note(Attempt& best)
+    void keep_if_better(Attempt& best)
     {
         const int off = note_off();
         if (best.off < 0 || off < best.off) best = {off, map_.state(), roundness_};

@@ -84,6 +84,8 @@ VectorXcd widened_rim(const FilledDisk& filled, const VertexLoop& outer, const V
 {
     const auto n = static_cast<Index>(outer.size());
     VectorXd steps = VectorXd::Constant(n, 2.0 * std::numbers::pi / n);
+    // Give an arc with many faces behind it the angle a at which its cap's share of the disk, about a^3 / 12 pi, is
+    // theirs.
     if (n <= most_vertices)
         for (const Arc& arc : arcs_of(filled, outer, center)) {
             const double share_of_faces = arc.faces / static_cast<double>(filled.triangles.rows());
@@ -93,11 +95,13 @@ VectorXcd widened_rim(const FilledDisk& filled, const VertexLoop& outer, const V
             if (now < needed)
                 for (Index i = 0; i < arc.steps; ++i) steps[(arc.first + i) % n] *= needed / now;
         }
+    // No arc of the given rim becomes shorter.
     for (Index i = 0; i < n; ++i) {
         const double given = std::arg(rim[(i + 1) % n] / rim[i]);
         const double angle = given > 0.0 ? given : given + 2.0 * std::numbers::pi;
         steps[i] = share < 1.0 ? std::max(angle, share * steps[i]) : steps[i];
     }
+    // Close the circle.
     steps *= 2.0 * std::numbers::pi / steps.sum();
     VectorXcd result(n);
     double angle = std::arg(rim[0]);

@@ -129,7 +129,7 @@ public:
     {
         FoldoverProblem problem = surface_problem();
         const FoldoverResult done = minimize(problem, iterations, grid_, &pattern_);
-        take(problem, done, result);
+        take_solution(problem, done, result);
         return done.hindered;
     }
 
@@ -161,7 +161,7 @@ private:
             }
             const FoldoverResult done = minimize(problem, steps_a_round, grid_ > 0 ? std::max(grid_, fine_grid) : 0);
             const PlanarPoints last = flat_.points;
-            take(problem, done, result);
+            take_solution(problem, done, result);
             if (flat_.points == last) return;
             ++result.rounds;
             const double now = energy();
@@ -298,16 +298,20 @@ private:
         problem.reference = shapes_.references;
         problem.weight = shapes_.areas.cwiseMax(least_weight * mean_area()) / shapes_.areas.sum();
         problem.floor.resize(flat_.triangles.rows());
+        // Each face asks for its area on the surface, but for at most a bounded change of its present area.
         for (Eigen::Index f = 0; f < flat_.triangles.rows(); ++f) {
             const CornerPlaces at = corners(f);
             const double now = area(at);
             const double wanted = std::clamp(shapes_.areas[f], now / longest_approach, now * longest_approach);
             problem.reference[f] *= std::sqrt(wanted / shapes_.areas[f]);
+            // Faces that are stretched beyond hope count less: they would hold all others.
             const FaceMap map = face_map(problem.reference[f], f);
             problem.weight[f] *= weight_of(f) * std::min(1.0, hopeless * map.determinant() / map.squared_norm());
+            // Faces near the rounding of the grid have a floor that they do not sink below.
             const double least = 0.5 * area_rounding * extent_ * longest_edge(at);
             problem.floor[f] = std::min(now, wanted) > ample_face * least ? 0.0 : std::min(least, 0.5 * now) / wanted;
         }
+        // Who moves, and along which track.
         problem.mobility = mobility_;
         problem.track_of = track_of_;
         for (const RoundLoop& loop : flat_.round) problem.tracks.push_back(loop.track);
@@ -331,7 +335,7 @@ private:
         }
     }
 
-    void take(const FoldoverProblem& problem, const FoldoverResult& done, EvenMap& result)
+    void take_solution(const FoldoverProblem& problem, const FoldoverResult& done, EvenMap& result)
     {
         result.iterations += done.iterations;
         const PlanarPoints points = problem.points.topRows(flat_.points.rows());

@@ -173,11 +173,13 @@ private:
         for (Index v = 0; v < map_.vertex_count(); ++v)
             if (map_.mobility[v] != AngleMap::Mobility::held)
                 uv_.row(v) << map_.points[v].real(), map_.points[v].imag();
+        // Rounding to the grid can flip a face, and a face put back can flip its neighbour: hence some rounds.
         for (int i = 0; i < most_restorations; ++i) {
             std::vector<Index> wrong;
             for (const Index f : tangled_.tangled())
                 if (!std::ranges::binary_search(allowed, f))
                     wrong.insert(wrong.end(), triangles_.row(f).begin(), triangles_.row(f).end());
+            // Loops that cross go back as a whole.
             if (wrong.empty())
                 for (const auto& [a, b] : crossing_boundary_edges(tangled_.loops(), uv_, 2.0 * uv_resolution))
                     for (const Index v : {a, b}) {

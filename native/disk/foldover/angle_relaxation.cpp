@@ -24,7 +24,7 @@ public:
             const Complex place = map_.mobility[v] == AngleMap::Mobility::free ? map_.points[v] + share * step
                                                                                : slid(v, share * step.real());
             if (const double fall = before_ - error_at(v, place); fall > 0.0) {
-                take(v, place);
+                move_vertex(v, place);
                 return fall;
             }
         }
@@ -109,7 +109,7 @@ private:
         return sum;
     }
 
-    void take(Index v, Complex place)
+    void move_vertex(Index v, Complex place)
     {
         map_.points[v] = place;
         std::size_t i = 0;

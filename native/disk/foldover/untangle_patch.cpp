@@ -72,6 +72,7 @@ std::vector<std::vector<Index>> patches_around(const TangledMap& map, const std:
 bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape shape, PatchBoundary boundary,
                   RepairEffort& effort, const ExecutionContext& context)
 {
+    // Is there something to repair, and effort left for it? A problem that failed before fails again.
     const std::size_t tangled_before = map.tangled(patch).size(), lost_before = map.flipped(patch) - tangled_before;
     if (tangled_before == 0) return false;
     PatchProblem posed = patch_problem(map, patch, shape, boundary);
@@ -82,6 +83,8 @@ bool repair_patch(TangledMap& map, const std::vector<Index>& patch, PatchShape s
     if (effort.has_failed(name)) return false;
     effort.spend(faces, minimize_foldover_free(posed.problem, context, {.max_iterations = affordable}).iterations);
 
+    // Write the solution, and keep it if fewer faces are tangled and nothing else became worse: faces lost, loops that
+    // cross, holes that turn over.
     const PlanarPoints before = map.uv()(posed.vertices, Eigen::all);
     std::vector<Index> moved_rim;
     for (std::size_t i = 0; i < posed.vertices.size(); ++i)

@@ -50,6 +50,7 @@ void require_schedule(const Sweep& schedule, int loop_count, Method method)
     if (loop_count < 2) throw InputError("a surface with one boundary loop takes no schedule");
     const std::size_t opens = method == Method::ck && loop_count != 2 ? 1 : 2;
     std::vector<char> opened(loop_count, 0);
+    // Each step opens as many loops as the method does, and different ones.
     for (const OpenedLoops& step : schedule) {
         if (step.size() != opens)
             throw InputError("a step of the schedule opens " + std::to_string(step.size()) + " loops, not " +
@@ -68,6 +69,7 @@ void require_schedule(const Sweep& schedule, int loop_count, Method method)
             throw InputError("a step of the schedule fills loop 0, which this method never does", ElementKind::loops,
                              {0});
     }
+    // A loop that is never opened would never become round.
     if (const auto missed = std::ranges::find(opened, 0); missed != opened.end())
         throw InputError("the schedule never opens loop " + std::to_string(missed - opened.begin()), ElementKind::loops,
                          {static_cast<Index>(missed - opened.begin())});

@@ -25,9 +25,11 @@ Centers touching_places(const Centers& centers, const std::vector<double>& radii
 {
     const std::array<double, 2> walls{radius, 1.0 - radius};
     Centers places;
+    // Two walls: the corners.
     for (const double x : walls)
         for (const double y : walls) places.emplace_back(x, y);
     for (std::size_t i = 0; i < centers.size(); ++i) {
+        // A wall and a disk: (x - c)^2 + (y - d)^2 = reach^2 on the wall.
         const double reach = radii[i] + radius, x = centers[i].real(), y = centers[i].imag();
         for (const double wall : walls)
             for (const double sign : {-1.0, 1.0}) {
@@ -36,6 +38,7 @@ Centers touching_places(const Centers& centers, const std::vector<double>& radii
                 if (const double across = reach * reach - (wall - y) * (wall - y); across >= 0.0)
                     places.emplace_back(x + sign * std::sqrt(across), wall);
             }
+        // Two disks: where the circles of their reach cross.
         for (std::size_t j = i + 1; j < centers.size(); ++j) {
             const double other = radii[j] + radius, distance = std::abs(centers[j] - centers[i]);
             const double along = (distance * distance + reach * reach - other * other) / (2.0 * distance);
@@ -104,9 +107,11 @@ std::vector<Circle> pack_disks(const std::vector<double>& radii, double margin)
         throw InputError("disks to pack need positive radii");
     if (radii.size() <= 1) return std::vector<Circle>(radii.size(), Circle{Complex(0.5, 0.5), 0.5});
     margin = std::min(margin, 0.5 / static_cast<double>(radii.size()));
+    // Large disks first: small ones fit between them.
     std::vector<std::size_t> order = numbers_below<std::size_t>(radii.size());
     std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return radii[i]; });
     const double largest = radii[order.front()];
+    // Bisection of the common scale.
     double low = 0.0, high = 0.5;
     Centers centers;
     for (int k = 0; k < most_halvings && (centers.empty() || high - low > std::ldexp(high, -size_digits)); ++k) {

@@ -106,6 +106,7 @@ VectorXcd places_of_loops(const Problem& problem)
 void align_with_first(Problem& problem, CircleMap& map)
 {
     const MapInput& input = problem.input();
+    // The rim's vertices that the first map has too, with the lengths that they stand for.
     std::vector<Complex> points, targets;
     std::vector<double> weights;
     for (std::size_t k = 0; k < input.loops.size() && problem.first_places.size() > 0; ++k) {
@@ -119,6 +120,7 @@ void align_with_first(Problem& problem, CircleMap& map)
             weights.push_back(share[b]);
         }
     }
+    // The automorphism of the disk that brings them nearest.
     if (!points.empty()) {
         const auto size = static_cast<Eigen::Index>(points.size());
         move_as_one(problem, map,

@@ -269,6 +269,7 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
     context.begin_stage("factor", from, from + 0.6 * (until - from));
     CutMap map;
     map.cut = std::move(cut);
+    // Cotangent Laplacian on the intrinsic Delaunay triangulation, condensed onto all loops.
     const IntrinsicMetric metric = intrinsic_metric(map.cut.vertices, map.cut.surface);
     const SparseMatrix laplacian = cotan_laplacian(
         metric.triangles, curvature_weights(metric, map.cut.surface.vertex_count), map.cut.surface.vertex_count);
@@ -276,6 +277,7 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
     CondensedLaplacian surface(laplacian, all_loop_vertices(map.cut));
     seconds.factor += stage.lap();
     context.begin_stage("iterate", from + 0.6 * (until - from), until);
+    // The iteration, with the two sides of each cut glued by a Moebius map.
     GluedState state(surface, map.cut.loops);
     while (!map.converged && static_cast<int>(map.changes.size()) < options.max_sweeps) {
         context.checkpoint();
@@ -283,6 +285,7 @@ CutMap map_of(HandleCut cut, const SchottkyOptions& options, StageSeconds& secon
         map.converged = map.changes.back() < options.tolerance;
         context.advance(1.0 - std::pow(0.6, static_cast<double>(map.changes.size())));
     }
+    // The whole map, and the circles that bound a fundamental domain.
     map.plane = map.cut.holes > 0 ? plane_in_disk(map.cut, surface, state, options.normalization)
                                   : annular_plane(map.cut, surface, state);
     map.circles = fundamental_circles(map.plane);

@@ -150,6 +150,7 @@ SchottkyTile SchottkyTiling::as_cut(const SchottkyPlane& plane) const
 SchottkyTile SchottkyTiling::by_circles(const SchottkyPlane& plane, const FundamentalCircles& circles) const
 {
     const Triangles& triangles = cut_.surface.triangles;
+    // The word that brings each hole into the fundamental domain.
     std::vector<int> hole_at(cut_.original.size(), -1);
     std::vector<GroupWord> hole_word;
     for (std::size_t k = 0; k < cut_.holes; ++k) {
@@ -157,6 +158,7 @@ SchottkyTile SchottkyTiling::by_circles(const SchottkyPlane& plane, const Fundam
         hole_word.push_back(k == 0 ? GroupWord{} : way_out(plane.holes[k].center, plane, circles));
     }
     std::vector<GroupWord> words(faces_of_.size());
+    // Faces that touch a hole go with it, so that the hole stays whole; others go by their middle.
     for (std::size_t u = 0; u < words.size(); ++u) {
         int hole = -1;
         GroupWord of_hole;

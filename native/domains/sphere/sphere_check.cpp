@@ -89,6 +89,7 @@ SphereFaults find_sphere_faults(const Triangles& triangles, const std::vector<Ve
 {
     SphereFaults faults;
     const auto face_count = static_cast<Index>(triangles.rows());
+    // The solid angle of each face, and faces that are turned over. Some of these are too small for 32 bits.
     VectorXd areas(face_count);
     each_in_pieces(face_count, [&](Index f) {
         areas[f] = solid_angle(points.row(triangles(f, 0)), points.row(triangles(f, 1)), points.row(triangles(f, 2)));
@@ -97,6 +98,7 @@ SphereFaults find_sphere_faults(const Triangles& triangles, const std::vector<Ve
     faults.flipped = found_in_pieces(face_count, [&](Index f) { return !upright_on_sphere(triangles, points, f); });
     for (const Index f : faults.flipped)
         if (longest_edge_on_sphere(triangles, points, f) < sphere_resolution) faults.below_resolution.push_back(f);
+    // The solid angle of each hole; a rim without a hole's shape is at fault.
     for (std::size_t k = 0; k < loops.size(); ++k) {
         double extent = 0.0;
         for (const Index v : loops[k]) extent = std::max(extent, (points.row(v) - points.row(loops[k][0])).norm());
@@ -108,6 +110,7 @@ SphereFaults find_sphere_faults(const Triangles& triangles, const std::vector<Ve
             faults.holes.push_back(static_cast<int>(k));
         }
     }
+    // Faces and holes cover the sphere once: their solid angles add up to 4 pi.
     const double sheets = covered / (4.0 * std::numbers::pi);
     faults.covering = faults.holes.empty() && !(std::abs(sheets - 1.0) < area_rounding);
     return faults;

@@ -206,7 +206,7 @@ private:
         effort_.spend(problem.triangles.rows(),
                       minimize_foldover_free(problem, context_, {.max_iterations = affordable}).iterations);
         if (!problem.points.allFinite()) return;
-        take(
+        write_if_better(
             faces, vertices, problem,
             [&](const Eigen::RowVector2d& at) {
                 const Eigen::RowVector2d place = middle + size * at;
@@ -238,11 +238,12 @@ private:
 
     /// Keeps the new places if fewer faces are flipped.
     template <typename Lift>
-    void take(const std::vector<Index>& faces, const std::vector<Index>& vertices, const FoldoverProblem& problem,
-              const Lift& lift, std::size_t before)
+    void write_if_better(const std::vector<Index>& faces, const std::vector<Index>& vertices,
+                         const FoldoverProblem& problem, const Lift& lift, std::size_t before)
     {
         Vertices old(static_cast<Eigen::Index>(vertices.size()), 3);
         std::vector<Index> freed;
+        // Back to the sphere. Rims that slid return to their circle; those that were freed leave it.
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const Eigen::Index row = static_cast<Eigen::Index>(i);
             const Index v = vertices[i];
@@ -255,6 +256,7 @@ private:
                 freed.push_back(v);
             map_.points.row(v) = place.transpose();
         }
+        // Judge, and undo if nothing is gained.
         const bool better = tangled(faces).size() < before && loops_hold(vertices);
         if (!better) {
             for (std::size_t i = 0; i < vertices.size(); ++i)

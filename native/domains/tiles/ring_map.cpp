@@ -223,12 +223,14 @@ TileResult ring_tile(const Vertices& vertices, const Triangles& triangles, const
 {
     TileResult result = tile_result(vertices, triangles, domain, options, shape, ring.map, context);
     result.modulus = {0.0, ring.height};
+    // An evened ring has the modulus of its cylinder as it lies, not that of the conformal map.
     if (result.even > 0.0) {
         const VectorXcd& z = ring.map.z;
         const double rise = z[domain.loops[1].front()].imag() - z[domain.loops[0].front()].imag();
         result.modulus = {0.0, std::abs(rise) / ring.map.periods[0].real()};
     }
     check_modulus(bounds, ring.height, ring.round.has_value(), result);
+    // The further holes are round.
     if (result.even == 0.0)
         for (std::size_t k = 0; k < ring.circles.size(); ++k) {
             result.loops[k].has_circle = true;
@@ -238,6 +240,7 @@ TileResult ring_tile(const Vertices& vertices, const Triangles& triangles, const
             std::ranges::set_union(result.loops[k].off_circle, ring.round->off_circle[k], std::back_inserter(both));
             result.loops[k].off_circle = std::move(both);
         }
+    // What the iteration says of itself.
     if (ring.round) {
         result.sweeps = ring.round->sweeps;
         result.warnings.insert(result.warnings.begin(), ring.round->warnings.begin(), ring.round->warnings.end());

@@ -32,6 +32,7 @@ Tile tile_of(const PeriodicSurface& domain, const FlatMap& map, std::array<doubl
     Tile tile;
     tile.lift = cut_tile(domain, map, origin);
     const Triangles& triangles = domain.surface.triangles;
+    // The tile's box, by which it is scaled onto the grid.
     Complex low(1e300, 1e300), high(-1e300, -1e300);
     for (Eigen::Index c = 0; c < triangles.size(); ++c) {
         const Complex at = lifted(map, map.z[triangles.data()[c]], tile.lift[c]);
@@ -39,6 +40,7 @@ Tile tile_of(const PeriodicSurface& domain, const FlatMap& map, std::array<doubl
         high = {std::max(high.real(), at.real()), std::max(high.imag(), at.imag())};
     }
     const double scale = grid_extent / std::max((high - low).real(), (high - low).imag());
+    // Periods and places on the grid: copies then fit to the bit, as they are sums of whole numbers.
     for (const Complex period : map.periods) tile.periods.push_back(on_grid(period, scale));
     GridPoint least{std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::max()};
     for (Eigen::Index c = 0; c < triangles.size(); ++c) {
@@ -48,6 +50,7 @@ Tile tile_of(const PeriodicSurface& domain, const FlatMap& map, std::array<doubl
         tile.corners.push_back(at);
         least = {std::min(least[0], at[0]), std::min(least[1], at[1])};
     }
+    // The box begins at 0.
     for (GridPoint& at : tile.corners) at = difference(at, least);
     tile.scale = scale * uv_grid;
     tile.origin = -tile.scale * low - uv_grid * Complex(static_cast<double>(least[0]), static_cast<double>(least[1]));

@@ -215,12 +215,14 @@ void warn(const PeriodicSurface& domain, const FlatMap& map, const TileFaults& f
 {
     warn_reoriented(domain.surface.reoriented, result.warnings);
     warn_inside_out(domain.vertices, domain.surface, result.warnings);
+    // Of the iteration.
     if (!map.converged)
         result.warnings.push_back({WarningKind::not_converged, "the iteration ended before it reached its tolerance"});
     if (!map.apart)
         result.warnings.push_back(
             {WarningKind::no_circles, "the circles of two holes meet: the mesh is too coarse between them"});
     warn_off_circle(values_at(domain.original, map.off_circle), result.warnings);
+    // Of the tile as stored.
     if (!faults.below_resolution.empty())
         result.warnings.push_back({WarningKind::below_resolution,
                                    counted(faults.below_resolution.size(), "face") + " too small for 32-bit UVs",

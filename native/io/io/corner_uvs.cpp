@@ -17,7 +17,7 @@ public:
           at_vertex_(static_cast<std::size_t>(mesh.vertices.rows()), no_corner)
     {
         for (Index t = 0; t < static_cast<Index>(triangles_.rows()); ++t)
-            for (Index k = 0; k < 3; ++k) take(triangulation.face[static_cast<std::size_t>(t)], 3 * t + k);
+            for (Index k = 0; k < 3; ++k) take_corner(triangulation.face[static_cast<std::size_t>(t)], 3 * t + k);
         for (Index t = 0; t < static_cast<Index>(triangles_.rows()); ++t)
             for (Index k = 0; k < 3; ++k) take_by_vertex(triangulation.face[static_cast<std::size_t>(t)], 3 * t + k);
         for (Index f = 0; f < mesh_.face_count(); ++f) complete(f);
@@ -28,7 +28,7 @@ public:
 
 private:
     /// Takes the corner whose edge to the next corner is the triangle's.
-    void take(Index face, Index triangle_corner)
+    void take_corner(Index face, Index triangle_corner)
     {
         const Index from = vertex(triangle_corner);
         const Index to = vertex(triangle_corner % 3 == 2 ? triangle_corner - 2 : triangle_corner + 1);

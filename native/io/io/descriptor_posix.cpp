@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool same(const struct stat& a, const struct stat& b)
+bool is_same_file(const struct stat& a, const struct stat& b)
 {
     if (a.st_dev != b.st_dev || a.st_ino != b.st_ino) return false;
     struct stat null;
@@ -51,13 +51,13 @@ bool may_write(const fs::path& path)
 bool is_same(const fs::path& a, const fs::path& b)
 {
     struct stat there_a, there_b;
-    return ::stat(a.c_str(), &there_a) == 0 && ::stat(b.c_str(), &there_b) == 0 && same(there_a, there_b);
+    return ::stat(a.c_str(), &there_a) == 0 && ::stat(b.c_str(), &there_b) == 0 && is_same_file(there_a, there_b);
 }
 
 bool is_open_as(int descriptor, const fs::path& path)
 {
     struct stat open_file, there;
-    return ::fstat(descriptor, &open_file) == 0 && ::stat(path.c_str(), &there) == 0 && same(open_file, there);
+    return ::fstat(descriptor, &open_file) == 0 && ::stat(path.c_str(), &there) == 0 && is_same_file(open_file, there);
 }
 
 int process_number() { return static_cast<int>(::getpid()); }

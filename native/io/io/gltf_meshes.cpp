@@ -120,7 +120,7 @@ public:
         }
     }
 
-    PolygonMesh take(const std::string& name)
+    PolygonMesh take_mesh(const std::string& name)
     {
         if (!out_of_range_.empty())
             throw InputError(name + ": faces name a vertex that does not exist (faces listed)", ElementKind::faces,
@@ -169,7 +169,7 @@ GltfMesh mesh_of(const tinygltf::Model& model, std::size_t place)
         builder.add(points, primitive.corner_vertex);
         mesh.primitives.push_back(std::move(primitive));
     }
-    mesh.polygons = builder.take(mesh_name(mesh));
+    mesh.polygons = builder.take_mesh(mesh_name(mesh));
     return mesh;
 }
 
@@ -206,6 +206,8 @@ std::vector<std::vector<Index>> read_gltf_marks(std::string_view glb, CutAt at)
     const auto wanted = [at](CutAt kind) { return at == kind || at == CutAt::all; };
     const tinygltf::Model model = io::read_gltf_model(glb);
     std::vector<std::vector<Index>> all;
+    // A mark is a normal, a material and a primitive, of which the kind asks for some. Corners with equal marks get one
+    // number.
     for (const GltfMesh& mesh : read_gltf_meshes(glb)) {
         std::map<std::array<double, 5>, Index> numbers;
         std::vector<Index>& marks = all.emplace_back();

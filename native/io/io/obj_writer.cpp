@@ -76,6 +76,7 @@ io::FileLosses write_obj(AtomicFile& file, const PolygonMesh& mesh, std::span<co
 {
     TextWriter text(file);
     text.add(first_line);
+    // A mesh without a file of its own is written plainly.
     if (filed.bytes.empty()) {
         text.add('\n');
         add_vertices(text, mesh.vertices, 0);
@@ -84,6 +85,7 @@ io::FileLosses write_obj(AtomicFile& file, const PolygonMesh& mesh, std::span<co
         text.flush();
         return {};
     }
+    // Else its text is kept: what stands before the faces, our coordinates, and the rest with new numbers.
     const io::ObjText own(filed.bytes);
     const io::ObjChange change{.mesh = mesh, .texture = texture, .moved = filed.moved};
     text.add(own.end_of_line());
@@ -91,6 +93,7 @@ io::FileLosses write_obj(AtomicFile& file, const PolygonMesh& mesh, std::span<co
     add_texture_coordinates(text, own.end_of_line());
     const std::size_t without_normals = own.add_rest(text, change);
     text.flush();
+    // What the text had, and the new one has not.
     io::FileLosses losses{own.texture_coordinates() > 0, {}};
     if (filed.moved && own.normals() > 0) losses.others.emplace_back("normals");
     if (without_normals > 0)

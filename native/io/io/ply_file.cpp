@@ -74,11 +74,12 @@ PlyElement element_of(const Words& words, std::size_t bytes)
 }
 
 /// Takes a line of the header. @return false if it does not belong to a header
-bool take(PlyFile& file, const std::string& line, int number, bool& has_format, std::size_t bytes)
+bool take_header_line(PlyFile& file, const std::string& line, int number, bool& has_format, std::size_t bytes)
 {
     std::istringstream stream(line);
     const Words words(std::istream_iterator<std::string>(stream), {});
     if (words.empty()) return true;
+    // Each word of the header in its order: ply, format, element, property. Any other is no header.
     if (words[0] == "comment" || words[0] == "obj_info") {
         file.comments.push_back(line.substr(0, line.find_last_not_of(" \t\r") + 1));
         return true;
@@ -159,7 +160,7 @@ PlyFile parse_ply(std::string_view bytes)
     std::string line;
     bool has_format = false;
     for (int number = 1; std::getline(lines, line); ++number)
-        if (!take(file, line, number, has_format, bytes.size()))
+        if (!take_header_line(file, line, number, has_format, bytes.size()))
             throw InputError("line " + std::to_string(number) + " of the header is not supported");
     if (!has_format) throw InputError("the header's format or a count is not one of PLY");
     return file;

@@ -275,6 +275,7 @@ FileLosses ply_contents(std::string_view bytes)
     const auto add = [&](const std::string& word) {
         if (std::ranges::find(losses.others, word) == losses.others.end()) losses.others.push_back(word);
     };
+    // Elements other than vertices and faces, and their properties that are not read.
     for (const PlyElement& element : parse_ply(bytes).elements) {
         if (!element.is_vertex() && !element.has_corners()) {
             if (element.count > 0) add("element " + element.name);

@@ -33,14 +33,14 @@ void require_apart(const Vertices& vertices)
                          ElementKind::vertices, std::move(met));
 }
 
-void put(std::string& bytes, std::uint32_t number)
+void append(std::string& bytes, std::uint32_t number)
 {
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(number >> shift));
 }
 
-void put(std::string& bytes, const Eigen::RowVector3d& vector)
+void append(std::string& bytes, const Eigen::RowVector3d& vector)
 {
-    for (const double number : vector) put(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(number)));
+    for (const double number : vector) append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(number)));
 }
 
 }  // namespace
@@ -50,13 +50,13 @@ void write_stl(AtomicFile& file, const Vertices& vertices, const Triangles& tria
     require_apart(vertices);
     std::string bytes = "Koebe UV";
     bytes.resize(80, ' ');
-    put(bytes, static_cast<std::uint32_t>(triangles.rows()));
+    append(bytes, static_cast<std::uint32_t>(triangles.rows()));
     const Vertices stored = vertices.cast<float>().cast<double>();
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
         const Eigen::RowVector3d a = stored.row(triangles(f, 0)), b = stored.row(triangles(f, 1)),
                                  c = stored.row(triangles(f, 2));
-        put(bytes, (b - a).cross(c - a).stableNormalized());
-        for (const auto& corner : {a, b, c}) put(bytes, corner);
+        append(bytes, (b - a).cross(c - a).stableNormalized());
+        for (const auto& corner : {a, b, c}) append(bytes, corner);
         bytes.append(2, '\0');
     }
     file.write(bytes);

@@ -33,7 +33,7 @@ class Turns {
 public:
     /// Calls write() when all pieces before `begin` are written; not at all after another one has failed.
     template <class Write>
-    void take(std::size_t begin, std::size_t end, const Write& write)
+    void write_in_order(std::size_t begin, std::size_t end, const Write& write)
     {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return failed_ || written_ == begin; });
@@ -73,7 +73,7 @@ void TextWriter::add_each(Index count, const std::function<void(TextWriter& text
         try {
             TextWriter piece;
             for (std::size_t i = begin; i < end; ++i) add(piece, static_cast<Index>(i));
-            turns.take(begin, end, [&] { file_->write({piece.buffer_.data(), piece.used_}); });
+            turns.write_in_order(begin, end, [&] { file_->write({piece.buffer_.data(), piece.used_}); });
         } catch (...) {
             turns.fail();
             throw;

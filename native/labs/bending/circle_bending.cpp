@@ -126,6 +126,7 @@ private:
     {
         PlanarPoints now = domain_.start();
         double reached = 0.0, step = first_share;
+        // Forward while maps stay one to one: the step doubles, and halves after a failure.
         for (int trial = 0; trial < trials_of_a_path && reached < 1.0; ++trial) {
             context_.advance(share_of_all * reached);
             const double share = std::min(step, 1.0 - reached);
@@ -141,6 +142,7 @@ private:
                 break;
             }
         }
+        // The best of all ways so far says where they are blocked.
         result.newton_steps = domain_.newton_steps();
         if (reached > result.reached || result.reached == 0.0) {
             result.reached = reached;

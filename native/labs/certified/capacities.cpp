@@ -80,10 +80,12 @@ CapacityBounds::CapacityBounds(const BisectedSurface& surface, const QuadraticFu
 
 std::vector<Interval> CapacityBounds::enclose(const std::vector<Condenser>& all, VectorXd& gap) const
 {
+    // Upper bound: the energy of a potential with these values on the loops (Dirichlet).
     const MatrixXd values = loop_values(all);
     MatrixXd u = potential_.solve(values);
     for (Index i = 0; i < functions_.size(); ++i)
         if (fixed_[i]) u.row(i) = values.row(i);
+    // Lower bound: a flux without divergence that leaves each loop as the potential's does (Thomson).
     const MatrixXd source = energy_ * u;
     MatrixXd load(functions_.size(), u.cols());
     std::vector<OneForm> carried;
@@ -98,6 +100,7 @@ std::vector<Interval> CapacityBounds::enclose(const std::vector<Condenser>& all,
         carried.push_back(tree_.carry(flux));
         load.col(c) = functions_.load(weights_, carried.back());
     }
+    // Its best part along stream functions, and both energies in intervals: capacity >= flux^2 / energy.
     const MatrixXd g = collapse_ * conjugate_.solve(collapse_.transpose() * load);
     std::vector<Interval> bounds;
     for (Eigen::Index c = 0; c < u.cols(); ++c) {

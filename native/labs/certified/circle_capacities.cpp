@@ -248,6 +248,7 @@ void CircleCapacities::prove()
         return sum;
     };
     for (int b = 1; b <= inner(); ++b) {
+        // Squares of what is missed at each sample: of the potentials' values, and of their derivatives by the module.
         for (Eigen::Index j = 0; j < samples_of(b); ++j) {
             const Plane<Interval> turn = unit_root(j, samples_of(b));
             const std::vector<Interval> row = Samples::values(*this, b, turn);
@@ -260,6 +261,7 @@ void CircleCapacities::prove()
                         squared((slopes[l] + sum(row, derivatives_[l].col(i))).magnitude());
             }
         }
+        // The roots of the sums, rounded up.
         errors_.row(b - 1) = errors_.row(b - 1).cwiseSqrt() * rounded_up;
         for (MatrixXd& errors : errors_of_derivatives_) errors.row(b - 1) = errors.row(b - 1).cwiseSqrt() * rounded_up;
         add_what_samples_miss(b);

@@ -64,10 +64,12 @@ std::vector<int> roomiest_order(const std::vector<Circle>& circles)
     for (int outer = 0; outer < count; ++outer)
         for (int middle = 0; middle < count; ++middle) {
             if (middle == outer) continue;
+            // Which circle is the unit circle, and which lies in the middle; the others do not matter.
             std::vector<int> order{outer, middle};
             for (int k = 0; k < count; ++k)
                 if (k != outer && k != middle) order.push_back(k);
             const std::vector<Circle> placed = normalized_circles(circles, order);
+            // The smallest gap, in radii of the inner circle.
             double room = std::numeric_limits<double>::infinity();
             for (int i = 1; i < count; ++i)
                 for (int j = 0; j < count; ++j) {

@@ -236,17 +236,21 @@ DomainForms domain_forms(const Triangles& triangles, const PlanarPoints& uv, con
     std::vector<Index> rim;
     for (const VertexLoop& loop : loops) rim.insert(rim.end(), loop.begin(), loop.end());
     const EdgeLengths lengths = edge_lengths(uv, triangles);
+    // The forms of harmonic functions with given values at held vertices.
     const auto forms_with = [&](const std::vector<Index>& held, const MatrixXd& values) {
         const DirichletSolver solver = harmonic_solver(triangles, lengths, static_cast<Index>(uv.rows()), held);
         return forms_of(triangles, uv, area, solver.solve(values));
     };
+    // One for each hole: 1 on its rim, 0 on the others.
     MatrixXd values = MatrixXd::Zero(uv.rows(), static_cast<Eigen::Index>(loops.size()) - 1);
     for (std::size_t k = 1; k < loops.size(); ++k) values(loops[k], static_cast<Eigen::Index>(k) - 1).setOnes();
     DomainForms forms{forms_with(rim, values), {}, {}, {}};
+    // Forms with poles at the landmarks.
     if (!marks.empty()) {
         const std::vector<Index> middle = pole_vertices(uv, rim);
         forms.marked = marked_forms(triangles, uv, circles, loops, marks, middle.empty() ? 0 : middle.front(), area);
     }
+    // One for each of some vertices inside: 1 there, 0 on all rims.
     if (loops.size() > 3) forms.poles = pole_vertices(uv, rim);
     forms.of_poles.resize(triangles.rows(), static_cast<Eigen::Index>(forms.poles.size()));
     rim.push_back(-1);

@@ -139,6 +139,8 @@ void RimMap::add_functions(const Complex* z, const RimSample* own, Places& real,
     const Places y = Eigen::Map<const Eigen::Array<Complex, Places::RowsAtCompileTime, 1>>(z).imag();
     Places u, v;
     const Complex* coefficient = coefficients_.data();
+    // Poles that cluster at corners, in the corner's coordinate. At a corner's own samples it comes from the offset,
+    // without cancellation.
     for (std::size_t c = 0; c < corners_.size(); ++c) {
         const bool near = own && own->corner == static_cast<int>(c);
         for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -148,12 +150,14 @@ void RimMap::add_functions(const Complex* z, const RimSample* own, Places& real,
         }
         for (const double pole : corners_[c].poles) add_pole(-pole * *coefficient++, pole, u, v, real, imaginary);
     }
+    // Other poles.
     for (const Complex pole : poles_) add_pole(scale_ * *coefficient++, pole, x, y, real, imaginary);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
         const Complex ratio = is_outer_ ? (z[i] - center_) / scale_ : scale_ * reciprocal(z[i] - center_);
         u[i] = ratio.real();
         v[i] = ratio.imag();
     }
+    // A polynomial in z outside, in 1 / z at a hole, by Horner's rule.
     Places a = Places::Zero(), b = Places::Zero();
     for (int j = powers_; j-- > 0;) {
         const Places sum = a + coefficient[j].real();

@@ -310,12 +310,14 @@ private:
         for (int trial = 0; trial < most_trials && reached < 1.0; ++trial) {
             context.advance(reached);
             const double share = std::min(step, 1.0 - reached);
+            // A harmonic step to the landmarks' next places.
             PlanarPoints next = step_to(extension, now, reached + share, bow);
             if (is_one_to_one(next) || (share <= unfolded_step && unfoldings-- > 0 && unfold(next, context))) {
                 now = std::move(next);
                 reached += share;
                 step = 2.0 * share;
                 relax(now, reached < 1.0 ? steps_between : steps_at_the_end, context);
+                // The landmarks to blame are those at faces that turned over.
             } else if ((step = 0.5 * share) < shortest_step) {
                 blame(next);
                 return false;

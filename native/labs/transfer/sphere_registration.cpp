@@ -187,6 +187,7 @@ private:
 
     void bring_landmarks()
     {
+        // Landmarks move along great circles, and all others by a smooth extension of their moves.
         std::vector<char> fixed(elastic_.held.size());
         for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = !used_[v];
         for (const SphereLandmark& landmark : landmarks_) fixed[landmark.vertex] = elastic_.held[landmark.vertex] = 1;
@@ -195,6 +196,7 @@ private:
         for (int trial = 0; trial < landmark_trials && reached < 1.0; ++trial) {
             context_.advance(reached);
             const double step = std::min(share, 1.0 - reached);
+            // A step, back to the sphere. It counts if no face turns over.
             Vertices moves = Vertices::Zero(result_.points.rows(), 3);
             for (const SphereLandmark& landmark : landmarks_)
                 moves.row(landmark.vertex) = on_way(landmark, reached + step) - result_.points.row(landmark.vertex);

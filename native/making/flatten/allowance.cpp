@@ -91,6 +91,7 @@ bool fit(const std::vector<PlanarPoints>& rings, const std::vector<VertexLoop>& 
          double width)
 {
     if (rings.empty()) return false;
+    // Their distance from the outline is the allowance's width, within bounds.
     for (const PlanarPoints& ring : rings)
         for (const auto& p : ring.rowwise()) {
             double least = std::numeric_limits<double>::infinity();
@@ -100,6 +101,7 @@ bool fit(const std::vector<PlanarPoints>& rings, const std::vector<VertexLoop>& 
                                      distance_to_edge(p, points.row(loop[i]), points.row(loop[(i + 1) % loop.size()])));
             if (!(least >= nearest * width && least <= farthest * width)) return false;
         }
+    // Together with the outline nothing crosses.
     std::vector<VertexLoop> all = loops;
     PlanarPoints together = points;
     for (const PlanarPoints& ring : rings) {
@@ -109,6 +111,7 @@ bool fit(const std::vector<PlanarPoints>& rings, const std::vector<VertexLoop>& 
         together.bottomRows(ring.rows()) = ring;
     }
     if (loops_cross(all, together, shortest_edge * width)) return false;
+    // They wind once round each loop.
     return std::ranges::all_of(loops, [&](const VertexLoop& loop) {
         int turns = 0;
         for (const PlanarPoints& ring : rings) turns += winding(ring, points.row(loop.front()));

@@ -70,14 +70,17 @@ private:
     void on_one_sheet()
     {
         const std::vector<Outline> outlines = outlines_of(pieces_);
+        // A square that should have room.
         double side = square_for(pieces_, 2.0 * allowance_);
         const double margin = 2.0 * allowance_ + std::min(gap, least_gap_share * side);
         if (pieces_.size() >= many_pieces) side = std::max(side, room_of_many * square_for(pieces_, margin));
         SheetPacking packing = pack_on_sheets(outlines, margin, {side, side});
+        // Larger ones, by the share of the area that found a place.
         while (packing.sheets != 1 || std::ranges::count(packing.sheet, -1) > 0) {
             side *= std::clamp(std::sqrt(1.0 / share_on_first(packing)), larger_sheet, largest_step);
             packing = pack_on_sheets(outlines, margin, {side, side});
         }
+        // The sheet is the box of what was placed.
         placed_.pattern.sheets.emplace_back();
         Eigen::RowVector2d low = Eigen::RowVector2d::Constant(INFINITY), high = -low;
         for (std::size_t k = 0; k < pieces_.size(); ++k) {
@@ -91,7 +94,7 @@ private:
         const Complex shift(0.5 * margin - low[0], 0.5 * margin - low[1]);
         for (std::size_t k = 0; k < pieces_.size(); ++k) {
             packing.places[k].offset += shift;
-            put(k, packing.places[k], 0);
+            place_piece(k, packing.places[k], 0);
         }
     }
 
@@ -149,7 +152,7 @@ private:
             throw InputError("the pattern needs " + std::to_string(static_cast<long long>(std::min(pages, 1e15))) +
                              " pages: choose a larger page or none, and the units that the mesh has");
         for (std::size_t k = 0; k < pieces_.size(); ++k)
-            if (packing.sheet[k] >= 0) put(k, packing.places[k], packing.sheet[k]);
+            if (packing.sheet[k] >= 0) place_piece(k, packing.places[k], packing.sheet[k]);
         for (const std::size_t k : large) put_on_own_sheet(k, packing.places[k]);
     }
 
@@ -184,10 +187,10 @@ private:
         const Eigen::RowVector2d low = at.colwise().minCoeff();
         island.offset = 0.5 * Complex(sheet.width - size[0], sheet.height - size[1]) - Complex(low[0], low[1]);
         placed_.pattern.sheets.push_back(std::move(sheet));
-        put(k, island, static_cast<int>(placed_.pattern.sheets.size()) - 1);
+        place_piece(k, island, static_cast<int>(placed_.pattern.sheets.size()) - 1);
     }
 
-    void put(std::size_t k, const IslandPlace& island, int sheet)
+    void place_piece(std::size_t k, const IslandPlace& island, int sheet)
     {
         const PieceShape& piece = pieces_[k];
         const PlanarPoints& at = placed_.points[k] = place_island(piece.points, island, 1.0);

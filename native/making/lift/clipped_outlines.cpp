@@ -152,6 +152,7 @@ ClippedOverlay draw_clipped_outlines(const FlatSheet& filled, std::vector<DrawnO
 {
     LeftOut left_out;
     double drawn = 0.0;
+    // Draw all, and again without the outlines that came out wrong. Each round has fewer, so this ends.
     while (true) {
         ClippedOverlay result;
         result.overlay = draw_outlines(filled, std::move(outlines), charts, drawn);
@@ -164,6 +165,7 @@ ClippedOverlay draw_clipped_outlines(const FlatSheet& filled, std::vector<DrawnO
             drop_groups(filled, wrong, outlines, left_out);
             continue;
         }
+        // Count the outlines that show on the surface.
         std::vector<char> seen(outlines.size(), 0);
         for (std::size_t f = 0; f < result.overlay.face.size(); ++f)
             if (result.overlay.region[f] >= 0 && filled.on_surface(result.overlay.face[f]))

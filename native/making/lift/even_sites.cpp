@@ -172,10 +172,12 @@ std::vector<Sample> first_sites(const std::vector<Sample>& samples, std::size_t 
 void relax(std::vector<Sample>& sites, const std::vector<Sample>& samples, double spacing,
            std::vector<std::ptrdiff_t>& site_of)
 {
+    // The nearest site of each sample.
     const SiteGrid grid(sites, spacing);
     in_pieces(samples.size(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) site_of[i] = grid.nearest(samples[i], site_of[i]).first;
     });
+    // The mean of each site's samples, with the weight 1 / spacing^2.
     std::vector<Sample> sums(sites.size(), {Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero(), 0.0});
     std::vector<double> counts(sites.size(), 0.0);
     for (std::size_t s = 0; s < samples.size(); ++s) {

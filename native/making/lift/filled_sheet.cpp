@@ -76,7 +76,7 @@ public:
         beyond_ = std::max(box_.size().real(), box_.size().imag());
     }
 
-    void fill(const LoopInChart& loop)
+    void fill_gap(const LoopInChart& loop)
     {
         if (loop.closing != 0.0)
             beyond_rim(loop);
@@ -122,11 +122,12 @@ private:
     double on_grid(double x) const { return sheet_.grid > 0.0 ? std::round(x / sheet_.grid) * sheet_.grid : x; }
 
     /// Adds the triangles of polygons, if no edge inside is an edge of the mesh already.
-    void take(const std::vector<GapPolygon>& polygons)
+    void add_polygons(const std::vector<GapPolygon>& polygons)
     {
         std::vector<Index> corners;
         std::vector<Complex> uv;
         std::set<std::array<Index, 2>> inside;
+        // All or nothing: cut up each polygon, and note its inner edges.
         for (const GapPolygon& polygon : polygons) {
             const Triangles faces = divided_polygon(polygon.places, {}, {});
             const Index n = static_cast<Index>(polygon.places.size());
@@ -143,6 +144,7 @@ private:
                 uv.push_back(polygon.places[i]);
             }
         }
+        // Nothing was wrong: add all.
         edges_.merge(inside);
         corners_.insert(corners_.end(), corners.begin(), corners.end());
         uv_.insert(uv_.end(), uv.begin(), uv.end());
@@ -153,7 +155,7 @@ private:
     {
         std::ranges::reverse(loop.vertices);
         std::ranges::reverse(loop.places);
-        take({loop});
+        add_polygons({loop});
     }
 
     /// Two polygons, above and below a counter-clockwise loop, up to a box around.
@@ -179,8 +181,8 @@ private:
             for (std::size_t i = to; i != from; i = (i + n - 1) % n) polygon.add(loop.vertices[i], loop.places[i]);
             return polygon;
         };
-        take({half(right, right_side, at_right, left, left_side, at_left, high),
-              half(left, left_side, at_left, right, right_side, at_right, low)});
+        add_polygons({half(right, right_side, at_right, left, left_side, at_left, high),
+                      half(left, left_side, at_left, right, right_side, at_right, low)});
     }
 
     /// The strip beyond a rim of a ring, one period wide.
@@ -208,7 +210,7 @@ private:
             polygon.add(k == 0 ? corner : new_vertex(place), k == 0 ? Complex(x, y) : place);
         }
         polygon.add(corner, Complex(x, y) + loop.closing);
-        take({polygon});
+        add_polygons({polygon});
     }
 
     const FlatSheet& sheet_;
@@ -229,7 +231,7 @@ FlatSheet filled_sheet(const FlatSheet& sheet)
     std::vector<char> met(sheet.twin.size(), 0);
     for (Index h = 0; h < static_cast<Index>(sheet.twin.size()); ++h)
         if (sheet.twin[h] == no_twin && !met[h])
-            if (const std::optional<LoopInChart> loop = loop_in_chart(sheet, h, met)) filling.fill(*loop);
+            if (const std::optional<LoopInChart> loop = loop_in_chart(sheet, h, met)) filling.fill_gap(*loop);
     return filling.result();
 }
 

@@ -98,11 +98,13 @@ Fit fit_torus(const Lattice& lattice, const std::vector<Complex>& periods, doubl
 {
     Fit best;
     double least = INFINITY;
+    // Turns of 1.5 degrees, sizes from -8 to 8 %.
     for (int i = 0; i < 120; ++i)
         for (int j = -8; j <= 8; ++j) {
             const Complex turn = std::polar(size * (1.0 + 0.01 * j), std::numbers::pi * i / 120.0);
             Fit fit;
             std::array<Complex, 2> sums;
+            // The nearest whole numbers of cells for each period.
             for (int p = 0; p < 2; ++p) {
                 const Complex z = periods[p] / turn;
                 const double whole = cross(lattice.a, lattice.b);
@@ -111,6 +113,7 @@ Fit fit_torus(const Lattice& lattice, const std::vector<Complex>& periods, doubl
                     static_cast<double>(fit.cells[p][0]) * lattice.a + static_cast<double>(fit.cells[p][1]) * lattice.b;
             }
             if (!(cross(sums[0], sums[1]) * cross(periods[0], periods[1]) > 0.0)) continue;
+            // The linear map that makes them fit exactly, and how much it bends; a little for the change of size.
             fit.map = taking(sums[0], sums[1], periods[0], periods[1]);
             fit.bend = bend_of(fit.map);
             const double cost = fit.bend + 0.02 * std::abs(j) * 0.1;

@@ -182,12 +182,14 @@ std::vector<DrawnOutline> outlines_of(const SvgDrawing& drawing, const FlatDomai
                                       LiftResult& result)
 {
     const FlatSheet& sheet = domain.placing_sheet();
+    // The drawing where the options lay it.
     PlacedDrawing placed = placed_drawing(
         sheet, domain.filled ? *domain.filled : sheet, drawing, place_of(domain, options), options.perforate,
         options.rim == LiftRim::whole ? std::optional(options.bridge.value_or(0.0)) : std::nullopt);
     for (DrawnOutline& outline : placed.outlines) outline.chart = domain.middle_chart();
     result.size = placed.size;
     result.islands = placed.islands;
+    // What is not as the drawing shows it.
     if (placed.islands > 0)
         result.warnings.push_back({WarningKind::left_out,
                                    counted(static_cast<std::size_t>(placed.islands), "island") +

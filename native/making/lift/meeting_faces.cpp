@@ -122,6 +122,7 @@ Triangles joined_corners(const Vertices& vertices, const Triangles& triangles, d
         for (int axis = 0; axis < 3; ++axis) cell[axis] = static_cast<std::int64_t>(std::floor(p[axis] / size));
         return cell;
     };
+    // A grid whose cells are eight times the distance: a vertex looks into one cell, or a few at its sides.
     std::map<Cell, std::vector<Index>> cells;
     std::vector<Index> first(vertices.rows());
     for (Index v = 0; v < static_cast<Index>(vertices.rows()); ++v) {
@@ -136,6 +137,7 @@ Triangles joined_corners(const Vertices& vertices, const Triangles& triangles, d
                             if ((vertices.row(other) - vertices.row(v)).norm() <= near) first[v] = first[other];
         cells[cell_of(p)].push_back(v);
     }
+    // Each vertex by the first one of its place.
     Triangles joined = triangles;
     for (Eigen::Index c = 0; c < joined.size(); ++c) joined.data()[c] = first[joined.data()[c]];
     return joined;

@@ -34,7 +34,7 @@ public:
         path_.end = WalkEnd::closed;
         if (outline_.face < 0) return ended(WalkEnd::border);
         const std::optional<Index> first = place(chart_.face, outline_.points[0]);
-        if (!first || !take(*first, -1)) return ended(WalkEnd::border);
+        if (!first || !step_to(*first, -1)) return ended(WalkEnd::border);
         const std::size_t n = outline_.points.size();
         for (std::size_t i = 1; i <= n; ++i) {
             closing_ = i == n;
@@ -174,9 +174,9 @@ private:
         const Index first = path_.steps.front().node;
         if (closing_ && holds_node(chart.face, nodes_[first]) &&
             distance(node_place(sheet_, nodes_[first], chart.face), place_there) < 2.0 * grain_)
-            return take(first, chart.face) ? WalkEnd::closed : WalkEnd::border;
+            return step_to(first, chart.face) ? WalkEnd::closed : WalkEnd::border;
         const std::optional<Index> node = place(chart.face, place_there);
-        return node && take(*node, chart.face) ? WalkEnd::closed : WalkEnd::border;
+        return node && step_to(*node, chart.face) ? WalkEnd::closed : WalkEnd::border;
     }
 
     /// How far the direction from a node to a target leads into a face: a sine, positive inside.
@@ -229,19 +229,19 @@ private:
         const double share = cross(a - from, way) / cross(edge, way);
         if (!(std::isfinite(share))) return WalkEnd::too_fine;
         const std::optional<Index> next = on_edge(chart.face, k, std::clamp(share, 0.0, 1.0));
-        return next && take(*next, chart.face) ? WalkEnd::closed : WalkEnd::border;
+        return next && step_to(*next, chart.face) ? WalkEnd::closed : WalkEnd::border;
     }
 
-    bool same(Index a, Index b) const
+    bool are_same_vertex(Index a, Index b) const
     {
         return a == b || (nodes_[a].vertex >= 0 && nodes_[a].vertex == nodes_[b].vertex);
     }
 
     /// Goes on to a node. @return false at a border
-    bool take(Index node, Index face)
+    bool step_to(Index node, Index face)
     {
         if (nodes_[node].vertex >= 0 && fan(nodes_[node].vertex).empty()) return false;
-        if (!path_.steps.empty() && same(node, current())) return true;
+        if (!path_.steps.empty() && are_same_vertex(node, current())) return true;
         path_.steps.push_back({node, face});
         return true;
     }
@@ -250,13 +250,13 @@ private:
     bool tidy()
     {
         std::vector<OutlineStep>& steps = path_.steps;
-        if (steps.size() > 1 && same(steps.front().node, steps.back().node)) {
+        if (steps.size() > 1 && are_same_vertex(steps.front().node, steps.back().node)) {
             steps.front().face = steps.back().face;
             steps.pop_back();
         }
         for (std::size_t i = 0; i < steps.size() && steps.size() > 2;) {
             const std::size_t n = steps.size();
-            if (!same(steps[i].node, steps[(i + 2) % n].node)) {
+            if (!are_same_vertex(steps[i].node, steps[(i + 2) % n].node)) {
                 ++i;
                 continue;
             }

@@ -12,8 +12,10 @@ namespace {
 void require_fitting_options(const std::string& kind, const LiftOptions& options)
 {
     const bool placed = kind == ".svg" || kind == ".obj";
+    // Holes or a relief: a mesh is neither.
     if (kind != ".obj" && options.perforate == options.height.has_value())
         throw InputError("either perforate, or give a height");
+    // What a file of its kind cannot have.
     if (options.turn != 0.0 && kind == ".png") throw InputError("an image has no turn");
     if (options.bridge && (kind == ".png" || kind == ".obj"))
         throw InputError("a bridge is for outlines: an image and a mesh have none");
@@ -29,10 +31,12 @@ void require_fitting_options(const std::string& kind, const LiftOptions& options
         throw InputError("a mesh is bent as it is: without perforate and thickness");
     if (options.even && options.shape == LiftShape::sphere)
         throw InputError("the map to the sphere has no evenness: leave it out");
+    // Around a hole.
     const bool on_sphere = options.shape == LiftShape::sphere;
     if (options.around >= 0 && !(on_sphere ? placed : kind.empty() && options.shape == LiftShape::disk))
         throw InputError("around is for built-in patterns on a disk, and for drawings and meshes on a sphere");
     if (options.rows > 0 && (options.around < 0 || on_sphere)) throw InputError("rows are counted around a hole only");
+    // An image.
     if (kind != ".png") return;
     if (!options.height) throw InputError("an image is a relief: give the height of white");
     if (options.shape == LiftShape::parts)

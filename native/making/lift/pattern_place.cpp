@@ -43,9 +43,11 @@ PlacedFrame placed_frame(const FlatSheet& sheet, double aspect, const PatternPla
     const int repeats = std::max(1, place.repeats);
     if (repeats > 1 && sheet.periods.empty())
         throw InputError("repeats of a " + what + " are for rings and tori: another domain does not repeat");
+    // The room: the domain's box, or each copy's share of the period.
     const PlaneBox domain = place.on_sphere ? PlaneBox{{0.0, 0.0}, {1.0, 1.0}} : box_around(sheet.uv);
     Complex room = domain.size();
     if (!sheet.periods.empty()) room = {std::abs(sheet.periods[0]) / repeats, room.imag()};
+    // The width: as asked, or as large as fits.
     PlacedFrame frame;
     frame.scale = place.on_sphere ? scale_in_middle(sheet) : sheet.mean_scale;
     if (place.size)
@@ -58,6 +60,7 @@ PlacedFrame placed_frame(const FlatSheet& sheet, double aspect, const PatternPla
         throw InputError("the " + what + (what == "mesh" ? "es" : "s") +
                          " are wider than their share of the period: they have room up to a size of " +
                          std::to_string(room.real() * frame.scale));
+    // A centre for each copy, along the first period.
     for (int copy = 0; copy < repeats; ++copy)
         frame.centres.push_back(
             0.5 * (domain.low + domain.high) +

@@ -143,6 +143,7 @@ void scale_shapes(const FlatSheet& sheet, const LatticePlane& plane, const Patte
                   std::vector<LaidShape>& shapes)
 {
     if (sheet.grade.empty() && !options.whole) return;
+    // Where each shape's middle lies on the sheet.
     std::vector<Complex> middles;
     for (const LaidShape& one : shapes) {
         const Complex middle = one.place + middle_of(*one.shape);
@@ -150,6 +151,7 @@ void scale_shapes(const FlatSheet& sheet, const LatticePlane& plane, const Patte
     }
     const std::vector<SheetPlace> nearest = places_in_sheet(sheet, middles, INFINITY);
     const BorderRoom room(sheet, options.size / sheet.mean_scale);
+    // The grade there, and no more than leaves a bridge to the border.
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const SheetPlace& at = nearest[i];
         const double grade = sheet.grade_at(at.face, at.weights);
@@ -186,11 +188,13 @@ void drop_beyond(const FlatSheet& sheet, const LatticePlane& plane, std::vector<
 DrawnPattern lattice_pattern(const FlatSheet& sheet, const FlatSheet& walked, const std::string& name,
                              const PatternOptions& options)
 {
+    // The lattice in a plane in which it repeats: around a hole, along a ring, over a torus.
     const bool repeats = options.hole || sheet.periods.size() == 1, along = repeats && runs_along(name, options);
     const LatticePlane plane = options.hole ? plane_about(sheet, *options.hole)
                                             : plane_of(sheet, repeats ? Complex(1.0) : unit_turn(options.turn));
     const double bridge = options.bridge / options.size;
     const Lattice lattice = lattice_of(name, bridge, along);
+    // Its places and the shapes there, by chance where the pattern has two kinds of cells.
     LaidLattice laid =
         lay_lattice(lattice, plane.periods, options.size / plane.scale, options.repeats, plane.low, plane.high);
     if (options.hole)
@@ -202,6 +206,7 @@ DrawnPattern lattice_pattern(const FlatSheet& sheet, const FlatSheet& walked, co
         for (const auto& shape : laid.other_shapes.empty() || coin(options.seed, i) ? laid.shapes : laid.other_shapes)
             shapes.push_back({&shape, laid.places[i]});
     if (&walked != &sheet && !plane.middle) drop_beyond(sheet, plane, shapes);
+    // To scale, in the UVs, on the faces.
     scale_shapes(sheet, plane, options, shapes);
     for (const LaidShape& one : shapes) pattern.outlines.push_back({points_in_uv(plane, one)});
     locate_outlines(walked, pattern.outlines);

@@ -191,6 +191,7 @@ Index face_towards(const FlatSheet& sheet, const Site& site, std::vector<Complex
         const Complex to = points[0] + offset;
         Index out = no_twin;
         double least = std::numeric_limits<double>::infinity();
+        // The edge by which the straight way leaves the face first.
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Complex a = sheet.uv[h], edge = sheet.uv[next_halfedge(h)] - a;
             if (cross(edge, to - a) >= 0.0 || h == entered) continue;
@@ -202,6 +203,7 @@ Index face_towards(const FlatSheet& sheet, const Site& site, std::vector<Complex
         }
         if (out == no_twin) break;
         if (sheet.border[out]) return -1;
+        // Across it, UVs go on with the step of the edge.
         offset += sheet.step[out];
         from += sheet.step[out];
         entered = sheet.twin[out];

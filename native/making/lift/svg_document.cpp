@@ -1,6 +1,7 @@
 #include "lift/svg_document.h"
 
 #include "core/errors.h"
+#include "lift/svg_shown.h"
 #include "lift/svg_styles.h"
 #include "lift/svg_viewport.h"
 #include "lift/svg_words.h"
@@ -16,73 +17,6 @@
 
 namespace koebe::detail {
 namespace {
-
-/// What an element is taken for: where it is drawn, or what of it cuts.
-enum class Role { drawing, clip, mask };
-
-/// What children inherit.
-struct Shown {
-    Role role = Role::drawing;
-    bool visible = true, filled = true, stroked = false;
-    bool opaque = true;                         ///< not in an element of opacity 0
-    bool measured = false;                      ///< in an element that is cut, perhaps in units of its bounding box
-    bool coloured = true, translucent = false;  ///< what is not plain white in a mask
-};
-
-/// Whether a clip path or a mask cuts an element. @param by the attribute
-bool is_cut(const SvgNode& node, std::string_view by)
-{
-    const std::string_view value = value_of(node, by);
-    return !value.empty() && value != "none";
-}
-
-/// Takes over what an element says of itself. @return false if neither it nor its children are drawn or measured
-bool inherit(const SvgNode& node, Shown& shown)
-{
-    const auto take = [&](std::string_view name, bool& flag, auto off) {
-        const std::string_view value = value_of(node, name);
-        if (!value.empty() && value != "inherit") flag = !off(value);
-    };
-    const auto unpainted = [](std::string_view value) { return value == "none" || value == "transparent"; };
-    take("visibility", shown.visible, [](std::string_view v) { return v == "hidden" || v == "collapse"; });
-    take("fill", shown.filled, unpainted);
-    take("fill", shown.coloured, [](std::string_view v) {
-        constexpr std::array whites{"white", "#fff", "#ffffff", "#FFF", "#FFFFFF", "rgb(255,255,255)"};
-        return std::ranges::find(whites, v) != whites.end();
-    });
-    take("stroke", shown.stroked, unpainted);
-    const auto opacity = [&](std::string_view name) { return pixels_of(value_of(node, name), 1.0).value_or(1.0); };
-    const std::string_view filter = value_of(node, "filter");
-    if (opacity("opacity") < 1.0 || opacity("fill-opacity") < 1.0 || !(filter.empty() || filter == "none"))
-        shown.translucent = true;
-    if (shown.role == Role::drawing && (is_cut(node, "clip-path") || is_cut(node, "mask"))) shown.measured = true;
-    if (shown.role != Role::clip && !(opacity("opacity") > 0.0)) shown.opaque = false;
-    return value_of(node, "display") != "none" && (shown.opaque || shown.measured);
-}
-
-/// The conditional attributes (SVG 1.1, 5.8). No extension is known, and the language is English.
-bool holds(const SvgNode& node)
-{
-    for (const auto* one = node.first_attribute(); one; one = one->next_attribute()) {
-        const std::string_view name(one->local_name(), one->local_name_size());
-        const std::string_view value = trimmed({one->value(), one->value_size()});
-        if (name == "requiredExtensions") return false;
-        if (name != "systemLanguage") continue;
-        bool english = false;
-        for_each_part(value, ',', [&](std::string_view word) { english = english || word.starts_with("en"); });
-        if (!english) return false;
-    }
-    return true;
-}
-
-/// Whether elements of this name are only used by others, or mean nothing here.
-bool draws_nothing(std::string_view name)
-{
-    constexpr std::array kept{"defs",   "symbol",        "clipPath",       "mask",           "pattern",
-                              "marker", "style",         "linearGradient", "radialGradient", "filter",
-                              "font",   "foreignObject", "metadata",       "title",          "desc"};
-    return std::ranges::find(kept, name) != kept.end();
-}
 
 constexpr std::size_t most_elements = 200000;  // with what uses and clip paths bring in: a drawing has no more corners
 constexpr std::string_view svg_uri = "http://www.w3.org/2000/svg";
@@ -264,7 +198,7 @@ private:
         for (SvgNode* child = parent.first_node(); child;) {
             SvgNode* const next = child->next_sibling();
             const bool is_element = child->type() == rapidxml_ns::node_element;
-            const bool stays = is_element && holds(*child) && !(is_switch && chosen);
+            const bool stays = is_element && conditions_hold(*child) && !(is_switch && chosen);
             chosen = chosen || stays;
             if (is_element && (!stays || !resolve_element(parent, child, shown, size, depth)))
                 parent.remove_node(child);
@@ -322,7 +256,7 @@ private:
             group = used_group(*child, size);
         } else if (name == "svg") {
             group = viewport_group(*child, nullptr, size);
-        } else if (!is_group && (is_cut(*child, "clip-path") || is_cut(*child, "mask"))) {
+        } else if (!is_group && (is_cut_by(*child, "clip-path") || is_cut_by(*child, "mask"))) {
             group = cut_group(*child);
         }
         if (group) {
@@ -363,7 +297,7 @@ private:
         if (const auto port = ports_.find(&group); port != ports_.end())
             group.append_node(rectangle_clip(port->second, "userSpaceOnUse"));
         for (const char* name : {"clip-path", "mask"}) {
-            if (!is_cut(group, name)) continue;
+            if (!is_cut_by(group, name)) continue;
             std::string_view link = value_of(group, name);
             if (!link.starts_with("url(") || !link.ends_with(')')) continue;
             link = trimmed(link.substr(4, link.size() - 5));

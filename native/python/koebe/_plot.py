@@ -94,6 +94,7 @@ def _drawn_figure(result: Result, ax: Any, plt: Any) -> Any:
     if not drawing:
         raise InputError(f"a {type(result).__name__} has nothing to draw")
     corners = np.asarray(drawing.get("corners", np.zeros((0, 3, 2))), np.float64)
+    # A surface in space.
     if corners.shape[2] == 3:
         if ax is None:
             ax = plt.figure(figsize=(6, 6), layout="constrained").add_subplot(projection="3d")
@@ -104,6 +105,7 @@ def _drawn_figure(result: Result, ax: Any, plt: Any) -> Any:
         view = _in_front_of(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
         _draw_surface(space, corners, np.tile(_PATCHES[0], (len(corners), 1)), view, edges="#1d4e89")
         return figure
+    # A drawing in the plane: faces, circles, points, or the bars of a histogram.
     if ax is None:
         ax = plt.figure(figsize=(6, 6), layout="constrained").add_subplot()
     figure, _, plane = _axes(ax)

@@ -109,6 +109,7 @@ double put_on_grid(const Triangles& triangles, Vertices& points)
 Vertices scaled_position(const Surface& surface, const Vertices& vertices)
 {
     using Point = Eigen::RowVector3d;
+    // The box of the vertices that faces use, in pieces side by side.
     Point low = vertices.row(surface.triangles(0, 0)), high = low;
     const auto boxes =
         of_pieces<std::pair<Point, Point>>(surface.triangles.rows(), [&](Eigen::Index first, Eigen::Index count) {
@@ -123,6 +124,7 @@ Vertices scaled_position(const Surface& surface, const Vertices& vertices)
         low = low.cwiseMin(least);
         high = high.cwiseMax(most);
     }
+    // Halves are added, as a sum of large numbers could overflow.
     const Point middle = 0.5 * low + 0.5 * high;
     const double extent = (0.5 * high - 0.5 * low).maxCoeff();
     if (!(extent > 0.0)) throw_one_point(vertices.rows());

@@ -41,9 +41,11 @@ public:
 
     std::vector<Index> run()
     {
+        // Walks start at longest edges. Only ties need keys.
         std::vector<Index> candidates = longest_edges();
         if (faces_.patches == 1 && candidates.size() == 1) return candidates;
         const std::vector<Key> keys = keys_of(candidates);
+        // How many candidates of a patch have the same key, and how many faces it has.
         std::map<std::pair<Index, Key>, Index> alike;
         for (std::size_t i = 0; i < keys.size(); ++i) ++alike[{patch_of(candidates[i]), keys[i]}];
         std::vector<Index> size(longest_.size(), 0);
@@ -53,6 +55,7 @@ public:
             Index halfedge = -1, faces = 0, alike = 0;
             Key key;
         };
+        // Of each patch the key that is rarest, then greatest; the largest patch first.
         std::vector<Start> starts(longest_.size());
         for (std::size_t i = 0; i < keys.size(); ++i) {
             const Index p = patch_of(candidates[i]);

@@ -147,7 +147,7 @@ bool are_finite(const Mesh& mesh, const std::vector<Mesh::Vertex_index>& vertice
 }
 
 /// Adds one patch to the mesh.
-void fill(Mesh& mesh, const VertexLoop& loop)
+void fill_hole(Mesh& mesh, const VertexLoop& loop)
 {
     namespace pmp = CGAL::Polygon_mesh_processing;
     const auto ignore = boost::make_function_output_iterator([](const auto&) {});
@@ -199,7 +199,7 @@ FilledSurface fill_and_fair_holes(const Vertices& vertices, const Triangles& tri
                 "a boundary loop has two vertices at one place (vertices listed): merge these vertices, or "
                 "move them apart",
                 ElementKind::vertices, pair);
-        fill(mesh, surface.loops[k]);
+        fill_hole(mesh, surface.loops[k]);
         label.resize(mesh.number_of_faces(), k);
     }
 

@@ -108,6 +108,7 @@ FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
     validate_arrays(vertices, triangles);
     const Surface surface = analyze_surface(triangles, static_cast<Index>(vertices.rows()));
     const std::vector<Index> ranks = chosen_ranks(surface, loops);
+    // Room for a vertex in each hole and a face at each of its edges.
     Eigen::Index rows = triangles.rows();
     for (const Index k : ranks) rows += static_cast<Eigen::Index>(surface.loops[k].size());
     FilledSurface filled{Vertices(vertices.rows() + static_cast<Eigen::Index>(ranks.size()), 3), Triangles(rows, 3),
@@ -116,6 +117,7 @@ FilledSurface fill_holes(const Vertices& vertices, const Triangles& triangles,
     filled.triangles.topRows(triangles.rows()) = triangles;
     auto added = static_cast<Index>(vertices.rows());
     Eigen::Index row = triangles.rows();
+    // The fan's corners come in the loop's order, its hub last.
     for (const Index k : ranks) {
         const VertexLoop& loop = surface.loops[k];
         const SurfacePatch patch = fill_on_surface(vertices(loop, Eigen::all));

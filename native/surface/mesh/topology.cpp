@@ -66,6 +66,7 @@ Orientation orient_faces(const Triangles& triangles, const std::vector<Index>& t
             for (Index h = 3 * f; h < 3 * f + 3; ++h) {
                 if (twin[h] == no_twin) continue;
                 const Index g = face_of(twin[h]);
+                // Neighbours agree if they run along their edge in different directions.
                 const char wanted =
                     static_cast<char>(result.reversed[f] ^ (same_direction(triangles, h, twin[h]) ? 1 : 0));
                 if (result.component[g] < 0) {
@@ -73,6 +74,7 @@ Orientation orient_faces(const Triangles& triangles, const std::vector<Index>& t
                     result.reversed[g] = wanted;
                     queue.push_back(g);
                 } else if (result.reversed[g] != wanted) {
+                    // Reached twice, and both ways round.
                     throw TopologyError(TopologyKind::nonorientable,
                                         "the surface has one side only (a Moebius band runs through the edge listed)",
                                         {origin(triangles, h), target(triangles, h)});
@@ -274,6 +276,7 @@ Surface analyze_surface(const Triangles& triangles, Index vertex_count)
     Surface surface;
     surface.triangles = triangles;
     surface.vertex_count = vertex_count;
+    // Twins, then one orientation, then discs or half-discs around all vertices.
     surface.twin = pair_halfedges(triangles, vertex_count);
     if (!is_in_order(triangles, surface.twin)) {
         Orientation orientation = orient_faces(triangles, surface.twin);
@@ -281,10 +284,12 @@ Surface analyze_surface(const Triangles& triangles, Index vertex_count)
         apply_orientation(surface, std::move(orientation.reversed));
     }
     require_manifold_vertices(surface);
+    // Boundary loops are chains of halfedges without a twin.
     const std::vector<Index> rim =
         found_in_pieces(static_cast<Index>(surface.twin.size()), [&](Index h) { return surface.twin[h] == no_twin; });
     surface.loops = find_loops(surface, rim);
 
+    // chi = V - E + F = 2 - 2 g - loops.
     const std::vector<char> unused = unused_vertices(triangles, vertex_count);
     for (Index v = 0; v < vertex_count; ++v)
         if (unused[v]) surface.unused.push_back(v);

@@ -33,11 +33,11 @@ public:
     {
         std::vector<Index> found;
         for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f)
-            if (has(rounded, f)) found.push_back(f);
+            if (is_turned(rounded, f)) found.push_back(f);
         return found;
     }
 
-    bool has(const PlanarPoints& rounded, Index f) const
+    bool is_turned(const PlanarPoints& rounded, Index f) const
     {
         return face(rounded, f).doubtful() && !face(points_, f).flipped();
     }
@@ -63,7 +63,7 @@ PlanarPoints upright_floats(const PlanarPoints& points, const Triangles& triangl
     if (left.empty()) return rounded;
     const VertexFaces around(triangles, static_cast<Index>(points.rows()));
     const auto turned_around = [&](Index v) {
-        return std::ranges::count_if(around[v], [&](Index f) { return turned.has(rounded, f); });
+        return std::ranges::count_if(around[v], [&](Index f) { return turned.is_turned(rounded, f); });
     };
     // Of the floats near its point a vertex takes the nearest one at which the fewest of its faces are turned.
     const auto move = [&](Index v) {
@@ -83,7 +83,7 @@ PlanarPoints upright_floats(const PlanarPoints& points, const Triangles& triangl
     };
     for (int round = 0; round < rounds_of_moves && !left.empty(); ++round, left = turned.all(rounded))
         for (const Index f : left)
-            for (int k = 0; k < 3 && turned.has(rounded, f); ++k) move(triangles(f, k));
+            for (int k = 0; k < 3 && turned.is_turned(rounded, f); ++k) move(triangles(f, k));
     return rounded;
 }
 

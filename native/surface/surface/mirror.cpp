@@ -138,11 +138,13 @@ std::vector<Index> mirrored_corners(const Vertices& vertices, const std::vector<
 bool is_mirror(const Vertices& vertices, const PolygonCorners& polygons, const NearestPoint& nearest,
                const MirrorPlane& plane, double reach, Mirror& mirror)
 {
+    // Polygons go to polygons.
     const std::vector<Index> image = mirrored_polygons(polygons, nearest, plane);
     if (image.empty()) return false;
     std::vector<Index> vertex(static_cast<std::size_t>(vertices.rows()), -1);
     std::size_t corners = 0, fixed = 0;
     bool torn = false;
+    // Corners go to corners. Vertices are torn if two polygons give them different images.
     for (std::size_t g = 0; g < image.size(); ++g) {
         const std::vector<Index>& own = polygons.corners[g];
         const std::vector<Index> images = mirrored_corners(vertices, own, polygons.corners[image[g]], plane, reach);
@@ -155,6 +157,7 @@ bool is_mirror(const Vertices& vertices, const PolygonCorners& polygons, const N
             fixed += images[k] == own[k] ? 1 : 0;
         }
     }
+    // A flat mesh is its own image in its plane: that is no symmetry.
     if (static_cast<double>(fixed) > most_in_plane * static_cast<double>(corners)) return false;
     mirror.side.resize(image.size());
     for (std::size_t g = 0; g < image.size(); ++g)

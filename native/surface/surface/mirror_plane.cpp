@@ -55,11 +55,13 @@ std::vector<Images> images_in(const std::vector<MirrorPlane>& planes, const Samp
                               const Triangles& triangles)
 {
     const Eigen::Index count = samples.points.rows();
+    // The images under all planes, in one search for nearest faces.
     Vertices images(count * static_cast<Eigen::Index>(planes.size()), 3);
     for (Eigen::Index i = 0; i < images.rows(); ++i)
         images.row(i) = planes[static_cast<std::size_t>(i / count)].image(samples.points.row(i % count));
     const PlacesInTriangles nearest = nearest_triangles(vertices, triangles, images);
     std::vector<Images> all(planes.size());
+    // For each plane the nearest places, the normals there, and the mean distance by area.
     for (std::size_t k = 0; k < planes.size(); ++k) {
         const Eigen::Index first = static_cast<Eigen::Index>(k) * count;
         Images& own = all[k];

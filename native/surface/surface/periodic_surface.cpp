@@ -233,6 +233,7 @@ PeriodicSurface periodic_torus(const Vertices& vertices, const Triangles& triang
     const Surface& surface = domain.surface;
     require_genus(surface, 1, "a map to a flat torus needs exactly one");
     order_loops(domain, {});
+    // Tree and cotree (Eppstein 2003): on a torus two edges are in neither.
     const DualGraph dual(surface);
     std::vector<char> closed = vertex_tree(surface);
     const auto to = dual.tree(0, closed);
@@ -241,6 +242,7 @@ PeriodicSurface periodic_torus(const Vertices& vertices, const Triangles& triang
         closed[step.halfedge] = 1;
         if (surface.twin[step.halfedge] != no_twin) closed[surface.twin[step.halfedge]] = 1;
     }
+    // Each closes a loop of the dual graph: the form is 1 where an edge crosses it, and 0 along the holes.
     for (Index h = 0; h < dual.halfedge_count(); ++h) {
         if (closed[h] || (surface.twin[h] != no_twin && surface.twin[h] < h)) continue;
         OneForm form = OneForm::Zero(dual.halfedge_count());
@@ -251,6 +253,7 @@ PeriodicSurface periodic_torus(const Vertices& vertices, const Triangles& triang
             make_zero_along(surface, dual.border(k), surface.loops[k], form);
         domain.shifts.push_back(std::move(form));
     }
+    // So ordered that the tile lies upright.
     if (wedge_integral(domain.shifts.at(0), domain.shifts.at(1)) < 0.0) std::swap(domain.shifts[0], domain.shifts[1]);
     take_metric(domain);
     return domain;

@@ -29,27 +29,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A kind of map, the command that makes it, and the words by which the add-on's batch.py makes it; null: it does not.
-struct Domain {
-    const char* name;
-    AddSubcommand add;
-    const char* of_blender;
-    bool makes_pattern = false;  ///< a drawing in place of a mesh
-};
-
-constexpr Domain domains[]{{"disk", add_uniformize, ""},
-                           {"torus", add_torus, "--domain=torus"},
-                           {"ring", add_ring, "--domain=ring"},
-                           {"sphere", add_sphere, "--domain=sphere"},
-                           {"schottky", add_schottky, "--domain=schottky"},
-                           {"parts", add_parts, "--parts"},
-                           {"pack", add_pack, nullptr},
-                           KOEBE_OF_MAKING({"flatten", add_flatten, nullptr, true})};
 const std::vector<std::string> pattern_formats{"dxf", "svg"};
 
 /// A domain's command as it is parsed alone: checks the options of a batch, and knows their defaults.
 struct DomainCommand {
-    Domain domain;
+    BatchDomain domain;
     std::shared_ptr<CLI::App> app = std::make_shared<CLI::App>();
     Subcommand command = domain.add(*app);
 
@@ -73,7 +57,7 @@ struct DomainCommand {
 std::vector<std::string> domain_names()
 {
     std::vector<std::string> names;
-    for (const Domain& domain : domains) names.emplace_back(domain.name);
+    for (const BatchDomain& domain : batch_domains) names.emplace_back(domain.name);
     return names;
 }
 
@@ -82,7 +66,7 @@ struct BatchRequest {
     std::vector<DomainCommand> commands;
     const DomainCommand* chosen = nullptr;
     nlohmann::ordered_json recipe;  ///< the settings that a map depends on beside the mesh
-    std::string domain = domains[0].name;
+    std::string domain = batch_domains[0].name;
     std::vector<std::string> inputs, blender_arguments;
     std::string folder, base, format, blender, blender_script;
     int workers = 0;
@@ -93,6 +77,7 @@ struct BatchRequest {
 
 void add_batch_options(CLI::App& app, BatchRequest& request)
 {
+    // What is mapped, and where the results go.
     app.add_option("INPUTS", request.inputs, "mesh files, and folders to search with all their folders")->required();
     app.add_option("--output", request.folder,
                    "folder for the results. Each file keeps its path below its input folder, with a .json beside it")
@@ -100,6 +85,7 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
         ->type_name("FOLDER");
     app.add_option("--base", request.base, "names are relative to this folder, for runs on single files of it")
         ->type_name("FOLDER");
+    // How: files at a time, for how long, in which format.
     app.add_option("--workers", request.workers, "files at a time; 0: one for each core")
         ->check(whole_number(0))
         ->capture_default_str();
@@ -107,10 +93,11 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
         ->check(number_in({.above = 0.0}))
         ->type_name("SECONDS");
     std::vector<std::string> formats = io::format_names(io::FormatName::bare, true);
-    if (std::ranges::any_of(domains, &Domain::makes_pattern))
+    if (std::ranges::any_of(batch_domains, &BatchDomain::makes_pattern))
         formats.insert(formats.end(), pattern_formats.begin(), pattern_formats.end());
     app.add_option("--format", request.format, "format of the results: by default obj, and dxf of patterns")
         ->check(CLI::IsMember(formats));
+    // Which part of the work: runs of several hosts share a folder by claims.
     app.add_flag("--retry", request.retry, "try meshes again that could not be mapped");
     app.add_option("--stale", request.stale, "seconds without a sign of life until another host's claim is taken over")
         ->check(number_in({.above = 0.0}))
@@ -122,10 +109,12 @@ void add_batch_options(CLI::App& app, BatchRequest& request)
     app.add_flag("--summary-only", request.summary_only, "map nothing, write the table of the results in the folder")
         ->excludes(list)
         ->excludes(none);
+    // How the run ends, and what it prints.
     app.add_flag("--exit-zero", request.exit_zero,
                  "for farms: exit code 0 even if a mesh was not mapped, 3 only if the machine failed");
     app.add_flag(end_with_input_flag, request.ends_with_input)->group("");
     app.add_flag("--quiet", request.quiet, "no line for each file and no result line");
+    // The map, and the program that maps .blend files.
     app.add_option("--domain", request.domain,
                    "the map of each file. disk: koebe uniformize; each other word: the command of this name")
         ->check(CLI::IsMember(domain_names()))
@@ -155,7 +144,7 @@ std::string domains_with(const BatchRequest& request, const std::string& flag)
 /// Adds each option of the domains once, as text that the domain's command checks.
 void add_domain_options(CLI::App& app, BatchRequest& request)
 {
-    for (const Domain& domain : domains) request.commands.push_back({domain});
+    for (const BatchDomain& domain : batch_domains) request.commands.push_back({domain});
     for (const DomainCommand& command : request.commands)
         for (const CLI::Option* const option : command.command.options->get_options()) {
             const OptionRow* const row = command.row_of(*option);
@@ -196,7 +185,7 @@ void choose_domain(BatchRequest& request)
 {
     request.chosen = &*std::ranges::find(request.commands, request.domain,
                                          [](const DomainCommand& command) { return std::string(command.domain.name); });
-    const Domain& domain = request.chosen->domain;
+    const BatchDomain& domain = request.chosen->domain;
     for (const CLI::Option* option : request.forwarded)
         if (option->count() > 0 && request.chosen->find(option->get_name()) == nullptr)
             throw CLI::ValidationError(option->get_name(),
@@ -213,7 +202,7 @@ void choose_domain(BatchRequest& request)
     request.recipe = request.chosen->command.entries->at("options");
     if (request.format == "svg" && request.recipe.at("page") != "none")
         throw CLI::ValidationError("--format", "svg needs --page none: it has a file for each page");
-    if (request.domain != domains[0].name) request.recipe["domain"] = request.domain;
+    if (request.domain != batch_domains[0].name) request.recipe["domain"] = request.domain;
 }
 
 std::vector<std::string> map_command(const BatchRequest& request, const std::string& own_program,
@@ -324,11 +313,13 @@ int run_batch(const BatchRequest& request)
 {
     if (request.ends_with_input) end_with_input();
     if (!request.quiet) require_standard_output();
+    // What there is to map.
     const batch::FileList list = files_of(request);
     if (list.blends_passed_over > 0 && !request.quiet)
         std::fprintf(stderr, "%s of Blender's skipped: give the Blender program with --blender\n",
                      counted(list.blends_passed_over, "file").c_str());
     if (list.files.empty()) throw WrongUsage("there is no mesh file in " + request.inputs.front());
+    // Runs that map nothing: a list, or the table of what is there.
     const fs::path output = fs::weakly_canonical(batch::path_of(request.folder));
     if (request.list) {
         print_list(list);
@@ -339,6 +330,7 @@ int run_batch(const BatchRequest& request)
         if (!request.quiet) print(one_line("the table is " + batch::utf8(output / batch::summary_json)) + "\n");
         return done;
     }
+    // The maps. A failed map ends with its own exit code, unless a farm would take that for a failed machine.
     const batch::BatchOptions options = batch_options(request, output);
     const batch::BatchCount count = run_batch(list.files, options);
     if (count.interrupted) {

@@ -199,6 +199,7 @@ std::vector<NamedSubcommand> needed(std::span<const NamedSubcommand> known, std:
 
 int run_command(std::span<const NamedSubcommand> known, int argc, char** argv)
 {
+    // The program, and the subcommands that are needed.
     CLI::App app("Conformal maps of surfaces with holes onto circle domains.", "koebe");
     app.set_version_flag("--version", KOEBE_VERSION);
     app.require_subcommand(1);
@@ -214,6 +215,7 @@ int run_command(std::span<const NamedSubcommand> known, int argc, char** argv)
     }
     const auto is_parsed = [](const Subcommand& command) { return command.options->parsed(); };
     try {
+        // Without --profile the subcommand runs as it is.
         app.parse(argc, argv);
         const Subcommand& command = *std::ranges::find_if(commands, is_parsed);
         if (profile.empty()) return command.run();

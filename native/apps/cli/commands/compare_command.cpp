@@ -143,6 +143,7 @@ void settle_words(CompareRequest& request, const CLI::Option& json)
         request.first = std::exchange(request.json, to_standard_output);
     }
     if (request.json.empty()) request.json = to_standard_output;
+    // A folder with --csv: each pair of its shapes.
     if (!request.csv.empty()) {
         if (request.with_json || request.any_outer || request.teichmueller || request.loops != "match")
             throw CLI::ValidationError("--csv", "excludes --json, --loops, --any-outer and --teichmueller");
@@ -150,6 +151,7 @@ void settle_words(CompareRequest& request, const CLI::Option& json)
         require_different_files(request.files(), {request.first, request.second}, false);
         return;
     }
+    // Two meshes: which options exclude each other.
     require_csv(request);
     if (request.first.empty() || request.second.empty()) throw CLI::RequiredError("A and B");
     if (request.any_outer && request.loops != "match") throw CLI::ValidationError("--any-outer", "needs --loops match");
@@ -169,6 +171,7 @@ Subcommand add_compare(CLI::App& app)
 {
     auto request = std::make_shared<CompareRequest>();
     CLI::App* options = app.add_subcommand("compare", "how far apart the conformal modules of two surfaces are");
+    // The surfaces, and how their loops correspond.
     add_input(*options, request->first, "surface with holes", "A", "; or a folder of them, with --csv")
         ->required(false);
     options->add_option("B", request->second, "surface with the same number of holes");
@@ -185,6 +188,7 @@ Subcommand add_compare(CLI::App& app)
         "--teichmueller", request->teichmueller,
         "the Teichmueller distance instead, log(K) / 2: K is the least dilatation of a map of one surface "
         "to the other");
+    // A table of a whole folder, or a report of two.
     add_family_options(*options, *request,
                        "a row for each pair of the folder's shapes. All have one order of the loops, so the triangle "
                        "inequality holds",

@@ -93,6 +93,7 @@ std::string result_line(const FillRequest& request, const MeshInput& input, cons
 
 int run_fill(const FillRequest& request)
 {
+    // Read and fill, on a thread that Ctrl-C leaves behind.
     const Stopwatch run;
     const CancelToken token = cancel_on_signal();
     require_writable_files(request.files(), !request.quiet);
@@ -101,6 +102,7 @@ int run_fill(const FillRequest& request)
     ExecutionContext context({}, token);
     const PatchedPolygons filled =
         run_detachable<PatchedPolygons>(context, [request, input](ExecutionContext&) { return fill(request, *input); });
+    // The file appears whole, or not at all.
     AtomicFile file(request.output);
     std::vector<Warning> warnings = filled.warnings;
     if (filled.mesh.face_count() == input->polygons.face_count())
@@ -134,6 +136,7 @@ Subcommand add_fill(CLI::App& app)
     add_input(*options, request->input, "surface with holes");
     add_output(*options, request->output,
                "OBJ to write, with the groups surface, patch_0, patch_1, …, or PLY, with the property patch");
+    // Which loops are filled: all but the outer one, all, or a list.
     CLI::Option* outer = options
                              ->add_option("--outer", request->outer,
                                           "loop that stays open: the longest, or the loop of a vertex (counted from 0)")

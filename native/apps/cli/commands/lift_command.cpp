@@ -104,6 +104,8 @@ Subcommand add_lift(CLI::App& app)
     add_options(*options, "lift", request->of_files);
     request->graded.add(*options, "lift", "graded");
     add_report_options(*options, *request, "");
+    // The extension decides between a mesh with UVs and a solid for a printer. A pattern's file must not be
+    // overwritten.
     options->callback([request] {
         const std::string extension = io::lower_extension(request->output);
         if (extension == ".stl" || extension == ".3mf") request->solid_format = extension;

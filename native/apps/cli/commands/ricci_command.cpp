@@ -32,6 +32,7 @@ Subcommand add_ricci(CLI::App& app)
     request->entries = {{"method", "ricci"}, {"engine", "circle_packing"}};
     CLI::App* options = app.add_subcommand("ricci", "as uniformize, but by the discrete Ricci flow, for comparison");
     add_mesh_arguments(*options, *request);
+    // The flow's own choices, which no other map has.
     options
         ->add_option("--packing", request->packing,
                      "inversive: circles may be apart; acute: circles intersect, and the metric is approximate")
@@ -50,6 +51,7 @@ Subcommand add_ricci(CLI::App& app)
     add_options(*options, "ricci", request->options);
     add_options(*options, "ricci", request->of_files);
     add_report_options(*options, *request);
+    // They stand in the report beside the options of uniformize.
     options->callback([request] {
         check_map_files(*request);
         report_options(*request, "ricci", request->options);

@@ -54,6 +54,7 @@ int run_scene_of(const MapRequest& request, const MapKind<Result>& kind)
     require_one_mesh_for_picture(request, scene);
     std::vector<MappedMesh> mapped;
     {
+        // Map each mesh. Its UVs are rounded to the file's 32 bits before they are judged.
         ProgressLine progress(request.quiet);
         for (std::size_t m = 0; m < scene.inputs.size(); ++m) {
             const MeshInput& input = scene.inputs[m];

@@ -152,6 +152,7 @@ Subcommand add_sequence(CLI::App& app)
     auto request = std::make_shared<SequenceRequest>();
     CLI::App* options =
         app.add_subcommand("sequence", "map many files of one surface whose vertices move, each laid over the first");
+    // The files, the folder of the results, and their format.
     options->add_option("FILES", request->inputs, "meshes with the same faces, in the order of the sequence")
         ->required();
     options
@@ -165,6 +166,7 @@ Subcommand add_sequence(CLI::App& app)
     add_options(*options, "sequence", request->options);
     add_options(*options, "sequence", request->of_files);
     options->add_flag("--quiet", request->quiet, "no progress and no result lines");
+    // Names of results must differ, from each other and from the inputs.
     options->callback([request] {
         check_center(request->options);
         check_files(*request);

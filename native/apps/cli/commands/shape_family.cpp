@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The shape's loops that correspond to the reference's, in the wanted order.
-std::vector<int> like(const ShapeInput& reference, const ShapeInput& shape, const std::vector<int>& wanted,
-                      const CancelToken& token)
+std::vector<int> corresponding_loops(const ShapeInput& reference, const ShapeInput& shape,
+                                     const std::vector<int>& wanted, const CancelToken& token)
 {
     ExecutionContext context({}, token);
     const LoopMatch match =
@@ -136,7 +136,8 @@ ShapeFamily read_family(const FamilyRequest& request, const std::vector<std::str
         FamilyRow row;
         try {
             const ShapeInput shape = i == first ? reference : read_shape(files[i], request.options, token);
-            row = row_of(files[i], shape, i == first ? wanted : like(reference, shape, wanted, token), request.options);
+            row = row_of(files[i], shape, i == first ? wanted : corresponding_loops(reference, shape, wanted, token),
+                         request.options);
             family.converged = family.converged && shape.converged;
         } catch (const Cancelled&) {
             throw;

@@ -56,6 +56,24 @@ struct NamedSubcommand {
     AddSubcommand add;
 };
 
+/// A map that `koebe batch` makes: its name there, the command that makes it, and the words by which the add-on's
+/// batch.py makes it; null: it does not.
+struct BatchDomain {
+    const char* name;
+    AddSubcommand add;
+    const char* of_blender;
+    bool makes_pattern = false;  ///< a drawing in place of a mesh
+};
+
+inline constexpr BatchDomain batch_domains[]{{"disk", add_uniformize, ""},
+                                             {"torus", add_torus, "--domain=torus"},
+                                             {"ring", add_ring, "--domain=ring"},
+                                             {"sphere", add_sphere, "--domain=sphere"},
+                                             {"schottky", add_schottky, "--domain=schottky"},
+                                             {"parts", add_parts, "--parts"},
+                                             {"pack", add_pack, nullptr},
+                                             KOEBE_OF_MAKING({"flatten", add_flatten, nullptr, true})};
+
 /// Parses, runs one of the sub-commands, and turns errors into one line and an exit code, as command().
 int command_of(std::span<const NamedSubcommand> known, int argc, char** argv);
 

@@ -126,8 +126,10 @@ nlohmann::ordered_json report(const TransferRequest& request, const MappedInput&
                               const std::vector<Warning>& warnings)
 {
     const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+    // How far each hole misses its target, as a share of its radius on A.
     std::vector<double> in_radii = found.alignment.misses;
     for (std::size_t k = 0; k < in_radii.size(); ++k) in_radii[k] /= a.surface.loops[k].circle.radius;
+    // Where each vertex of A lies on B: a triangle, and weights of its corners.
     nlohmann::ordered_json places = nlohmann::ordered_json::array();
     for (Eigen::Index v = 0; v < found.places.face.size(); ++v) {
         const auto corners = b.surface.triangles.row(found.places.face[v]);
@@ -228,6 +230,7 @@ Subcommand add_transfer(CLI::App& app)
     options->add_option("B", request->second, "surface with the same number of holes")->required();
     add_output(*options, request->output,
                io::listed_formats(io::FormatName::word, true) + " to write: A's faces, with A's vertices moved onto B");
+    // How points correspond: by circles, by bent holes, by landmarks.
     options->add_flag("--no-fit", request->aligned_only,
                       "only lay the domains over each other: bend no hole onto another hole");
     options
@@ -247,6 +250,7 @@ Subcommand add_transfer(CLI::App& app)
                      "write there in which triangle of B each point lies, and how far the holes miss")
         ->type_name("FILE");
     options->add_flag("--quiet", request->quiet, "no progress and no result line");
+    // No file may be read and written.
     options->callback([request] {
         request->format = required_format(request->output);
         require_different_files(request->files(), {request->first, request->second, request->landmarks},

@@ -89,12 +89,14 @@ Subcommand add_uniformize(CLI::App& app)
     request->importance.add(*options, "uniformize", "importance");
     add_report_options(*options, *request);
     options->add_flag(end_with_input_flag, request->ends_with_input)->group("");
+    // Combinations that say nothing are refused before a mesh is read.
     options->callback([options, request] {
         check_map_files(*request);
         check_uniformize_options(*options, request->options, request->cut);
         if (request->importance.is_given() && request->options.balance == Balance::none &&
             !(request->options.even > 0.0))
             throw CLI::ValidationError("--importance", "needs --balance area, or --even above 0");
+        // The report's options, ahead of the run.
         request->entries["options"] = uniformize_report(request->options, request->cut);
         request->entries["options"].update(option_report("uniformize", request->of_files));
         request->importance.check(*request);
@@ -103,6 +105,7 @@ Subcommand add_uniformize(CLI::App& app)
             [request] {
                 if (request->ends_with_input) end_with_input();
                 request->options.importance = request->importance.read("an importance");
+                // With --cut, surfaces with handles or in pieces are cut open first.
                 if (request->cut) return run_map_of(*request, CutUniformizeKind(*request));
                 const auto map = [](const auto& vertices, const auto& triangles, const auto& chosen,
                                     ExecutionContext& context) {

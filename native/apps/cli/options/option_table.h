@@ -81,6 +81,7 @@ nlohmann::ordered_json option_report(std::string_view map, const Options& option
         if (row == nullptr || name == "threads" || name == "uv_channel") return;
         const Owner& owner = options;
         const Field& field = owner.*member;
+        // A vertex in place of a word: the outer loop through it.
         if constexpr (std::is_same_v<Field, OuterLoop>) {
             if (field == OuterLoop::vertex)
                 report[name] = owner.outer_vertex;
@@ -92,6 +93,7 @@ nlohmann::ordered_json option_report(std::string_view map, const Options& option
             report[name] = words_of(field);
         } else if constexpr (std::is_same_v<Field, std::optional<double>>) {
             report[name] = field ? nlohmann::ordered_json(*field) : nullptr;
+            // The number, or null where -1 stands for no vertex.
         } else if constexpr (std::is_arithmetic_v<Field> || std::is_same_v<Field, std::string>) {
             report[name] = field;
             if constexpr (std::is_arithmetic_v<Field>)

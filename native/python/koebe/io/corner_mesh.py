@@ -37,15 +37,18 @@ def mesh_with_corner_uv(source: "Source", uv: Floats, mapped: Bools, more: Mappi
     if source.mesh is None or source.polygons is None or source.polygon is None:
         raise InputError("the surface came as arrays or as a file: there is no mesh to give back")
     count = len(source.vertices)
+    # A vertex for each pair of a vertex and its UVs.
     old, triangles, uv_of = doubled(source.given_triangles, uv, count)
     points = source.vertices[old]
     error = face_angle_error_deg(points, triangles, uv_of)
     known = mapped & np.isfinite(error)
     faces = len(source.polygons.cell)
+    # A polygon's angle error is the mean of its triangles'.
     with np.errstate(invalid="ignore"):
         sums = np.bincount(source.polygon[known], error[known], minlength=faces)
         of_faces = {ANGLE_ERROR: sums / np.bincount(source.polygon[known], minlength=faces)}
     of_points = {name: values[old] for name, values in (more or {}).items()}
+    # GIfTI keeps its vertices: UVs go to the corners there.
     if not is_gifti(source.mesh):
         mesh = mesh_with_vertices(source.mesh, source.polygons, old, _polygon_corners(source, triangles))
         of_points = {LOG_SCALE: log_scale(points, triangles[mapped], uv_of), **of_points}

@@ -40,6 +40,7 @@ def export(result: Any, path: str | os.PathLike[str], as_surface: bool = False) 
     """Writes a result in the format that the file's name says. as_surface: any GIfTI file has the map itself."""
     name = Path(path).name
     low = name.lower()
+    # Names decide, the longer endings first.
     if low.endswith((".surf.gii", ".surf.gii.gz")) or as_surface and low.endswith(GIFTI):
         content = saved_bytes(low, lambda place: package_of("nibabel").save(_gifti_surface(result, name), place))
     elif low.endswith(FIELDS):

@@ -108,10 +108,12 @@ def is_gifti(mesh: Any) -> bool:
 
 def mesh_with_fields(mesh: Any, polygons: Polygons, fields: Fields) -> Any:
     """A copy of the mesh with texture coordinates and fields."""
+    # Cells that are no faces (points, lines) have NaN.
     of_cells = {}
     for name, values in fields.faces.items():
         of_cells[name] = np.full((polygons.cell_count, *values.shape[1:]), np.nan)
         of_cells[name][polygons.cell] = values
+    # Each package has its own place for fields.
     kind = kind_of(mesh)
     if kind == "trimesh":
         result = mesh.copy()
@@ -170,6 +172,7 @@ def mesh_with_vertices(mesh: Any, polygons: Polygons, old: Whole, corners: Whole
         result.points = np.asarray(mesh.points)[old]
         result.point_data = {name: np.asarray(values)[old] for name, values in mesh.point_data.items()}
         result.point_data[VERTEX] = old
+        # Corners are in the order of the blocks.
         begin = 0
         for block in result.cells:
             if block.type in ("vertex", "line"):

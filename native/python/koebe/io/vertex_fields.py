@@ -66,6 +66,7 @@ def read_field(path: str | os.PathLike[str], *, hemisphere: str | None = None) -
     name = Path(path_of(path)).name.lower()
     if hemisphere is not None:
         choice_of(hemisphere, "hemisphere", _CIFTI)
+    # CIFTI, GIfTI, else FreeSurfer.
     if name.endswith(".nii"):
         with read_by("nibabel", path) as nibabel:
             return _from_cifti(nibabel.load(os.fspath(path)), path, hemisphere)
@@ -196,6 +197,7 @@ def write_field(
     """
     if isinstance(values, VertexField):
         names, colors, values = names or values.names, colors or values.colors, values.values
+    # What no file can hold.
     array = np.asarray(values)
     if array.ndim != 1 or array.dtype.kind not in "fiub" or not len(array):
         raise InputError(f"the values must be (V,) numbers, not {array.shape} {array.dtype}")
@@ -205,11 +207,13 @@ def write_field(
     if array.dtype.kind == "f" and (np.abs(array[np.isfinite(array)]) > np.finfo(np.float32).max).any():
         raise InputError("the values are beyond floats of 32 bits, which the files have")
     low = Path(path_of(path)).name.lower()
+    # What files of labels cannot hold.
     as_labels = low.endswith((".annot", ".label.gii", ".dlabel.nii"))
     if as_labels and (array.dtype.kind == "f" or array.min() < NO_LABEL):
         raise InputError(f"{low} has labels: whole numbers from 0, and -1 for none, not {array.dtype}")
     if low.endswith(".annot") and array.max() >= _MOST_LABELS:
         raise InputError(f"{low} has labels below {_MOST_LABELS}, not {array.max()}")
+    # Each label that occurs has a name and a colour.
     known = {int(key): str(text) for key, text in (names or {}).items() if int(key) != NO_LABEL}
     if as_labels:
         known |= {int(key): f"label {key}" for key in np.unique(array) if key != NO_LABEL and int(key) not in known}

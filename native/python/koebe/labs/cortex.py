@@ -131,10 +131,12 @@ def cortex(
     >>> flat = koebe.cortex("derivatives/sub-01", "left")  # doctest: +SKIP
     >>> flat.write("flat_lh.gii")  # doctest: +SKIP
     """
+    # Options, before a file is read.
     files = Hemisphere(subject, hemisphere)
     evenness, many = number(even, rows("uniformize")["even"]), number(darts, rows("parts")["darts"])
     callback(progress, "progress")
     stop = token(cancel, "cancel")
+    # The surface, and what a template or the region leaves of it.
     path = files.surface(MAPPED if surface is None else [surface])
     given: Any = surface_of(path)
     points, triangles = given.vertices, given.triangles
@@ -188,16 +190,19 @@ class _Template:
 
 
 def _template(path: PathLike, files: Hemisphere, count: int, triangles: Whole) -> _Template:
+    # The other hemisphere's name.
     words = set(re.split("[._-]", Path(path).name))
     if others := words & files.others:
         raise InputError(f"{os.fspath(path)} is of the other hemisphere: {min(others)}")
     flat = read_patch(path) if head_of(path) == PATCH else surface_of(path, degenerate=True)
+    # A flat map of another subject lies beside its sphere, whose faces count.
     sphere = None
     if not Path(path).resolve().is_relative_to(files.folder.resolve()):
         beside = _sphere_beside(Path(path))
         whole = surface_of(beside)
         sphere, count, triangles = _unit(beside, whole.triangles), len(whole.vertices), whole.triangles
     what = "the surface" if sphere is None else "its sphere"
+    # A patch names its vertices; a flat surface has the faces that are kept.
     if isinstance(flat, Patch):
         if not len(flat.vertices) or flat.vertices.max() >= count:
             raise FileError(f"{os.fspath(path)} names vertices that are not among the {count} of {what}")

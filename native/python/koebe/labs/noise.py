@@ -46,6 +46,7 @@ def vertex_noise(vertices: Any, triangles: Any = None, *, mask: Any = None) -> f
 
 def _noise_of(source: Source) -> float:
     count = len(source.vertices)
+    # Edges and degrees; `filtered` is I minus the mean of the neighbours.
     edges = np.sort(source.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     edges, times = np.unique(edges, axis=0, return_counts=True)
     ends = np.concatenate([edges, edges[:, ::-1]])
@@ -55,17 +56,20 @@ def _noise_of(source: Source) -> float:
         sums = np.stack([np.bincount(ends[:, 0], column[ends[:, 1]], minlength=count) for column in values.T], axis=1)
         return values - sums / degree[:, None]
 
+    # Vertices within two edges of a rim are left out: their filter is another.
     near = ~source.used
     near[edges[times == 1]] = True
     for _ in range(2):
         near[ends[near[ends[:, 1]], 0]] = True
     if (~near).sum() < _LEAST_VERTICES:
         raise InputError(f"the noise needs {_LEAST_VERTICES} vertices away from rims, and there are {(~near).sum()}")
+    # Normals, weighted by area. Along them the position, filtered twice, is noise: a smooth surface nearly vanishes.
     a, b, c = (source.vertices[source.triangles[:, k]] for k in range(3))
     cross = np.cross(b - a, c - a)
     normal = np.stack(
         [np.bincount(source.triangles.ravel(), np.repeat(column, 3), minlength=count) for column in cross.T], axis=1
     )
+    # How much the filter lets through at each vertex, by random probes.
     probes = np.random.default_rng(0).normal(size=(count, _PROBES))
     rows = np.sqrt((filtered(filtered(probes)) ** 2).mean(axis=1))
     rest = np.einsum("vk,vk->v", filtered(filtered(source.vertices)), normal)

@@ -126,6 +126,7 @@ def _plain(value: Any) -> Any:
 
 
 def _mapped(text: str, is_svg: bool, given: dict[str, Any], progress: Any = None, cancel: Any = None) -> PlanarMap:
+    # A pole is a complex number or a pair.
     pole = given["pole"]
     options, _ = filled("planar", _koebe.PlanarOptions(), given)
     if pole is not None:
@@ -133,6 +134,7 @@ def _mapped(text: str, is_svg: bool, given: dict[str, Any], progress: Any = None
         is_number = not place.ndim and place.dtype.kind in "fiuc"
         options.pole = complex(*_places(place.reshape(1).astype(complex) if is_number else place[None])[0])
     native = _koebe.planar_map(text, is_svg, options, progress, token(cancel, "cancel"))
+    # Native lists as arrays, in the order of PlanarMap's fields.
     centers, radii = native.circles
     order, residuals = np.array(native.order, np.int32), np.array(native.residuals)
     module, errors = native.module, native.module_errors

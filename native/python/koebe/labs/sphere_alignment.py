@@ -108,6 +108,7 @@ def by_fields(
     points, areas    (V_b, 3) of the second sphere, and (V_b,)
     report     called with the share of the work that is done, and ends the work by an exception
     """
+    # A sample of the second sphere, by area where its fields are known.
     weight = np.where(np.isfinite(fields[1]).any(axis=1), areas, 0.0)
     random = np.random.default_rng(0)
     sample = random.choice(len(weight), min(_FINE, int((weight > 0).sum())), False, weight / weight.sum())
@@ -117,12 +118,14 @@ def by_fields(
     def similarity(matrix: Floats, count: int) -> float:
         return float(correlation(look_up(fields[0], applied(matrix, there[:count])), wanted[:count]))
 
+    # All rotations at a few points, by a table of the first fields.
     rotations = np.concatenate([_rotations(_quaternions(_ROTATIONS)), np.eye(3)[None]])
     scores: list[float] = []
     for some in np.array_split(rotations, 40):
         report(0.5 * len(scores) / len(rotations))
         looked_up = table[_cells((there[:_SAMPLES] @ some.transpose(0, 2, 1)).reshape(-1, 3))]
         scores += correlation(looked_up.reshape(len(some), -1, wanted.shape[1]), wanted[:_SAMPLES]).tolist()
+    # The best ones, by small steps.
     start = [_turned(rotation) for rotation in rotations]
     best = [start[k] for k in np.argsort(scores)[::-1][:_BEST]]
     climbed: list[Floats] = []

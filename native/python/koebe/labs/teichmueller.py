@@ -97,6 +97,7 @@ def teichmueller(
     1.16 0.07 0
     """
     pairs = landmark_pairs(landmarks)
+    # Tori and rings are compared by their moduli.
     if isinstance(a, TileMap) or isinstance(b, TileMap):
         if pairs:
             raise InputError("landmarks are for results of uniformize")

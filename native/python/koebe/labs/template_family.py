@@ -35,6 +35,7 @@ def over_template(
             raise TypeError(f"points need results of uniformize, and shape {number} is a {type(shape).__name__}")
     if len(orders[0]) < 3 and landmarks is None:
         raise InputError("with fewer than two holes, circles say nothing of the points' angles: give landmarks")
+    # Shapes that lie on the template already are taken as they are.
     base = shapes[reference]
     if template is None and all(on_one_template(base, shape) for shape in shapes):
         fits = list(shapes)

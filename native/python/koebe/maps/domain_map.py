@@ -1,7 +1,9 @@
 """What all maps have in common that give each corner UVs of its own."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
 
 from .._options import callback, filled, token, vertex_weights
 from .._types import Floats
@@ -19,9 +21,15 @@ class DomainMap(MapReport):
     changes: list[float]
     turned: list[int]
 
+    _of_faces: ClassVar[tuple[str, ...]] = ()  # further arrays of the library's result, kept in files
+
     def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
         super().__init__(report, native, source)
         self._set(uv=native.uv.reshape(-1, 3, 2))
+        self._set(**{name: np.array(getattr(native, name)) for name in self._of_faces})
+
+    def _arrays(self) -> dict[str, Any]:
+        return {**super()._arrays(), **{name: getattr(self, name) for name in self._of_faces}}
 
     def _counts(self) -> list[str]:
         """The parts of the result, in words."""

@@ -44,12 +44,7 @@ class PackResult(DomainMap):
     scale: float
     coverage: float
 
-    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
-        super().__init__(report, native, source)
-        self._set(island=np.array(native.island))
-
-    def _arrays(self) -> dict[str, Any]:
-        return {**super()._arrays(), "island": self.island}
+    _of_faces = ("island",)
 
     def _counts(self) -> list[str]:
         return [f"{len(self.islands)} islands", f"coverage {self.coverage:.3g}"]

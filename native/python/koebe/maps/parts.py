@@ -12,7 +12,6 @@ from ..errors import InputError
 from .domain_map import DomainMap, prepared
 from .input import polygons_of
 from .result import Seconds
-from .source import Source
 
 
 class PartsResult(DomainMap):
@@ -60,18 +59,13 @@ class PartsResult(DomainMap):
     seconds: Seconds
     maps: float
 
-    def __init__(self, report: dict[str, Any], native: Any, source: Source) -> None:
-        super().__init__(report, native, source)
-        self._set(part=np.array(native.part))
+    _of_faces = ("part",)
 
     def _drawn(self) -> Bools:
         return self.part >= 0
 
     def _counts(self) -> list[str]:
         return [f"{len(self.parts)} parts", f"texel density within {self.density_ratio_5_95:.3g}"]
-
-    def _arrays(self) -> dict[str, Any]:
-        return {**super()._arrays(), "part": self.part}
 
     def __repr__(self) -> str:
         return (
