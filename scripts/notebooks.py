@@ -18,7 +18,7 @@ import nbformat
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parent.parent
-NAMES = ("tutorial.ipynb", "atrium.ipynb")
+NAMES = ("tutorial.ipynb", "atrium.ipynb", "cortex.ipynb")
 
 
 def executed(name, folder):

@@ -187,7 +187,8 @@ def test_meshes_of_nilearn_and_vtk_are_surfaces():
     surface = pytest.importorskip("nilearn.surface")
     plain = koebe.uniformize(VERTICES, TRIANGLES)
     left = surface.InMemoryMesh(VERTICES, TRIANGLES)
-    for mesh in (left, surface.PolyMesh(left=left)):
+    brain = surface.PolyMesh(left=left)
+    for mesh in (left, brain, surface.SurfaceImage(brain, {"left": VERTICES[:, 0].astype(np.float32)})):
         assert np.array_equal(koebe.uniformize(mesh).uv, plain.uv)
     with pytest.raises(koebe.InputError, match="the parts left, right"):
         koebe.uniformize(surface.PolyMesh(left=left, right=left))

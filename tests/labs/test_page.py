@@ -1,4 +1,4 @@
-"""docs/labs.md and the notebooks tutorial.ipynb and atrium.ipynb: every block runs, and gives what the page says."""
+"""docs/labs.md and the notebooks of docs/: every block runs, and gives what the page says."""
 
 import re
 import shutil
@@ -77,3 +77,13 @@ def test_the_study_of_atria_finds_the_bulge_that_it_made(tmp_path, monkeypatch):
     said = notebook.cells[-2].outputs[0]["data"]["text/plain"]
     *place, p = (float(number) for number in re.findall(r"-?\d+\.\d+", said))
     assert np.linalg.norm(np.array(place) - (0, 8, 19)) < 8 and p <= 0.05  # mm, on the roof
+
+
+def test_the_cortex_lies_flatter_than_freesurfers(tmp_path, monkeypatch):
+    notebook, pictures = run("cortex.ipynb", tmp_path, monkeypatch)
+    ours, theirs = (
+        [float(number) for number in re.findall(r"\d+\.\d+|\d+(?= flipped)", line)]
+        for line in notebook.cells[6].outputs[0]["text"].splitlines()
+    )
+    assert pictures == 1 and ours[2] == 0 and ours[0] < 0.65 * theirs[0] and ours[1] < 0.5 * theirs[1]
+    assert (tmp_path / "flat_lh.gii").stat().st_size > 0

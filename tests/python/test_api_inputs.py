@@ -142,7 +142,7 @@ def test_a_path_is_a_text(path, tmp_path):
     calls = [
         koebe.load, koebe.read_patch, koebe.read_field, lambda one: koebe.read_region(one, 3),
         lambda one: koebe.write_field(one, [0.0]), lambda one: koebe.cortex(one, "lh"),
-        lambda one: koebe.batch([one], tmp_path), koebe.uniformize(VERTICES, FACES).save,
+        lambda one: koebe.batch([one], tmp_path), DISK_MAP.save, DISK_MAP.export,
     ]  # fmt: skip
     for call in calls:
         with pytest.raises((TypeError, koebe.InputError)):
@@ -359,6 +359,10 @@ def test_the_center_is_inside_and_the_point_on_a_loop():
 # ---------------------------------------------------------------- the other functions' own arguments
 
 
+RAGGED = [[1, 2], [3]]
+DISK_MAP = koebe.uniformize(VERTICES, FACES)
+
+
 def harmonic(fixed, values=None):
     return koebe.harmonic_map(VERTICES, FACES, fixed, np.zeros((len(fixed), 2)) if values is None else values)
 
@@ -432,6 +436,15 @@ def harmonic(fixed, values=None):
         lambda: koebe.module_distance(["1"], ["1"]),
         lambda: koebe.module_distance([1j], [1j]),
         lambda: koebe.module_distance(None, None),
+        lambda: koebe.to_image(DISK_MAP, RAGGED, 8),
+        lambda: koebe.to_image(DISK_MAP, np.ma.masked_less(np.arange(float(COUNT)), 3.0), 8),
+        lambda: koebe.distortion(VERTICES, FACES, RAGGED),
+        lambda: koebe.pack(VERTICES, FACES, uv=RAGGED),
+        lambda: koebe.pack(VERTICES, FACES, uv=UV, locked=RAGGED),
+        lambda: koebe.sew(VERTICES, FACES, uv=UV, edges=RAGGED),
+        lambda: koebe.parts(VERTICES, FACES, cuts=RAGGED),
+        lambda: koebe.planar("a\0b"),
+        lambda: koebe.point_test(np.eye(4), [0, 0, 1, 1], covariates=np.arange(4) * 1j),
         lambda: koebe.module_names(-1),
         lambda: koebe.module_names(2**40),
     ],
@@ -452,10 +465,12 @@ def test_arguments_that_mean_nothing_are_input_errors(call):
         lambda: koebe.match_loops(Domain(), Domain(), any_outer=0),
         lambda: koebe.module_names(2.0),
         lambda: koebe.module_names("2"),
+        lambda: koebe.parts(VERTICES, FACES, sketch=np.zeros(3)),
+        lambda: koebe.EvenDial(VERTICES, FACES, uv=UV).pin(False),
     ],
 )
 def test_arguments_of_a_wrong_type_are_type_errors(call):
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match="must be"):
         call()
 
 

@@ -273,3 +273,12 @@ def test_damaged_templates(tmp_path, template, words):
 def test_the_template_is_no_output(tmp_path):
     source, path, out, *_ = written(tmp_path, {"circles": circles()})
     assert command("fit", source, path, out, "--json", path).returncode == USAGE
+
+
+def test_a_needle_does_not_end_a_fit():
+    """A made atrium with a face of height 4e-5 of its edge: the steps of the way were too short to arrive."""
+    with np.load("tests/surfaces/atrium_with_a_needle.npz") as mesh:
+        surface = mesh["vertices"], mesh["triangles"]
+    centers = [[0.3564, 0.4736], [0.5849, -0.1209], [-0.5011, 0.2163], [-0.5194, -0.4417]]
+    result = koebe.fit_circles(*surface, centers, [0.047, 0.0164, 0.0337, 0.032], loops=[4, 1, 3, 2])
+    assert result.flipped == 0 and result.converged

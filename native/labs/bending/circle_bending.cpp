@@ -15,7 +15,7 @@ namespace {
 
 constexpr double first_share = 0.25;                        // share of the path
 constexpr double least_share = 1.0 / 2048;                  // share of the path
-constexpr double unfolded_share = 1.0 / 32;                 // faces that fold in a step as short are turned back
+constexpr double unfolded_share = 1.0 / 8;                  // faces that fold in a step as short are turned back
 constexpr int unfoldings_of_a_path = 10;                    // of a path
 constexpr int trials_of_a_path = 300;                       // steps of a path, including those that fail
 constexpr int newton_between = 4, newton_at_the_end = 200;  // Newton steps
@@ -109,14 +109,15 @@ private:
     }
 
     /// A step, or nothing if faces turn over.
-    std::optional<PlanarPoints> tried(const PlanarPoints& now, double reached, double share, bool may_unfold)
+    /// @param unfoldings how many times faces may still be turned back
+    std::optional<PlanarPoints> tried(const PlanarPoints& now, double reached, double share, int& unfoldings)
     {
         const std::vector<Circle> from = path_.at(reached), to = path_.at(reached + share);
         for (const bool by_rings : {true, false}) {
             PlanarPoints next = step_to(now, from, to, share, by_rings);
             if (domain_.is_one_to_one(next, to)) return next;
             if (by_rings || !next.allFinite()) continue;
-            if (may_unfold && domain_.unfold(next, to)) return next;
+            if (share <= unfolded_share && unfoldings-- > 0 && domain_.unfold(next, to)) return next;
             blame(next);
         }
         return {};
@@ -130,9 +131,7 @@ private:
         for (int trial = 0; trial < trials_of_a_path && reached < 1.0; ++trial) {
             context_.advance(share_of_all * reached);
             const double share = std::min(step, 1.0 - reached);
-            const bool may_unfold = share <= unfolded_share && unfoldings > 0;
-            if (may_unfold) --unfoldings;
-            if (std::optional<PlanarPoints> next = tried(now, reached, share, may_unfold)) {
+            if (std::optional<PlanarPoints> next = tried(now, reached, share, unfoldings)) {
                 now = std::move(*next);
                 reached = share < 1.0 - reached ? reached + share : 1.0;
                 step = 2.0 * share;

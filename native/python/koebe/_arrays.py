@@ -75,18 +75,28 @@ def as_indices(indices: Any, name: str, count: int, of: str) -> Ints:
 
 
 def as_values(values: Any, name: str) -> Values:
-    """Any array, own. Raises InputError for what is none."""
+    """Any array, own. Raises InputError for what is none, and for masked numbers."""
+    if np.ma.is_masked(values):
+        raise InputError(f"{name} must not be masked")
     try:
         return np.array(values)
     except (TypeError, ValueError, OverflowError, RuntimeError) as error:
         raise InputError(f"{name} cannot be made an array: {error}") from None
 
 
+def as_reals(values: Any, name: str) -> Floats:
+    """Any array of real numbers, own, float64. Raises InputError for words, complex numbers, dates."""
+    array = as_values(values, name)
+    if array.dtype.kind not in "fiub":
+        raise InputError(f"{name} must be real numbers, not {array.dtype}")
+    return _double(array)
+
+
 def as_flags(flags: Any, name: str, count: int, means: str = "True and False") -> Bools:
     """(count,) bool, own, from bools or from 0 and 1. Raises InputError for any other array, such as numbers."""
     array = as_values(flags, name)
     known = array.dtype == bool or (array.dtype.kind in "iu" and np.isin(array, (0, 1)).all())
-    if array.shape != (count,) or not known or np.ma.is_masked(flags):
+    if array.shape != (count,) or not known:
         raise InputError(f"{name} must be ({count},) of {means}, or of 1 and 0, not {array.shape} {array.dtype}")
     return array.astype(bool)
 
@@ -119,12 +129,7 @@ def as_loops(loops: Sequence[Sequence[int]]) -> list[Ints]:
 
 def _copy(values: Any, name: str, dtypes: tuple[np.dtype[Any], ...], columns: int | None = None) -> Values:
     """An own array of one of these types, in C order and the machine's byte order; (n, columns), or (n,)."""
-    if np.ma.is_masked(values):
-        raise InputError(f"{name} must not be masked")
-    try:
-        array = np.array(values, order="C")
-    except (TypeError, ValueError, OverflowError) as error:
-        raise InputError(f"{name} cannot be made an array: {error}") from error
+    array = as_values(values, name)
     expected = "(n,)" if columns is None else f"(n, {columns})"
     if array.ndim != (1 if columns is None else 2) or array.shape[1:] not in ((), (columns,)):
         raise InputError(f"{name} must have shape {expected}, not {array.shape}")
@@ -132,7 +137,7 @@ def _copy(values: Any, name: str, dtypes: tuple[np.dtype[Any], ...], columns: in
     if native not in dtypes:
         kinds = ["floats"] * (dtypes[0].kind == "f") + ["whole numbers"] * (dtypes[-1].kind == "u")
         raise InputError(f"{name} must be {' or '.join(kinds)}, not {array.dtype}")
-    return array.astype(native, copy=False)
+    return array.astype(native, order="C", copy=False)
 
 
 def _double(array: Values) -> Floats:

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ._arrays import as_values
 from ._native import _koebe
 from ._option_table import Row, rows
 from ._types import Floats
@@ -86,7 +87,7 @@ def vertex_weights(name: str, values: Any, count: int) -> Floats:
     """(V,) a weight in [0, 1] for each vertex, or empty."""
     if values is None:
         return np.zeros(0)
-    array = np.asarray(values)
+    array = as_values(values, name)
     if array.shape != (count,) or array.dtype.kind not in "fiu":
         raise InputError(f"{name} must be ({count},) real numbers, not {array.shape} {array.dtype}")
     wrong = np.flatnonzero(~((array >= 0) & (array <= 1)))

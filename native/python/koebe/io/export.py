@@ -12,6 +12,7 @@ import numpy as np
 
 from .._fields import areas
 from .._native import _koebe
+from .._options import path_of
 from .._types import Floats, Ints
 from ..errors import FileError, InputError
 from .files import whole_file
@@ -38,7 +39,7 @@ _SEVERAL_FILES = (".xdmf", ".xmf")
 
 def export(result: Any, path: str | os.PathLike[str], as_surface: bool = False) -> None:
     """Writes a result in the format that the file's name says. as_surface: any GIfTI file has the map itself."""
-    name = Path(path).name
+    name = Path(path_of(path)).name
     low = name.lower()
     # Names decide, the longer endings first.
     if low.endswith((".surf.gii", ".surf.gii.gz")) or as_surface and low.endswith(GIFTI):
@@ -73,7 +74,7 @@ def export(result: Any, path: str | os.PathLike[str], as_surface: bool = False) 
 
 def has_one_place_a_vertex(path: str | os.PathLike[str]) -> bool:
     """Whether files of this name hold a map as a surface, which can have no cuts."""
-    surface = Path(path).name.lower().endswith((".surf.gii", ".surf.gii.gz"))
+    surface = Path(path_of(path)).name.lower().endswith((".surf.gii", ".surf.gii.gz"))
     return surface or is_freesurfer_name(path) or is_patch_name(path)
 
 

@@ -58,6 +58,7 @@ def plain(mesh: Any) -> Any:
             raise InputError("the scene has no triangles")
         mesh = importlib.import_module("trimesh.util").concatenate(meshes)
     elif kind == "parts":
+        mesh = getattr(mesh, "mesh", mesh)  # of a SurfaceImage
         if len(mesh.parts) != 1:
             raise InputError(f"the mesh has the parts {', '.join(mesh.parts)}: give one of them, mesh.parts['left']")
         (mesh,) = mesh.parts.values()
@@ -259,7 +260,7 @@ def kind_of(thing: Any) -> str | None:
         return "gifti"
     if ("meshio", "Mesh") in names:
         return "meshio"
-    if ("nilearn", "PolyMesh") in names:
+    if names & {("nilearn", "PolyMesh"), ("nilearn", "SurfaceImage")}:
         return "parts"
     has_vtk = hasattr(thing, "VTKObject") or ("vtkmodules", "vtkPolyData") in names  # BrainSpace wraps VTK's objects
     if has_vtk and importlib.util.find_spec("pyvista"):

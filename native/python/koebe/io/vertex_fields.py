@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_values
 from .._comparable import Result
 from .._options import choice_of, path_of, whole
 from .._types import Bools, Floats, Values
@@ -198,7 +199,7 @@ def write_field(
     if isinstance(values, VertexField):
         names, colors, values = names or values.names, colors or values.colors, values.values
     # What no file can hold.
-    array = np.asarray(values)
+    array = as_values(values, "the values")
     if array.ndim != 1 or array.dtype.kind not in "fiub" or not len(array):
         raise InputError(f"the values must be (V,) numbers, not {array.shape} {array.dtype}")
     for name, given in (("names", names), ("colors", colors)):
@@ -229,7 +230,7 @@ def write_field(
     elif low.endswith(".nii"):
         raise InputError(f"{low}: no format has this name. Known are .dscalar.nii and .dlabel.nii")
     else:
-        numbers = np.nan_to_num(array.astype(np.float64))
+        numbers = np.where(np.isnan(array), 0.0, array)
         freesurfer = package_of("nibabel.freesurfer")
         content = saved_bytes(low, lambda place: freesurfer.write_morph_data(place, numbers.astype(np.float32)))
     with whole_file(path) as file:

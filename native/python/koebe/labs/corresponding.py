@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_values
 from .._comparable import Result
 from .._options import listed
 from .._progress import Run
@@ -136,7 +137,7 @@ class PointFamily(Result):
         labels    as in Correspondence.carry. None: as labels, unless a field has floats
         Raises InputError.
         """
-        given = [np.asarray(field) for field in fields]
+        given = [as_values(field, "the field") for field in listed(fields, "fields")]
         if len(given) != len(self.labels):
             raise InputError(f"there are fields of {len(given)} shapes, not of {len(self.labels)}")
         first = next(number for number, found in enumerate(self.correspondences) if found is None)

@@ -13,7 +13,7 @@ from .._comparable import Result
 from .._fields import areas
 from .._native import _koebe
 from .._option_table import rows
-from .._options import callback, number, token
+from .._options import callback, number, path_of, token
 from .._progress import Shown
 from .._types import Bools, Floats, Whole
 from .._watched import watched
@@ -82,7 +82,7 @@ class FlatCortex(Result):
         flat_lh.gii, NAME.flat.surf.gii    GIfTI: pycortex's database, nilearn, Workbench
         Any other name is that of a format of `UniformizeResult.export`.
         """
-        low = Path(path).name.lower()
+        low = Path(path_of(path)).name.lower()
         if is_patch_name(path) and "flat" not in low:
             kept = np.flatnonzero(np.isfinite(self.places[:, 0]))
             with whole_file(path) as file:

@@ -21,6 +21,7 @@ from .transfer import transfer
 _MOST_LOOPS = 6  # 120 matches
 _MOST_TRIED = 6
 _LEAST_AREA = 1e-4  # of a face, in median areas
+_SURE = 0.7  # a margin of circles with which no wrong match was seen
 
 
 def sure_match(reference: Any, shape: Any, rims: Rims, run: Run) -> tuple[Ints, float]:
@@ -28,20 +29,26 @@ def sure_match(reference: Any, shape: Any, rims: Rims, run: Run) -> tuple[Ints, 
 
     Circles do not tell the ends of a nearly symmetric surface apart. Of the matches that they leave, the one is taken
     by which corresponding points change areas most evenly; the margin is then 1 - its unevenness / the next one's.
+    Points correspond with domains that are laid over each other or, if that leaves a doubt, bent.
     """
     found = match_loops(reference, shape, rims=rims)
     with_surfaces = isinstance(reference, UniformizeResult) and isinstance(shape, UniformizeResult)
-    if found.margin >= _koebe.ambiguous_margin or not with_surfaces or len(reference.loops) > _MOST_LOOPS:
+    if found.margin >= _SURE or not with_surfaces or len(reference.loops) > _MOST_LOOPS:
         return found.match, found.margin
     matches = _candidates(reference, shape, found, rims)
     if len(matches) < 2:
         return found.match, found.margin
-    scores = []
-    for number, match in enumerate(matches):
-        part = run.part(*((number + k) / len(matches) for k in (0, 1)))
-        scores.append(_unevenness(reference, shape, match, part))
-    first, second = np.argsort(scores)[:2]
-    margin = 1.0 - scores[first] / scores[second] if 0.0 < scores[second] < math.inf else found.margin
+    first, margin = 0, found.margin
+    for bent in (False, True):
+        half = run.part(0.5 * bent, 0.5 + 0.5 * bent)
+        scores = []
+        for number, match in enumerate(matches):
+            part = half.part(*((number + k) / len(matches) for k in (0, 1)))
+            scores.append(_unevenness(reference, shape, match, bent, part))
+        first, second = np.argsort(scores)[:2]
+        margin = 1.0 - scores[first] / scores[second] if 0.0 < scores[second] < math.inf else found.margin
+        if margin >= _koebe.ambiguous_margin:
+            break
     return matches[first], margin
 
 
@@ -55,18 +62,18 @@ def _candidates(reference: Any, shape: Any, found: LoopMatch, rims: Rims) -> lis
         if not np.array_equal(match, found.match):
             there = conformal_module(shape, order=match[order].tolist(), rims=rims)
             others.append((math.dist(module, there), match))
-    limit = found.distance / (1.0 - _koebe.ambiguous_margin)
+    limit = found.distance / (1.0 - _SURE)
     near = sorted((one for one in others if one[0] <= limit), key=lambda one: one[0])
     return [found.match, *(match for _, match in near[: _MOST_TRIED - 1])]
 
 
-def _unevenness(reference: UniformizeResult, shape: UniformizeResult, match: Ints, run: Run) -> float:
+def _unevenness(reference: UniformizeResult, shape: UniformizeResult, match: Ints, bent: bool, run: Run) -> float:
     """Standard deviation, by area, of the log of the areas' ratios of corresponding faces; infinite without a map."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Warning)
             backwards = np.argsort(match).tolist()
-            places = transfer(shape, reference, match=backwards, progress=run.progress, cancel=run.cancel)
+            places = transfer(shape, reference, match=backwards, fit=bent, progress=run.progress, cancel=run.cancel)
     except SolverError:
         return math.inf
     here, there = (areas(points[reference.triangles]) for points in (reference.vertices, places.points))

@@ -84,9 +84,10 @@ class Family(PointFamily):
 
         fields    of each shape its values (V_i,) or (V_i, k) at its vertices
         """
-        if len(fields) != len(self.labels):
-            raise InputError(f"there are fields of {len(fields)} shapes, not of {len(self.labels)}")
-        pairs = zip(self.maps, fields, strict=True)
+        given = listed(fields, "fields")
+        if len(given) != len(self.labels):
+            raise InputError(f"there are fields of {len(given)} shapes, not of {len(self.labels)}")
+        pairs = zip(self.maps, given, strict=True)
         return np.array([to_image(fit, one, pixels, exact=False, labels=labels)[0] for fit, one in pairs])
 
     def __repr__(self) -> str:
@@ -94,7 +95,8 @@ class Family(PointFamily):
 
     def match(self, a: int, b: int) -> Ints:
         """(n + 1,) int32: shape b's loop for each of shape a's: the form of `match` in all functions."""
-        return self.orders[b][np.argsort(self.orders[a])]
+        one, other = (whole(shape, "a shape", 0, len(self.orders) - 1) for shape in (a, b))
+        return self.orders[other][np.argsort(self.orders[one])]
 
     @property
     def distance_errors(self) -> Floats | None:

@@ -7,7 +7,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
-from .._arrays import as_indices, as_numbers, as_points
+from .._arrays import as_indices, as_numbers, as_points, as_values
 from .._native import _koebe
 from .._options import callback, flag, listed, takes, token, vertex
 from .._signatures import ShapesOptions, Unpack
@@ -165,7 +165,7 @@ def fit_circles(
 
 def _are_triangles(given: Any) -> bool:
     """Whether an argument is an array of triangles, not of centers of circles."""
-    array = np.asarray(given)
+    array = as_values(given, "triangles")
     return array.ndim == 2 and array.shape[1] == 3 and array.dtype.kind in "iu"
 
 

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_reals
 from .._comparable import Result
 from .._options import whole
 from .._types import Floats, Ints
@@ -52,7 +53,7 @@ class SphereHarmonics(Result):
         directions    (n, 3) on the sphere; None: the surface's vertices, NaN at vertices without a face
         """
         most = self.degree if degree is None else whole(degree, "degree", 0, self.degree)
-        places = self.sphere if directions is None else np.asarray(directions, np.float64)
+        places = self.sphere if directions is None else as_reals(directions, "directions")
         if places.ndim != 2 or places.shape[1] != 3:
             raise InputError(f"directions must be (n, 3), not {places.shape}")
         known = np.isfinite(places).all(axis=1) & (np.abs(places).max(axis=1, initial=0.0) > 0.0)

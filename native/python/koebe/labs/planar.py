@@ -13,7 +13,7 @@ from .._arrays import as_values
 from .._comparable import Result
 from .._native import _koebe
 from .._option_table import rows
-from .._options import callback, filled, token
+from .._options import callback, filled, path_of, token
 from .._progress import Shown
 from .._types import Floats, Ints
 from .._watched import watched
@@ -101,7 +101,7 @@ def _places(points: Any) -> Floats:
 def _described(rims: Any) -> tuple[str, bool]:
     """The rims as a text, and whether it is SVG."""
     if isinstance(rims, (str, os.PathLike)):
-        path = Path(rims)
+        path = Path(path_of(rims, "rims"))
         try:
             return path.read_text("utf-8"), path.suffix.lower() == ".svg"
         except (OSError, UnicodeDecodeError) as error:

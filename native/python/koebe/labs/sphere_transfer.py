@@ -9,7 +9,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
-from .._arrays import as_points
+from .._arrays import as_points, as_reals
 from .._comparable import Result
 from .._native import _koebe
 from .._options import flag
@@ -102,7 +102,7 @@ class SphereCorrespondence(Result):
 
     def __call__(self, directions: Any) -> Floats:
         """The points (n, 3) of a's sphere at points (n, 3) of b's sphere."""
-        places = np.asarray(directions, np.float64)
+        places = as_points(directions, "directions", 3)
         if self.bending is None:
             return applied(self.alignment, places)
         faces, weights = _Located(self.own_sphere, self.own_triangles).at(places)
@@ -229,7 +229,7 @@ def _checked(fields: Any, a: SphereMap, b: SphereMap) -> tuple[Floats, Floats]:
     """The fields of both, (V_a, k) and (V_b, k) float64. Raises InputError."""
     if not isinstance(fields, (tuple, list)) or len(fields) != 2:
         raise InputError("fields must be a pair: values at a's vertices and at b's")
-    on_a, on_b = (np.asarray(values, np.float64) for values in fields)
+    on_a, on_b = (as_reals(values, f"the field of {name}") for name, values in zip("ab", fields, strict=True))
     for name, values, one in (("a", on_a, a), ("b", on_b, b)):
         if values.ndim not in (1, 2) or len(values) != one.vertex_count or values.size == 0:
             raise InputError(f"the field of {name} must be ({one.vertex_count},), or have columns, not {values.shape}")
@@ -255,7 +255,7 @@ def _vertices(result: SphereMap, places: list[Any]) -> Whole:
                 raise InputError(f"landmark {number} is no vertex of the surface: {place}", [number], "landmarks")
             found[number] = place
             continue
-        position = np.asarray(place, np.float64)
+        position = as_reals(place, f"landmark {number}")
         if position.shape != (3,) or not np.isfinite(position).all():
             raise InputError(f"landmark {number} is neither a vertex nor a point (x, y, z)", [number], "landmarks")
         found[number] = numbers[((result.vertices[numbers] - position) ** 2).sum(axis=1).argmin()]

@@ -347,10 +347,10 @@ def _labels(given: Any, name: str, count: int) -> Values:
 
 def _columns(given: Any, name: str, count: int) -> Floats:
     """(N, k) finite numbers. Raises InputError."""
-    try:
-        table = np.array(given, np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"the {name} must be numbers; of labels make columns of 0 and 1") from None
+    table = as_values(given, f"the {name}")
+    if table.dtype.kind not in "fiub":
+        raise InputError(f"the {name} must be numbers; of labels make columns of 0 and 1")
+    table = table.astype(np.float64)
     table = table.reshape(-1, 1) if table.ndim == 1 else table
     if table.ndim != 2 or len(table) != count or not np.isfinite(table).all():
         raise InputError(f"the {name} must be ({count},) or ({count}, k) finite numbers, not {np.shape(given)}")

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_values
 from .._options import flag, listed
 from .._types import Floats, Values, Whole
 from ..errors import InputError
@@ -11,7 +12,7 @@ from ..errors import InputError
 
 def carried(field: Any, triangles: Whole, faces: Whole, weights: Floats, count: int, labels: bool | None) -> Values:
     """A field at points of triangles, from the field at the vertices."""
-    values = np.asarray(field)
+    values = as_values(field, "the field")
     if values.ndim not in (1, 2) or len(values) != count:
         raise InputError(f"the field has the shape {values.shape}, not a row for each of {count} vertices")
     if values.dtype.kind not in "fiubU":

@@ -68,6 +68,8 @@ class EvenDial:
         that are in the way; or Cancelled. Then the map stays, and so do the pins of the last call.
         """
         value = number(even, rows("uniformize")["even"])
+        if not isinstance(pins, Mapping):
+            raise TypeError(f"pins must be a dict of vertices and places, not {pins!r}")
         named = as_indices(list(pins), "pins", len(self._used), "vertices")
         places = as_points(list(pins.values()) or np.zeros((0, 2)), "pins", 2)
         lost = named[~self._used[named]].tolist()

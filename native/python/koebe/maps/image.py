@@ -51,7 +51,7 @@ def to_image(
     outside = carried(field, triangles, np.full(1, -1, np.int32), np.full((1, 3), np.nan), count, labels)
     flat = np.repeat(outside, side * side, axis=0)
     flat[covered] = values
-    image, given = flat.reshape(side, side, *flat.shape[1:]), np.asarray(field)
+    image, given = flat.reshape(side, side, *flat.shape[1:]), as_values(field, "the field")
     if _as_labels(given, labels):
         used = _used(result)
         return image, float(np.mean(from_image(image, result, labels=labels)[used] != given[used]))
@@ -152,7 +152,8 @@ def _fitted(image: Floats, vertices: Whole, numbers: Whole, weights: Floats, wan
 
     image    (n n,), changed    wanted    (V,)    Returns the largest error that is left.
     """
-    missing = wanted[vertices] - (weights * image[numbers]).sum(axis=1)
+    with np.errstate(invalid="ignore"):
+        missing = wanted[vertices] - (weights * image[numbers]).sum(axis=1)
     known = np.isfinite(missing)
     numbers, weights, missing = numbers[known], weights[known], missing[known]
     if not len(missing):

@@ -67,7 +67,7 @@ def _masked(source: Source, mask: Any) -> Source:
 
 def points_at_vertices(points: Any, name: str, source: Source) -> Floats:
     """(V, 2) float64, finite. Where a vertex has no face, its point is not looked at, and becomes 0."""
-    given = np.array(points)
+    given = as_values(points, name)
     if given.shape == (len(source.vertices), 2) and given.dtype.kind == "f":
         given[~source.used] = 0.0
     return as_points(given, name, 2, len(source.vertices))

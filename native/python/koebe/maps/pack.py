@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from .._arrays import as_flags
+from .._arrays import as_flags, as_values
 from .._native import _koebe
 from .._options import takes, token
 from .._signatures import PackOptions, Unpack
@@ -88,18 +88,18 @@ def _locks(given: Any, source: Source) -> Floats:
     """(F,) 1 for triangles whose island keeps its place, or empty."""
     if given is None:
         return np.zeros(0)
-    locked = np.asarray(given)
-    if source.kept is not None and len(locked) > source.kept[-1]:  # of all triangles
+    locked = as_values(given, "locked")
+    if source.kept is not None and locked.ndim and len(locked) > source.kept[-1]:  # of all triangles
         locked = locked[source.kept]
     return as_flags(locked, "locked", len(source.triangles)).astype(np.float64)
 
 
 def corner_uv(given: Any, source: Source) -> Floats:
     """(F, 3, 2) float64 of the source's triangles."""
-    uv = np.asarray([] if given is None else given)
+    uv = as_values([] if given is None else given, "uv")
     if uv.dtype.kind in "fiu" and uv.shape == source.vertices.shape[:1] + (2,):
         uv = uv[source.triangles]
-    elif source.kept is not None and len(uv) > source.kept[-1]:  # of all triangles
+    elif source.kept is not None and uv.ndim and len(uv) > source.kept[-1]:  # of all triangles
         uv = uv[source.kept]
     if uv.shape != (len(source.triangles), 3, 2) or uv.dtype.kind not in "fiu":
         raise InputError(

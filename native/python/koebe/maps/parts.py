@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from .._arrays import as_values
 from .._native import _koebe
 from .._options import flag, takes, vertex_weights
 from .._signatures import PartsOptions, Unpack
@@ -108,6 +109,8 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
             edges = _edges(name, given[name], len(source.vertices))
             setattr(options, name, (edges if source.first is None else source.first[edges]).tolist())
     if given["sketch"] is not None:
+        if not isinstance(given["sketch"], _koebe.CutSketch):
+            raise TypeError(f"sketch must be a CutSketch, not {given['sketch']!r}")
         options.draw_on(given["sketch"])
     native = source.call(_koebe.parts, options, *run)
     return PartsResult({**native.report(), "options": said}, native, source)
@@ -115,7 +118,7 @@ def parts(vertices: Any, triangles: Any = None, **given: "Unpack[PartsOptions]")
 
 def _edges(name: str, edges: Any, count: int) -> Ints:
     """Vertices of edges as int32."""
-    given = np.asarray(edges)
+    given = as_values(edges, name)
     if given.size == 0:
         return np.zeros((0, 2), np.int32)
     if given.ndim != 2 or given.shape[1] != 2 or given.dtype.kind not in "iu":

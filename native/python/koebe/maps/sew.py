@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-import numpy as np
-
+from .._arrays import as_values
 from .._comparable import TupleResult
 from .._native import _koebe
 from .._option_table import rows
@@ -75,7 +74,7 @@ def sew(
     2
     """
     source = surface_of(vertices, triangles, degenerate=True, mask=mask)
-    pairs = np.asarray(edges)
+    pairs = as_values(edges, "edges")
     if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iu":
         raise InputError(f"edges must be (n, 2) numbers of vertices, not {pairs.shape} {pairs.dtype}")
     value = None if even is None else number(even, rows("parts")["even"])
