@@ -21,12 +21,13 @@ constexpr double mirror_share = 0.9;           // of another rim's radius, for p
 constexpr double densest = 0.1, growth = 1.2;  // of samples in a gap: the first one's place, ratio of their places
 constexpr double least_gap = 1e-9;             // of the radius
 constexpr double share_of_residual = 1e-3;     // of the first maps: what the iteration may leave beside it
+constexpr double unresolved = 0.1;             // residual of a first map: more poles would not be enough
 
-/// Points between a layout's samples, to judge a map by.
+/// Twice as many points as a layout's samples, between them and nearer to corners, to judge a map by.
 RimLayout check_layout(const PlanarRim& rim, const RimPolygon& polygon, bool is_outer, RimResolution resolution)
 {
-    resolution.corner_poles += 3;
-    resolution.panel_poles += 1;
+    resolution.corner_poles = 2 * resolution.corner_poles + 3;
+    resolution.panel_poles = 2 * resolution.panel_poles + 1;
     return rim_layout(rim, polygon, is_outer, resolution);
 }
 
@@ -156,8 +157,9 @@ void KoebeIteration::run(int max_sweeps, ExecutionContext& context)
             context.advance(static_cast<double>(sweeps * layouts_.size() + k) /
                             static_cast<double>((sweeps + 3) * layouts_.size()));
             most = std::max(most, turn(k));
+            if (sweeps == 0 && !(first_residuals.back() < unresolved)) return;
         }
-        const double enough = std::max(round_enough, share_of_residual * first_residual_);
+        const double enough = std::max(round_enough, share_of_residual * *std::ranges::max_element(first_residuals));
         if (sweeps > 0 && (most < enough || (most < 1e-9 && most > 0.5 * last) || layouts_.size() == 1)) break;
         if (!std::isfinite(most)) break;
         last = most;
@@ -205,7 +207,7 @@ double KoebeIteration::turn(std::size_t k)
     }
     // The outside of the rim goes to that of a circle, and takes the other rims with it.
     const RimMap map(own, first ? first_powers : powers(), !first);
-    if (first) first_residual_ = std::max(first_residual_, map.residual());
+    if (first) first_residuals.push_back(map.residual());
     unknowns = std::max(unknowns, 2 * map.unknowns() - 1);
     for (RimSample& sample : checks_[k].samples) sample = {map.on_own_rim(sample)};
     for (std::size_t j = 0; j < layouts_.size(); ++j)

@@ -27,6 +27,7 @@ public:
     Circle outer() const;
 
     std::vector<RimMap> maps;
+    std::vector<double> first_residuals;  ///< of the rims' own maps. The run ends at one that resolves nothing
     int sweeps = 0;
     Eigen::Index unknowns = 0;
 
@@ -39,7 +40,6 @@ private:
     bool is_near(const Circle& circle, const RimLayout& other) const;
 
     RimResolution resolution_;
-    double first_residual_ = 0.0;  // of the maps of the rims as given
     std::vector<RimLayout> layouts_, checks_;
 };
 

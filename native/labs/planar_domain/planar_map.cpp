@@ -24,6 +24,7 @@ constexpr double useless = 1e-3;                // residual: no circles
 constexpr int mean_places = 48;                 // round a pole
 constexpr double mean_share = 0.25;             // of the room round a pole
 constexpr double off_domain = 1e-8;             // disk units: images so far off the circle domain are refused
+constexpr double rounding = 1e-15;              // of a place, of the domain's size
 
 /// The rims moved and scaled to about the unit disk.
 OrderedRims scaled(OrderedRims domain, Complex middle, double size)
@@ -48,6 +49,17 @@ double change(const std::vector<Circle>& a, const std::vector<Circle>& b)
     for (std::size_t k = 0; k < a.size(); ++k)
         most = std::max({most, std::abs(a[k].center - b[k].center), std::abs(a[k].radius - b[k].radius)});
     return most;
+}
+
+/// Whether the finest resolution would not resolve the rims, if residuals go on to fall as they did.
+/// @param last of the next coarser resolution, or empty @param left finer resolutions
+bool is_hopeless(const std::vector<double>& now, const std::vector<double>& last, std::size_t left)
+{
+    for (std::size_t k = 0; k < now.size(); ++k)
+        if (k < last.size() && now[k] > useless &&
+            !(now[k] * std::pow(now[k] / last[k], static_cast<double>(left)) < useless))
+            return true;
+    return false;
 }
 
 /// The middle of a rim's box, and half of its diagonal.
@@ -213,6 +225,10 @@ VectorXcd PlanarMap::operator()(const VectorXcd& places) const
     for (Eigen::Index i = 0; i < places.size(); ++i) {
         images[i] = image(places[i]);
         bool inside = lies_inside(images[i], circles_, off_);
+        if (!inside) {  // at corners a place as rounded may lie farther off; at the corner itself the slope is infinite
+            const double slope = std::abs(derivative(places[i]));
+            inside = !std::isfinite(slope) || lies_inside(images[i], circles_, off_ + rounding * size_ * slope);
+        }
         // The formulas go on beyond the rims: a place that is clearly off the domain is refused by the rims themselves.
         for (std::size_t k = 0; k < rims_.size() && inside; ++k) {
             const bool wrong = (rims_[k].winding(places[i]) != 0) != (k == 0);
@@ -257,7 +273,7 @@ PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions&
     PlanarResult best;
     std::vector<Circle> coarser;
     PlanarMap last_map, coarser_map;  // coarser_map: the one that the best was compared with
-    std::vector<double> residuals;
+    std::vector<double> residuals, residuals_of_rims;
     bool was_compared = false;
     int levels = 0;
     for (const RimResolution& resolution : resolutions) {
@@ -270,8 +286,14 @@ PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions&
             throw InputError("a rim has too many corners for a dense system");
         }
         iteration.run(options.max_sweeps, context);
-        residuals = iteration.residuals();
         ++levels;
+        if (iteration.maps.size() < rims.size() ||
+            is_hopeless(iteration.first_residuals, residuals_of_rims, resolutions.size() - levels)) {
+            if (best.circles.empty()) residuals = iteration.first_residuals;
+            break;
+        }
+        residuals_of_rims = iteration.first_residuals;
+        residuals = iteration.residuals();
         const std::vector<Circle> found = iteration.circles();
         if (!(*std::ranges::max_element(residuals) < useless) || !circles_apart(found)) {
             coarser.clear();

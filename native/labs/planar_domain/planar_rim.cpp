@@ -16,7 +16,8 @@ namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
 constexpr std::size_t chords_of_cubic = 32, chords_of_sum = 512;
-constexpr double least_area = 1e-12;  // of a rim, times its squared size
+constexpr double least_area = 1e-12;          // of a rim, times its squared size
+constexpr double bend_between_samples = 2.0;  // of a Fourier sum, of that at the samples
 
 PlanarRim reversed(PlanarRim rim)
 {
@@ -234,9 +235,13 @@ RimPolygon rim_polygon(const PlanarRim& rim)
             const double s = static_cast<double>(i) / static_cast<double>(chords);
             polygon.points.push_back(piece.at(s));
             polygon.piece.push_back(k);
-            if (chords > 1)
-                polygon.chord_error =
-                    std::max(polygon.chord_error, std::abs(piece.second_derivative(s)) / (8.0 * std::pow(chords, 2)));
+        }
+        if (chords == 1) continue;
+        // The second derivative of a cubic is largest at an end. That of a sum may be larger between the samples.
+        const double room = piece.is_cubic() ? 1.0 : bend_between_samples;
+        for (std::size_t i = 0; i <= chords; ++i) {
+            const double bend = std::abs(piece.second_derivative(static_cast<double>(i) / static_cast<double>(chords)));
+            polygon.chord_error = std::max(polygon.chord_error, room * bend / (8.0 * std::pow(chords, 2)));
         }
     }
     return polygon;

@@ -59,7 +59,7 @@ private:
 struct RimPolygon {
     std::vector<Complex> points;
     std::vector<std::size_t> piece;  ///< of the edge that begins at the point
-    double chord_error = 0.0;        ///< how far the rim is from its chords, about
+    double chord_error = 0.0;        ///< how far the rim is from its chords at most
     Complex center;                  ///< the deepest place inside
 
     double area() const;
