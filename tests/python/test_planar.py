@@ -250,10 +250,3 @@ def test_slits_of_the_command_are_pythons(tmp_path):
     radii = abs(koebe.planar(file, slits="circular").slits)
     assert command("planar", file, "--slits", "parallel").returncode == CANNOT_BE_MAPPED
     assert np.ptp(radii, axis=1).max() < 1e-10 and radii[0, 0] == 1.0 and (radii[1:] < 1.0).all()
-
-
-def test_a_rim_too_thin_is_named_at_once():
-    slit = SQUARE.real + 1e-3j * SQUARE.imag
-    with pytest.raises(koebe.SolverError, match="no circles") as refused:
-        koebe.planar([circle(0j, 4.0), slit])
-    assert refused.value.elements == [1]
