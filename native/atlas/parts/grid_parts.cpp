@@ -20,7 +20,6 @@
 #include <numbers>
 #include <optional>
 #include <set>
-#include <tuple>
 #include <utility>
 
 namespace koebe {
@@ -203,7 +202,8 @@ public:
     /// unfold.
     bool is_round(double most_fold) const
     {
-        const auto& [triangles, twin] = std::tie(surface_.surface.triangles, surface_.surface.twin);
+        const Triangles& triangles = surface_.surface.triangles;
+        const std::vector<Index>& twin = surface_.surface.twin;
         const std::vector<char> outside = boundary_mask(surface_.surface);
         VectorXd defect(surface_.vertices.rows());
         for (std::size_t v = 0; v < outside.size(); ++v) defect[v] = outside[v] ? 0.0 : 2.0 * std::numbers::pi;
