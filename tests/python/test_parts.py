@@ -33,6 +33,42 @@ def triangulated(faces):
     return np.array([[f[0], f[k], f[k + 1]] for f in faces for k in range(1, len(f) - 1)])
 
 
+def ring(around, along, turn, thick):
+    """A torus of quadrilaterals, or less than a whole turn of one: a bent pipe."""
+    closed = turn == 1.0
+    circles = along if closed else along + 1
+    a, b = np.meshgrid(
+        2 * np.pi * turn * np.arange(circles) / along, 2 * np.pi * np.arange(around) / around, indexing="ij"
+    )
+    far = 1 + thick * np.cos(b)
+    vertices = np.stack([far * np.cos(a), far * np.sin(a), thick * np.sin(b)], -1).reshape(-1, 3)
+    faces = [
+        [(i + di) % circles * around + (j + dj) % around for di, dj in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        for i in range(along)
+        for j in range(around)
+    ]
+    return vertices, faces
+
+
+@pytest.mark.parametrize(
+    "around, along, turn, thick", [(12, 48, 1.0, 0.25), (8, 24, 1.0, 0.25), (24, 64, 1.0, 0.25), (8, 48, 0.5, 0.12)]
+)
+def test_a_torus_and_a_bent_pipe_are_equal_rectangles(around, along, turn, thick):
+    vertices, faces = ring(around, along, turn, thick)
+    triangles = triangulated(faces)
+    result = koebe.parts(vertices, triangles, polygon=np.repeat(np.arange(len(faces)), 2))
+    assert result.converged and result.flipped == 0
+    sizes = []
+    for k in range(len(result.parts)):
+        uv = result.uv[result.part == k]
+        low, high = uv.reshape(-1, 2).min(0), uv.reshape(-1, 2).max(0)
+        e, g = uv[:, 1] - uv[:, 0], uv[:, 2] - uv[:, 0]
+        assert np.abs(e[:, 0] * g[:, 1] - e[:, 1] * g[:, 0]).sum() / 2 == pytest.approx((high - low).prod(), rel=1e-5)
+        sizes.append(np.sort(high - low))
+    assert 1 <= len(sizes) <= 4
+    assert np.allclose(sizes, sizes[0], rtol=2 / along + 1e-4)
+
+
 VERTICES, FACES = finger()
 TRIANGLES = triangulated(FACES)
 

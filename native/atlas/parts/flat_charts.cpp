@@ -39,7 +39,7 @@ public:
         : surface_(surface),
           regions_(planar_regions(surface)),
           most_tips_(most_tips),
-          least_fold_(hard_angle * std::numbers::pi / 180.0)
+          least_fold_(hard_angle * std::numbers::pi / 180.0 + tolerance::off_axis)
     {
         net_ = seamed(surface.vertices, surface.surface, surface.polygon, surface.shown);
         charts_.at.resize(net_.twin.size());

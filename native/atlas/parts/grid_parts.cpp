@@ -1,17 +1,26 @@
 #include "parts/grid_parts.h"
 
 #include "core/connectivity.h"
+#include "core/numbering.h"
+#include "cost/tolerances.h"
 #include "part_maps/part_mesh.h"
 #include "parts/regions.h"
 #include "parts/tension.h"
+#include "parts/through_cuts.h"
 #include "quality/distortion.h"
+#include "surface/face_vectors.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace koebe {
 namespace {
@@ -19,6 +28,12 @@ namespace {
 constexpr std::size_t fewest_cells = 4;
 constexpr double most_bending = 3.0;  // degrees of angle error of a rectangle that is made by itself,
 constexpr double most_ratio = 1.6;    // and densest over least dense texels of its columns and rows
+
+constexpr double most_ring_bending = 8.0;     // of a ring's rectangle, and of its cells' texels:
+constexpr double most_ring_ratio = 2.5;       // there a person takes one, too
+constexpr double round_fold = 2.0;            // hard angles: a tube that is bent by more at an edge is not round
+constexpr double least_curvature = 1.0;       // in sum: a tube with less unfolds
+constexpr double equal_lengths = 1.0 - 1e-6;  // of two lines: the first one is taken
 
 using Cell = std::array<Index, 4>;  ///< half-edges round a quadrilateral
 using GridPlace = std::array<Index, 2>;
@@ -138,15 +153,216 @@ bool keeps_lengths(const FlatPart& part, double noise)
     return true;
 }
 
+/// A piece of a grid as a rectangle, with its angle error and ratio of densities.
+struct LaidGrid {
+    FlatPart part;
+    double bent = 0.0, ratio = 0.0;
+
+    std::array<double, 2> size() const
+    {
+        const Eigen::RowVector2d size = part.points.colwise().maxCoeff() - part.points.colwise().minCoeff();
+        return {size[0], size[1]};
+    }
+};
+
+double angle_error_at(const FlatPart& part, const PlanarPoints& points)
+{
+    return measure_distortion(part.vertices, part.surface.triangles, points).angle_error_deg.mean;
+}
+
+std::optional<LaidGrid> laid_grid(FlatPart part)
+{
+    const auto cells = cells_of(part);
+    const auto places = cells ? places_in_grid(part, *cells) : std::nullopt;
+    if (!places) return {};
+    part.points = rectangle(part, *cells, *places);
+    LaidGrid laid{std::move(part)};
+    laid.ratio = scaled_to_size(laid.part, laid.part.points);
+    if (!lies_one_to_one(laid.part, laid.part.points)) return {};
+    laid.bent = angle_error_at(laid.part, laid.part.points);
+    return laid;
+}
+
+/// The lines of edges of a grid that closes like a tube or a ring.
+class RolledGrid {
+public:
+    explicit RolledGrid(const CutSurface& surface)
+        : surface_(surface), net_(seamed(surface.vertices, surface.surface, surface.polygon, surface.shown))
+    {
+        all_.faces = numbers_below(static_cast<std::size_t>(surface.areas.size()));
+        all_.original = numbers_below(static_cast<std::size_t>(surface.vertices.rows()));
+        all_.vertices = surface.vertices;
+        all_.surface = surface.surface;
+        all_.polygon = surface.polygon;
+        all_.points = PlanarPoints::Zero(surface.vertices.rows(), 2);
+        all_.held.assign(all_.original.size(), 0);
+    }
+
+    /// Whether no edge is bent by more than this, in radians, and whether a tube is curved in both directions: others
+    /// unfold.
+    bool is_round(double most_fold) const
+    {
+        const Triangles& triangles = surface_.surface.triangles;
+        const std::vector<Index>& twin = surface_.surface.twin;
+        const std::vector<char> outside = boundary_mask(surface_.surface);
+        VectorXd defect(surface_.vertices.rows());
+        for (std::size_t v = 0; v < outside.size(); ++v) defect[v] = outside[v] ? 0.0 : 2.0 * std::numbers::pi;
+        for (Index h = 0; h < net_.halfedge_count(); ++h) {
+            const auto at = [&](Index own) { return surface_.vertices.row(origin(triangles, own)); };
+            const Eigen::RowVector3d a = at(next_halfedge(h)) - at(h), b = at(previous_halfedge(h)) - at(h);
+            if (!outside[origin(triangles, h)]) defect[origin(triangles, h)] -= std::atan2(a.cross(b).norm(), a.dot(b));
+            if (net_.whole[h] || twin[h] < h) continue;
+            const Eigen::RowVector3d m = twice_area_vector(surface_.vertices, triangles, face_of(h)),
+                                     n = twice_area_vector(surface_.vertices, triangles, face_of(twin[h]));
+            if (std::atan2(m.cross(n).norm(), m.dot(n)) > most_fold) return false;
+        }
+        return defect.cwiseAbs().sum() > least_curvature;
+    }
+
+    /// Opens it along its shortest lines, and cuts it across into pieces that are no longer than this, and as long as
+    /// each other. @return empty: it is no such grid, or bends too much
+    std::vector<FlatPart> laid(double longest)
+    {
+        const auto cells = cells_of(all_);
+        if (!cells) return {};
+        beside_.assign(net_.twin.size(), no_twin);
+        for (const Cell& cell : *cells)
+            for (std::size_t k = 0; k < 4; ++k) beside_[cell[k]] = cell[(k + 1) % 4];
+
+        // One line lengthwise, and if it closes, one round.
+        const bool is_ring = surface_.surface.loops.empty();
+        const Index first = is_ring ? cells->front()[0] : start_of_tube();
+        const std::vector<Index> along = shortest_across(line(first));
+        const std::vector<Index> round = is_ring ? shortest_across(along) : line(first);
+        if (along.empty() || round.empty()) return {};
+        cut(along);
+        if (is_ring) cut(round);
+        std::vector<LaidGrid> whole = laid_pieces();
+        if (whole.size() != 1 || whole.front().bent > (is_ring ? most_ring_bending : most_bending) ||
+            whole.front().ratio > (is_ring ? most_ring_ratio : most_ratio))
+            return {};
+
+        // The longer direction is cut into equal pieces.
+        const auto [width, height] = whole.front().size();
+        const int count = static_cast<int>(std::ceil(std::max(width, height) / longest));
+        if (count > 1) {
+            const bool is_long = length_of(along) > length_of(round);
+            if (!is_ring && !is_long) return {};
+            cut_equally(is_long ? along : round, count);
+            whole = laid_pieces();
+            if (static_cast<int>(whole.size()) != count) return {};
+        }
+        std::vector<FlatPart> parts;
+        for (LaidGrid& own : whole) parts.push_back(std::move(own.part));
+        return parts;
+    }
+
+private:
+    Index straight(Index h) const
+    {
+        const Index t = surface_.surface.twin[beside_[h]];
+        return t == no_twin ? no_twin : beside_[t];
+    }
+
+    /// From a half-edge straight on, until it closes or ends.
+    std::vector<Index> line(Index h) const
+    {
+        std::vector<Index> own{h};
+        for (Index next = straight(h); next != no_twin && next != h; next = straight(next)) own.push_back(next);
+        return own;
+    }
+
+    double length_of(const std::vector<Index>& own) const
+    {
+        double length = 0.0;
+        for (const Index h : own) length += net_.length[h];
+        return length;
+    }
+
+    std::vector<Index> shortest_across(const std::vector<Index>& own) const
+    {
+        std::vector<Index> best;
+        double least = std::numeric_limits<double>::infinity();
+        std::size_t edges = 0;
+        for (const Index h : own) {
+            std::vector<Index> other = line(beside_[h]);
+            edges += other.size();
+            if (edges > surface_.polygon.size()) return {};  // the lines are spirals
+            if (const double length = length_of(other); length < equal_lengths * least) {
+                least = length;
+                best = std::move(other);
+            }
+        }
+        return best;
+    }
+
+    Index start_of_tube() const
+    {
+        const VertexLoop& loop = surface_.surface.loops.front();
+        for (Index h = 0; h < net_.halfedge_count(); ++h)
+            if (surface_.surface.twin[h] == no_twin && origin(surface_.surface.triangles, h) == loop.front()) return h;
+        return no_twin;
+    }
+
+    void cut(const std::vector<Index>& own)
+    {
+        for (const Index h : own) net_.cut(h);
+    }
+
+    void cut_equally(const std::vector<Index>& own, int count)
+    {
+        const double step = length_of(own) / count;
+        double passed = 0.0;
+        int made = 1;
+        for (const Index h : own) {
+            passed += net_.length[h];
+            if (made < count && passed + 0.5 * net_.length[h] > made * step) {
+                cut(line(beside_[h]));
+                ++made;
+            }
+        }
+    }
+
+    std::vector<LaidGrid> laid_pieces()
+    {
+        number_fans(net_);
+        std::vector<LaidGrid> laid;
+        for (const SeamedMesh& own : connected_parts(net_)) {
+            auto piece = opened_piece(all_, own.face, own.fans, vertices_of_fans(own));
+            auto grid = piece ? laid_grid(std::move(*piece)) : std::nullopt;
+            if (!grid) return {};
+            for (Index h = 0; h < own.halfedge_count(); ++h)
+                if (const Index t = surface_.surface.twin[3 * own.face[face_of(h)] + h % 3];
+                    own.twin[h] == no_twin && t != no_twin && std::ranges::binary_search(own.face, face_of(t)))
+                    grid->part.slit += 0.5 * surface_.lengths[t];
+            laid.push_back(std::move(*grid));
+        }
+        return laid;
+    }
+
+    const CutSurface& surface_;
+    SeamedMesh net_;
+    FlatPart all_;
+    std::vector<Index> beside_;  // (3F) the next edge of the cell
+};
+
 }  // namespace
+
+std::vector<FlatPart> rolled_grid(const CutSurface& surface, double hard_angle, double longest)
+{
+    const std::size_t loops = surface.surface.loops.size();
+    if (surface.polygon.empty() ||
+        !((surface.surface.genus == 1 && loops == 0) || (surface.surface.genus == 0 && loops == 2)))
+        return {};
+    RolledGrid grid(surface);
+    const double most_fold = round_fold * hard_angle * std::numbers::pi / 180.0 + tolerance::off_axis;
+    return grid.is_round(most_fold) ? grid.laid(longest) : std::vector<FlatPart>{};
+}
 
 void rectify_grids(std::vector<FlatPart>& parts, bool any, double noise)
 {
     for (FlatPart& part : parts) {
         if (part.polygon.empty()) continue;
-        const auto error = [&](const PlanarPoints& points) {
-            return measure_distortion(part.vertices, part.surface.triangles, points).angle_error_deg.mean;
-        };
         const std::optional<std::vector<Cell>> cells = cells_of(part);
         if (!cells) continue;
         const auto places = places_in_grid(part, *cells);
@@ -154,7 +370,7 @@ void rectify_grids(std::vector<FlatPart>& parts, bool any, double noise)
         PlanarPoints points = rectangle(part, *cells, *places);
         const double ratio = scaled_to_size(part, points);
         if (!lies_one_to_one(part, points)) continue;
-        const double bent = error(points), before = error(part.points);
+        const double bent = angle_error_at(part, points), before = angle_error_at(part, part.points);
         const bool is_near = !keeps_lengths(part, noise) && bent <= most_bending && ratio <= most_ratio;
         if (!any && bent > before && !is_near) continue;
         part.points = std::move(points);

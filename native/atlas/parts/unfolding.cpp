@@ -3,6 +3,7 @@
 #include "cost/tolerances.h"
 #include "cost/tuning.h"
 #include "parts/chart_islands.h"
+#include "parts/grid_parts.h"
 #include "parts/hard_room.h"
 #include "parts/regions.h"
 #include "planar/rigid_fit.h"
@@ -278,6 +279,10 @@ std::optional<UnfoldedParts> hard_parts_once(const CutSurface& surface, Executio
                                              const UnfoldOptions& options)
 {
     const double area = surface.areas.sum();
+    if (!options.cut_hard)
+        if (UnfoldedParts rolled{rolled_grid(surface, options.hard_angle, longest_island(area, options))};
+            !rolled.parts.empty())
+            return rolled;
     Unfolding unfolding(surface, flat_charts(surface, cone_tips, options.hard_angle), options);
     const bool is_hard = unfolding.hard_area(tuning::small_area * area) >= least_hard * area;
     if (!is_hard && !unfolding.keep_plates()) return {};
