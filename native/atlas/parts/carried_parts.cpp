@@ -2,7 +2,6 @@
 
 #include "core/complex_places.h"
 #include "core/connectivity.h"
-#include "core/numbering.h"
 #include "cost/tuning.h"
 #include "execution/side_by_side.h"
 #include "mesh/connected_pieces.h"
@@ -43,21 +42,6 @@ double path_length(const Vertices& vertices, const Triangles& triangles, const P
     double sum = 0.0;
     for (const Index h : path) sum += (vertices.row(origin(triangles, h)) - vertices.row(target(triangles, h))).norm();
     return sum;
-}
-
-/// The fine surface as one part, without places in the plane.
-FlatPart whole_part(const CutSurface& whole)
-{
-    FlatPart flat;
-    flat.faces = numbers_below(whole.areas.size());
-    flat.original = numbers_below(whole.vertices.rows());
-    flat.vertices = whole.vertices;
-    flat.surface = whole.surface;
-    flat.points = PlanarPoints::Zero(whole.vertices.rows(), 2);
-    flat.held.assign(flat.original.size(), 0);
-    flat.polygon = whole.polygon;
-    flat.shown = whole.shown;
-    return flat;
 }
 
 enum class Storing { mends, mends_or_embeds };

@@ -262,6 +262,20 @@ FlatDensity flat_density(const FlatPart& flat, const VectorXd& areas, double flo
     return density;
 }
 
+FlatPart whole_part(const CutSurface& whole)
+{
+    FlatPart flat;
+    flat.faces = numbers_below(whole.areas.size());
+    flat.original = numbers_below(whole.vertices.rows());
+    flat.vertices = whole.vertices;
+    flat.surface = whole.surface;
+    flat.points = PlanarPoints::Zero(whole.vertices.rows(), 2);
+    flat.held.assign(flat.original.size(), 0);
+    flat.polygon = whole.polygon;
+    flat.shown = whole.shown;
+    return flat;
+}
+
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context)
 {
     FlatPart flat;

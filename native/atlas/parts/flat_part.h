@@ -47,6 +47,9 @@ struct FlatOptions {
 /// opened, if it has more faces turned over, or if its slit costs more than the disk's overflow.
 FlatPart flat_part(const Part& part, const FlatOptions& options, ExecutionContext& context);
 
+/// A surface as one part, without places in the plane.
+FlatPart whole_part(const CutSurface& whole);
+
 /// An edge, named by its vertices in the whole. So it has the same name in every part.
 using EdgeEnds = std::pair<Index, Index>;
 inline EdgeEnds sorted_ends(Index a, Index b) { return std::minmax(a, b); }

@@ -1,12 +1,12 @@
 #include "parts/grid_parts.h"
 
 #include "core/connectivity.h"
-#include "core/numbering.h"
 #include "cost/tolerances.h"
 #include "part_maps/part_mesh.h"
 #include "parts/regions.h"
 #include "parts/tension.h"
 #include "parts/through_cuts.h"
+#include "planar/planar_predicates.h"
 #include "quality/distortion.h"
 #include "surface/face_vectors.h"
 
@@ -157,12 +157,6 @@ bool keeps_lengths(const FlatPart& part, double noise)
 struct LaidGrid {
     FlatPart part;
     double bent = 0.0, ratio = 0.0;
-
-    std::array<double, 2> size() const
-    {
-        const Eigen::RowVector2d size = part.points.colwise().maxCoeff() - part.points.colwise().minCoeff();
-        return {size[0], size[1]};
-    }
 };
 
 double angle_error_at(const FlatPart& part, const PlanarPoints& points)
@@ -170,13 +164,13 @@ double angle_error_at(const FlatPart& part, const PlanarPoints& points)
     return measure_distortion(part.vertices, part.surface.triangles, points).angle_error_deg.mean;
 }
 
-std::optional<LaidGrid> laid_grid(FlatPart part)
+std::optional<LaidGrid> laid_grid(const FlatPart& part)
 {
     const auto cells = cells_of(part);
     const auto places = cells ? places_in_grid(part, *cells) : std::nullopt;
     if (!places) return {};
-    part.points = rectangle(part, *cells, *places);
-    LaidGrid laid{std::move(part)};
+    LaidGrid laid{part};
+    laid.part.points = rectangle(part, *cells, *places);
     laid.ratio = scaled_to_size(laid.part, laid.part.points);
     if (!lies_one_to_one(laid.part, laid.part.points)) return {};
     laid.bent = angle_error_at(laid.part, laid.part.points);
@@ -187,15 +181,11 @@ std::optional<LaidGrid> laid_grid(FlatPart part)
 class RolledGrid {
 public:
     explicit RolledGrid(const CutSurface& surface)
-        : surface_(surface), net_(seamed(surface.vertices, surface.surface, surface.polygon, surface.shown))
+        : surface_(surface),
+          net_(seamed(surface.vertices, surface.surface, surface.polygon, surface.shown)),
+          all_(whole_part(surface))
     {
-        all_.faces = numbers_below(static_cast<std::size_t>(surface.areas.size()));
-        all_.original = numbers_below(static_cast<std::size_t>(surface.vertices.rows()));
-        all_.vertices = surface.vertices;
-        all_.surface = surface.surface;
-        all_.polygon = surface.polygon;
-        all_.points = PlanarPoints::Zero(surface.vertices.rows(), 2);
-        all_.held.assign(all_.original.size(), 0);
+        all_.shown.clear();  // as in all flat parts of hard surfaces
     }
 
     /// Whether no edge is bent by more than this, in radians, and whether a tube is curved in both directions: others
@@ -243,8 +233,7 @@ public:
             return {};
 
         // The longer direction is cut into equal pieces.
-        const auto [width, height] = whole.front().size();
-        const int count = static_cast<int>(std::ceil(std::max(width, height) / longest));
+        const int count = static_cast<int>(std::ceil(box_size(whole.front().part.points).maxCoeff() / longest));
         if (count > 1) {
             const bool is_long = length_of(along) > length_of(round);
             if (!is_ring && !is_long) return {};
@@ -329,7 +318,7 @@ private:
         std::vector<LaidGrid> laid;
         for (const SeamedMesh& own : connected_parts(net_)) {
             auto piece = opened_piece(all_, own.face, own.fans, vertices_of_fans(own));
-            auto grid = piece ? laid_grid(std::move(*piece)) : std::nullopt;
+            auto grid = piece ? laid_grid(*piece) : std::nullopt;
             if (!grid) return {};
             for (Index h = 0; h < own.halfedge_count(); ++h)
                 if (const Index t = surface_.surface.twin[3 * own.face[face_of(h)] + h % 3];
@@ -363,17 +352,11 @@ void rectify_grids(std::vector<FlatPart>& parts, bool any, double noise)
 {
     for (FlatPart& part : parts) {
         if (part.polygon.empty()) continue;
-        const std::optional<std::vector<Cell>> cells = cells_of(part);
-        if (!cells) continue;
-        const auto places = places_in_grid(part, *cells);
-        if (!places) continue;
-        PlanarPoints points = rectangle(part, *cells, *places);
-        const double ratio = scaled_to_size(part, points);
-        if (!lies_one_to_one(part, points)) continue;
-        const double bent = angle_error_at(part, points), before = angle_error_at(part, part.points);
-        const bool is_near = !keeps_lengths(part, noise) && bent <= most_bending && ratio <= most_ratio;
-        if (!any && bent > before && !is_near) continue;
-        part.points = std::move(points);
+        std::optional<LaidGrid> laid = laid_grid(part);
+        if (!laid) continue;
+        const bool is_near = !keeps_lengths(part, noise) && laid->bent <= most_bending && laid->ratio <= most_ratio;
+        if (!any && !is_near && laid->bent > angle_error_at(part, part.points)) continue;
+        part.points = std::move(laid->part.points);
         part.one_to_one = true;
     }
 }

@@ -238,7 +238,7 @@ bool PlyValues::skip_item(const PlyElement& element)
 bool PlyValues::is_at_end() const
 {
     std::string_view rest = data_;
-    return encoding_ == PlyEncoding::text ? take_word(rest).empty() : rest.size() <= 2;
+    return encoding_ == PlyEncoding::text ? take_word(rest).empty() : rest.size() <= most_line_end;
 }
 
 bool PlyValues::copy(const PlyProperty& property, TextWriter& text, bool blank_first)

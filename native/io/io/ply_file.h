@@ -53,6 +53,9 @@ struct PlyFile {
     std::string_view data;  ///< the bytes after the header
 };
 
+/// Bytes of a line's end, which may follow the elements of a binary file.
+inline constexpr std::size_t most_line_end = 2;
+
 /// @return the header of the bytes, which must outlive it; the name vertex_index is changed to vertex_indices
 /// @throws InputError a line that does not belong to a PLY header; an unknown type or encoding; a count that does not
 /// fit the file

@@ -99,7 +99,7 @@ bool read_faces(const PlyElement& element, std::string_view data, PolygonMesh& m
         mesh.face_begin[f + 1] = static_cast<Index>(corners);
     }
     const std::size_t all = element.count * layout.bytes + sizeof(Index) * corners;
-    if (all > data.size() || data.size() - all > 2) return false;
+    if (all > data.size() || data.size() - all > most_line_end) return false;
     mesh.corners.resize(corners);
     in_pieces(element.count, items_at_a_time, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
