@@ -3,7 +3,7 @@
 #include "bindings.h"
 #include "map_binding.h"
 
-#include "parts/packed_layer.h"
+#include "packing/packed_layer.h"
 #include "parts/parts.h"
 #include "parts/sewing.h"
 #include "report/packed_json.h"

@@ -1,8 +1,8 @@
 // Grids of triangles, and parts that are whole surfaces.
 #pragma once
 
+#include "flat/flat_part.h"
 #include "mesh/topology.h"
-#include "parts/flat_part.h"
 
 #include <numeric>
 

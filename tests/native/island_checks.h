@@ -1,7 +1,7 @@
 // Random islands, and what is true of packed ones, measured on their outlines.
 #pragma once
 
-#include "parts/packing.h"
+#include "packing/packing.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "parts/common_sequence.h"
+#include "flat/common_sequence.h"
 
 #include <gtest/gtest.h>
 

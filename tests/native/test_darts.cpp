@@ -1,10 +1,10 @@
+#include "darts/dart_rounds.h"
+#include "darts/darts.h"
 #include "even/even_forces.h"
 #include "even/even_map.h"
 #include "grids.h"
-#include "parts/carried_parts.h"
-#include "parts/dart_rounds.h"
-#include "parts/darts.h"
 #include "planar/planar_predicates.h"
+#include "proxies/carried_parts.h"
 
 #include <gtest/gtest.h>
 

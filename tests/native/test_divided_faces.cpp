@@ -1,9 +1,9 @@
 // Laws of faces with vertices of neighbours on their edges: pieces cover them, and cracks separate nothing.
-#include "parts/divided_faces.h"
+#include "flat/divided_faces.h"
 
+#include "flat/regions.h"
 #include "part_maps/part_mesh.h"
 #include "parts/parts.h"
-#include "parts/regions.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "core/errors.h"
 #include "island_checks.h"
-#include "parts/cell_mask.h"
-#include "parts/packing.h"
+#include "packing/cell_mask.h"
+#include "packing/packing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 #include "core/connectivity.h"
+#include "darts/stitches.h"
+#include "darts/tension.h"
+#include "darts/through_cuts.h"
 #include "even/even_map.h"
+#include "flat/part_borders.h"
 #include "grids.h"
-#include "parts/part_borders.h"
-#include "parts/stitches.h"
-#include "parts/tension.h"
-#include "parts/through_cuts.h"
 #include "planar/rigid_fit.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
+#include "darts/darts.h"
+#include "darts/tension.h"
+#include "darts/through_rounds.h"
 #include "even/even_forces.h"
 #include "grids.h"
-#include "parts/darts.h"
-#include "parts/packing.h"
-#include "parts/tension.h"
-#include "parts/through_rounds.h"
+#include "packing/packing.h"
 
 #include <gtest/gtest.h>
 

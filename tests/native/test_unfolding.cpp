@@ -1,9 +1,9 @@
 // Laws of unfolding: lengths stay, nothing overlaps, and the cuts of simple solids are known.
-#include "parts/unfolding.h"
+#include "hard/unfolding.h"
 
 #include "core/connectivity.h"
+#include "flat/regions.h"
 #include "mesh/topology.h"
-#include "parts/regions.h"
 
 #include <gtest/gtest.h>
 

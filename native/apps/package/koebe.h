@@ -22,7 +22,7 @@
 #include "lift/patterns.h"
 #include "mesh/topology.h"
 #include "opened/cut_uniformize.h"
-#include "parts/packed_layer.h"
+#include "packing/packed_layer.h"
 #include "parts/parts.h"
 #include "pipeline/surface_solver.h"
 #include "pipeline/uniformize.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/api.h"
-#include "parts/packed_layer.h"
+#include "packing/packed_layer.h"
 
 #include <nlohmann/json.hpp>
 

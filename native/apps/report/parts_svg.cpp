@@ -1,6 +1,6 @@
 #include "report/parts_svg.h"
 
-#include "parts/tile_packing.h"
+#include "packing/tile_packing.h"
 #include "report/picture_units.h"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 #include "core/numbering.h"
 #include "core/sort_unique.h"
 #include "cut/disjoint_sets.h"
+#include "flat/congruence.h"
 #include "mesh/topology.h"
-#include "parts/congruence.h"
 
 #include <algorithm>
 #include <array>

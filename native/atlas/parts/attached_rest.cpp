@@ -1,7 +1,7 @@
 #include "core/errors.h"
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
-#include "parts/chart_islands.h"
+#include "hard/chart_islands.h"
 #include "surface/free_flattening.h"
 
 #include <algorithm>

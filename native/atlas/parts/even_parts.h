@@ -3,7 +3,7 @@
 
 #include "core/map_options.h"
 #include "execution/execution.h"
-#include "parts/flat_part.h"
+#include "flat/flat_part.h"
 
 #include <cstddef>
 #include <functional>

@@ -2,11 +2,12 @@
 
 #include "cost/costs.h"
 #include "cut/disjoint_sets.h"
+#include "darts/own_start.h"
 #include "execution/side_by_side.h"
 #include "mesh/connected_pieces.h"
-#include "parts/carried_parts.h"
-#include "parts/near_faces.h"
 #include "parts/pinholes.h"
+#include "proxies/carried_parts.h"
+#include "proxies/near_faces.h"
 #include "surface/mirror.h"
 
 #include <algorithm>

@@ -9,11 +9,11 @@
 #include "cut/edge_runs.h"
 #include "cut/open_surface.h"
 #include "execution/stopwatch.h"
-#include "parts/divided_faces.h"
+#include "flat/divided_faces.h"
+#include "flat/straight_middles.h"
 #include "parts/hard_surface.h"
 #include "parts/mesh_parts.h"
 #include "parts/sketched_cuts.h"
-#include "parts/straight_middles.h"
 #include "splitting/closed_surface.h"
 #include "splitting/pockets.h"
 

@@ -2,7 +2,6 @@
 
 #include "core/numbering.h"
 #include "cost/costs.h"
-#include "splitting/closed_surface.h"
 #include "splitting/hidden_cuts.h"
 #include "splitting/mirror_symmetry.h"
 #include "splitting/straight_borders.h"
@@ -43,22 +42,6 @@ std::vector<PartPointer> even_parts(const CutSurface& whole, std::vector<std::ve
     return parts;
 }
 
-/// @param whole the piece, without what is known of its elements
-CutSurface with_elements(CutSurface whole, const PieceInput& input)
-{
-    whole.face = input.face;
-    whole.slit = input.slit;
-    whole.seam = input.seam;
-    whole.shown = input.shown;
-    return whole;
-}
-
-/// The piece with the boundary that it came with.
-CutSurface opened(const PieceInput& input)
-{
-    return with_elements(cut_surface(input.piece.vertices, input.piece.triangles, input.polygon), input);
-}
-
 /// The part from which all parts were cut; null: there is none.
 std::shared_ptr<const Part> root_of(const std::vector<PartPointer>& parts, const CutSurface& whole)
 {
@@ -68,24 +51,6 @@ std::shared_ptr<const Part> root_of(const std::vector<PartPointer>& parts, const
 }
 
 }  // namespace
-
-CutSurface whole_of(const PieceInput& input)
-{
-    std::optional<CutSurface> closed = closed_surface(input.piece, input.piece.vertices, input.polygon);
-    return closed ? with_elements(std::move(*closed), input) : opened(input);
-}
-
-PieceSurface surface_of(const PieceInput& input)
-{
-    PieceSurface surface{whole_of(input)};
-    if (surface.whole.surface.loops.empty()) {
-        surface.first = halves(surface.whole);
-        if (!surface.first.empty()) return surface;
-        surface.whole = opened(input);
-    }
-    if (is_between_cuts(surface.whole) && is_nearly_closed(surface.whole)) surface.first = halves(surface.whole);
-    return surface;
-}
 
 EvenOptions evening_of(const PartsOptions& options, bool roomy, int threads)
 {
@@ -128,8 +93,8 @@ FlatParts flat_piece(const PieceInput& input, PieceSurface surface, const PartsO
     const bool is_cut = parts.size() > 1;
     FlatParts flats = flat_parts(whole, mirror, parts, {prices, options.round_cuts}, threads, context, effort);
     if (is_cut || flats.parts.size() == 1)
-        if (auto one =
-                better_as_one(is_closed ? opened(input) : whole, root.get(), flats, prices.part_price, context)) {
+        if (auto one = better_as_one(is_closed ? opened_surface(input) : whole, root.get(), flats, prices.part_price,
+                                     context)) {
             flats.parts.clear();
             flats.parts.push_back(std::move(*one));
         }

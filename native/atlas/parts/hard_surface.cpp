@@ -3,7 +3,7 @@
 #include "core/numbering.h"
 #include "cost/costs.h"
 #include "execution/profile.h"
-#include "parts/hard_room.h"
+#include "hard/hard_room.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 
 #include "cut/open_surface.h"
 #include "execution/execution.h"
-#include "parts/divided_faces.h"
-#include "parts/flat_part.h"
+#include "flat/divided_faces.h"
+#include "flat/flat_part.h"
+#include "hard/unfolding.h"
 #include "parts/parts.h"
-#include "parts/unfolding.h"
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cut/open_surface.h"
-#include "parts/divided_faces.h"
-#include "parts/flat_part.h"
+#include "flat/divided_faces.h"
+#include "flat/flat_part.h"
 #include "parts/parts.h"
 #include "quality/report.h"
 

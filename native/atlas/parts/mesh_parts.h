@@ -2,7 +2,7 @@
 #pragma once
 
 #include "execution/execution.h"
-#include "parts/flat_part.h"
+#include "flat/flat_part.h"
 #include "parts/flat_piece.h"
 #include "parts/parts.h"
 

@@ -1,10 +1,10 @@
 #include "parts/mesh_piece.h"
 
 #include "cost/costs.h"
+#include "hard/unfolding.h"
 #include "parts/even_parts.h"
 #include "parts/hard_surface.h"
 #include "parts/pinholes.h"
-#include "parts/unfolding.h"
 #include "surface/ambient_visibility.h"
 #include "surface/local_density.h"
 #include "surface/mirror.h"

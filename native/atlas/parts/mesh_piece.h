@@ -4,7 +4,7 @@
 #include "execution/execution.h"
 #include "parts/flat_piece.h"
 #include "parts/mesh_parts.h"
-#include "parts/proxy.h"
+#include "proxies/proxy.h"
 
 #include <cstddef>
 #include <optional>

@@ -2,8 +2,8 @@
 
 #include "core/errors.h"
 #include "execution/side_by_side.h"
-#include "parts/flat_repair.h"
-#include "parts/tile_packing.h"
+#include "flat/flat_repair.h"
+#include "packing/tile_packing.h"
 
 #include <algorithm>
 #include <array>

@@ -2,10 +2,10 @@
 
 #include "core/connectivity.h"
 #include "core/errors.h"
+#include "darts/darts.h"
+#include "darts/tension.h"
+#include "darts/through_cuts.h"
 #include "holes/fan_filling.h"
-#include "parts/darts.h"
-#include "parts/tension.h"
-#include "parts/through_cuts.h"
 #include "surface/loop_edges.h"
 
 #include <algorithm>

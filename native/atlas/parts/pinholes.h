@@ -1,8 +1,8 @@
 // Pinholes of scans, filled while parts are decided and relaxed: so their rims need no room and cannot cross.
 #pragma once
 
-#include "parts/flat_part.h"
-#include "parts/flat_piece.h"
+#include "flat/flat_part.h"
+#include "splitting/piece_surface.h"
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "parts/sketched_cuts.h"
 
 #include "core/connectivity.h"
-#include "parts/carried_net.h"
+#include "proxies/carried_net.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,7 +1,7 @@
 // Parts that are copies or mirror images of other parts: laid alike, or on one place in the UVs.
 #pragma once
 
-#include "parts/congruence.h"
+#include "flat/congruence.h"
 
 #include <optional>
 #include <vector>

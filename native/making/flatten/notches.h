@@ -1,10 +1,10 @@
 // Notches and numbers on the pieces of a pattern.
 #pragma once
 
+#include "flat/flat_part.h"
 #include "flatten/pattern.h"
 #include "flatten/seams.h"
 #include "flatten/sheets.h"
-#include "parts/flat_part.h"
 
 #include <vector>
 

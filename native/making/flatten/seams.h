@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/types.h"
-#include "parts/flat_part.h"
+#include "flat/flat_part.h"
 
 #include <cstddef>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "core/errors.h"
 #include "flatten/page_turn.h"
-#include "parts/packed_island.h"
+#include "packing/packed_island.h"
 #include "planar/planar_predicates.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 
 #include "flatten/pattern.h"
 #include "flatten/seams.h"
-#include "parts/sheet_packing.h"
+#include "packing/sheet_packing.h"
 
 #include <vector>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/types.h"
+#include "flat/flat_part.h"
 #include "flatten/flatten.h"
-#include "parts/flat_part.h"
 #include "quality/angle_error.h"
 
 #include <algorithm>

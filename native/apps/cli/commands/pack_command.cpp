@@ -2,7 +2,7 @@
 #include "cli/commands/corner_map.h"
 
 #include "core/counted.h"
-#include "parts/packed_layer.h"
+#include "packing/packed_layer.h"
 #include "report/packed_json.h"
 #include "report/parts_svg.h"
 
