@@ -12,7 +12,6 @@ SEARCHED = ("native", "addon", "docs", "README.md", "CONTRIBUTING.md")
 SUFFIXES = {".h", ".cpp", ".py", ".md", ".json", ".cmake", ".txt"}
 NOT_SEARCHED = (
     "docs/glossary.md", "native/python/koebe/_report_entries.py",  # they name the words
-    "native/atlas/parts", "native/disk/foldover", "native/disk/even",
 )  # fmt: skip
 GONE = {  # words that are more, or less, than an identifier
     "flap": "flap", "crumb": "crumb", "foretold": "foretold", "hang": r"\b(?:hangs?|hung)\b(?! on nothing)",

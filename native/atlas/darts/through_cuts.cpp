@@ -238,7 +238,7 @@ private:
     SeamedMesh mesh_;
     PathTree tree_;
     std::vector<WayOut> ways_;
-    std::vector<Index> region_;     // (F) strained faces that hang together, or others
+    std::vector<Index> region_;     // (F) strained faces that are connected, or others
     std::vector<double> strain_;    // (regions) energy; 0 where faces are not strained
     std::vector<int> loop_of_;      // (V) -1 inside
     std::vector<double> arc_;       // (V) twice the area swept along the loop before the vertex,

@@ -19,7 +19,7 @@
 namespace koebe {
 namespace {
 
-constexpr EvenEffort trial_effort{6, 2};
+constexpr EvenEffort through_effort{6, 2};
 constexpr int most_failures = 2;          // rounds in which no cut of a piece pays
 constexpr std::size_t fewest_faces = 10;  // of a piece that is cut off for room, unless it is true to size
 
@@ -181,14 +181,14 @@ private:
     bool save_room_once(std::size_t k, double square)
     {
         for (const ThroughCut& cut : roomy_cuts(pieces_[k].flat, square, price_))
-            if (std::optional<Trial> trial = opened(k, {cut}); trial && !has_crumbs(*trial)) {
+            if (std::optional<Trial> trial = opened(k, {cut}); trial && !has_tiny_pieces(*trial)) {
                 take(std::move(*trial));
                 return true;
             }
         return false;
     }
 
-    static bool has_crumbs(const Trial& trial)
+    static bool has_tiny_pieces(const Trial& trial)
     {
         for (std::size_t k = 0; k < trial.pieces.size(); ++k)
             if (const FlatPart& flat = trial.pieces[k].flat;
@@ -250,7 +250,7 @@ private:
             if (!trial.changed[k]) continue;
             FlatPart& flat = trial.pieces[k].flat;
             std::vector<RoundLoop> none;
-            const EvenMap relaxed = make_even(flat_surface(flat, none), even, packed_side, context, trial_effort);
+            const EvenMap relaxed = make_even(flat_surface(flat, none), even, packed_side, context, through_effort);
             work_left_ -= static_cast<double>(relaxed.iterations) * static_cast<double>(flat.faces.size());
             if (!relaxed.moved || !survives_storing(flat)) return false;
         }

@@ -219,17 +219,17 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
     std::vector<SplitEffort> efforts(parts.size());
     std::vector<char> opened(whole.surface.twin.size(), 0);
     // On a mirrored surface a tube's slit is the image of its partner's: so one after the other.
-    const bool in_turn = !mirror.image.empty();
-    side_by_side(parts.size(), in_turn ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
+    const bool one_by_one = !mirror.image.empty();
+    side_by_side(parts.size(), one_by_one ? 1 : threads, context, [&](std::size_t k, ExecutionContext& own) {
         Part& part = *parts[k];
         if (part.map.positions.size() == 0) map_anew(whole, part, own, efforts[k], options.purpose);
         const bool chosen = std::ranges::count(part.mesh.slit, 1) > 0;
-        if (in_turn && part.map.kind == PartKind::tube && !chosen)
+        if (one_by_one && part.map.kind == PartKind::tube && !chosen)
             prefer_slits(part.mesh, mirrored_slits(whole, mirror, opened));
         FlatOptions own_options = options;
         if (chosen) own_options.prices.cut_price = 0.0;
         flats[k] = laid(whole, parts[k], own_options, 0, own, efforts[k]);
-        if (in_turn && flats[k].parts.size() == 1) note_slit(part.mesh, flats[k].parts.front(), opened);
+        if (one_by_one && flats[k].parts.size() == 1) note_slit(part.mesh, flats[k].parts.front(), opened);
         parts[k].reset();
     });
     // Join in the parts' order, whatever thread was first.

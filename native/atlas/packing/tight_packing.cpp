@@ -14,11 +14,11 @@ constexpr int coarse_side = 192;     // cells of the square at first, where isla
 constexpr double first_share = 0.5;  // that share of it
 constexpr int refinement = 4;        // fine cells along a coarse one, twice
 constexpr int first_squeeze = 100, second_squeeze = 500;
-constexpr int most_larger = 20;       // squares that are tried until the islands have room
-constexpr int most_failures = 40;     // disturbed arrangements in a row
-constexpr double coarse_share = 0.8;  // of the work
-constexpr int angles = 64;            // turns between 0 and 90 degrees, to find the smallest square round an island
-constexpr int angles_apart = 16;      // of these every sixteenth is a pose
+constexpr int most_larger = 20;        // squares that are tried until the islands have room
+constexpr int most_failed_moves = 40;  // disturbed arrangements in a row
+constexpr double coarse_share = 0.8;   // of the work
+constexpr int angles = 64;             // turns between 0 and 90 degrees, to find the smallest square round an island
+constexpr int angles_apart = 16;       // of these every sixteenth is a pose
 
 /// A turn of k/angles of 90 degrees, nearly: of absolute value 1, without sines.
 Complex turn_of(int k)
@@ -132,7 +132,7 @@ private:
             if (++k == most_larger || separation.work() > most || is_over()) return false;
         // Smaller boards: the step is halved after failures, then islands are shaken.
         int step = side_ / 32;
-        for (int failures = 0; failures < most_failures && separation.work() < most && !is_over();) {
+        for (int failures = 0; failures < most_failed_moves && separation.work() < most && !is_over();) {
             std::vector<IslandSpot> spots = squeezed(side_ - step);
             if (failures > 0) disturb(spots, separation);
             if (separation.separate(side_ - step, spots, false, most)) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double next_scale_of_tiles = 0.93;  // times the last while the tiles have no room,
 constexpr int most_scales_of_tiles = 600;
-constexpr int halvings = 4;                  // of the last step
+constexpr int last_halvings = 4;             // of the last step
 constexpr std::size_t many_on_tiles = 2000;  // islands: without halvings
 constexpr int most_moves = 6;                // of islands between tiles
 constexpr std::size_t most_moved = 300;      // islands: without moves beyond
@@ -94,7 +94,7 @@ private:
             if (++k == most_scales_of_tiles) throw SolverError("the islands have no room on the tiles");
         // Bisection of its logarithm between the last two.
         double step = 1.0 / next_scale_of_tiles;
-        for (int k = 0; k < halvings && outlines_.size() <= many_on_tiles; ++k) {
+        for (int k = 0; k < last_halvings && outlines_.size() <= many_on_tiles; ++k) {
             step = std::sqrt(step);
             if (std::optional<SheetPacking> larger = on_sheets(scale * step)) {
                 best = std::move(larger);

@@ -35,8 +35,8 @@ struct Attempt {
 };
 constexpr std::array attempts{Attempt{0.0, 0.0}, Attempt{0.9, 1e-3}, Attempt{1.0, 1e-3}, Attempt{1.0, 1e-4},
                               Attempt{1.0, 1e-5}};
-constexpr std::size_t most_starts = 6;  // of a common sequence of names
-constexpr double ear_height = 0.01;     // of a face at a corner that the part rounds, over its base
+constexpr std::size_t sequence_starts = 6;  // of a common sequence of names
+constexpr double ear_height = 0.01;         // of a face at a corner that the part rounds, over its base
 
 using HeldVertex = std::pair<Index, Complex>;  // and where it stays
 
@@ -318,8 +318,8 @@ private:
             if (counts.at(names[i]) == std::pair(1, 1)) all.push_back(i);
         for (std::size_t i = 0; i < names.size() && all.empty(); ++i)
             if (counts.at(names[i]).second > 0) all.push_back(i);
-        for (std::size_t i = 0; i < std::min(most_starts, all.size()); ++i)
-            some.push_back(all[i * all.size() / std::min(most_starts, all.size())]);
+        for (std::size_t i = 0; i < std::min(sequence_starts, all.size()); ++i)
+            some.push_back(all[i * all.size() / std::min(sequence_starts, all.size())]);
         return some;
     }
 

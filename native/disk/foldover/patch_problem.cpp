@@ -69,8 +69,8 @@ private:
             double longest = 1.5 * std::sqrt(area);
             for (int k = 0; k < 3; ++k) longest = std::max(longest, (corner(k) - corner(k + 1)).norm());
             const StoredFace face(map_.triangles(), map_.uv(), f);
-            if (map_.touches_flap(f) && !face.doubtful()) {
-                // A flap keeps the shape that fits into its hole.
+            if (map_.touches_ear(f) && !face.doubtful()) {
+                // An ear keeps the shape that fits into its hole.
                 result_.problem.reference[i] << corner(1) - corner(0), corner(2) - corner(0);
                 area = 0.5 * result_.problem.reference[i].determinant();
             }

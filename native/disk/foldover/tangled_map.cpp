@@ -25,7 +25,7 @@ TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const s
       circles_(circles),
       uv_(uv),
       place_(surface.vertex_count, Place::inside),
-      flap_(surface.vertex_count, 0),
+      ear_(surface.vertex_count, 0),
       held_(surface.vertex_count, 0),
       loop_of_(surface.vertex_count, -1),
       vertex_faces_(surface.triangles, surface.vertex_count)
@@ -37,7 +37,7 @@ TangledMap::TangledMap(const Vertices& vertices, const Surface& surface, const s
         }
     for (const Index v : off_circle) {
         place_[v] = Place::off_circle;
-        flap_[v] = 1;
+        ear_[v] = 1;
     }
 }
 
@@ -79,10 +79,10 @@ bool TangledMap::mobile(Index vertex, PatchBoundary boundary) const
     return may && !held(vertex) && !collapsed(vertex);
 }
 
-bool TangledMap::touches_flap(Index face) const
+bool TangledMap::touches_ear(Index face) const
 {
     return std::any_of(triangles().row(face).begin(), triangles().row(face).end(),
-                       [&](Index v) { return flap_[v] != 0; });
+                       [&](Index v) { return ear_[v] != 0; });
 }
 
 bool TangledMap::near_circle(Index vertex) const

@@ -46,8 +46,8 @@ public:
 
     /// Whether a vertex may move, and its faces are large enough to be moved in 64-bit positions.
     bool mobile(Index vertex, PatchBoundary boundary) const;
-    /// Whether a face has a vertex on the rim of a flap.
-    bool touches_flap(Index face) const;
+    /// Whether a face has a vertex on the rim of an ear.
+    bool touches_ear(Index face) const;
 
     /// Faces that are flipped as stored, and not below resolution.
     std::vector<Index> tangled() const;
@@ -70,7 +70,7 @@ private:
     const std::vector<Circle>& circles_;
     PlanarPoints& uv_;
     std::vector<Place> place_;
-    std::vector<char> flap_;  // 1 for vertices off their circles from the start: flap rims
+    std::vector<char> ear_;  // 1 for vertices off their circles from the start: rims of ears
     std::vector<char> held_;
     std::vector<int> loop_of_;
     VertexFaces vertex_faces_;
