@@ -77,8 +77,8 @@ from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
 from koebe_uv_batch.jobs.parts_job import PartsJob  # noqa: E402
 from koebe_uv_batch.jobs.sequence_job import SequenceJob  # noqa: E402
 from koebe_uv_batch.maps import wording  # noqa: E402
-from koebe_uv_batch.maps.stored import LostAreaError  # noqa: E402
 from koebe_uv_batch.solver.errors import NativeError  # noqa: E402
+from koebe_uv_batch.surfaces.stored import LostAreaError  # noqa: E402
 
 OUT_OF_MEMORY = Stop(UNMAPPABLE, "this needs more memory than there is", "OutOfMemory")
 

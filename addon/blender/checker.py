@@ -11,9 +11,9 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..maps.sphere_pattern import sphere_pattern
-from ..maps.surface import Surface
-from ..maps.tile_pattern import Pattern, fits, fitting_pattern, lattices_of
+from ..layers.sphere_pattern import sphere_pattern
+from ..layers.tile_pattern import Pattern, fits, fitting_pattern, lattices_of
+from ..surfaces.surface import Surface
 from . import material_slots
 from .checker_material import checker_materials, is_checker
 from .errors import TransferError

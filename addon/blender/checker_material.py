@@ -6,7 +6,7 @@ from typing import Any
 
 import bpy
 
-from ..maps.tile_pattern import Pattern
+from ..layers.tile_pattern import Pattern
 from . import compat
 from .noted_properties import set_property
 from .transaction import Transaction

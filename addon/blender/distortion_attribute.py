@@ -9,8 +9,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..maps import distortion, distortion_colors
-from ..maps.surface import Surface
+from ..layers import distortion, distortion_colors
+from ..surfaces.surface import Surface
 from . import compat
 from .errors import TransferError
 from .mesh_object import MeshObject

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The error of reading and writing a mesh."""
 
-from ..maps.errors import KnownError
+from ..surfaces.errors import KnownError
 
 
 class TransferError(KnownError):

@@ -10,8 +10,8 @@ import bmesh
 import mathutils
 import numpy as np
 
-from ..maps.errors import KnownError
-from ..maps.triangles import flipped_triangles
+from ..surfaces.errors import KnownError
+from ..surfaces.triangles import flipped_triangles
 from .patch_attributes import Continued
 
 HOLES, SELECTED, ALL = "holes", "selected", "all"

@@ -5,8 +5,8 @@ import dataclasses
 
 import numpy as np
 
-from ..maps.distortion import texel_density
-from ..maps.surface import Surface
+from ..layers.distortion import texel_density
+from ..surfaces.surface import Surface
 from . import distortion_attribute, uv_layers
 from .mesh_object import MeshObject
 from .targets import Target

@@ -10,7 +10,7 @@ from typing import Any
 import bmesh
 import bpy
 
-from ..maps.offending_elements import EDGES, FACES, VERTICES
+from ..surfaces.offending_elements import EDGES, FACES, VERTICES
 from .mesh_object import MeshObject, mesh_objects
 from .targets import with_own_meshes
 from .transaction import Transaction

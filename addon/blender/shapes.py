@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ..maps.options import label_of
-from ..maps.surface import Surface
+from ..surfaces.surface import Surface
 from . import compat, edit_mode
 from .errors import TransferError
 from .mesh_object import MeshObject

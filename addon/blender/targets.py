@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager
 import bpy
 import numpy as np
 
-from ..maps.errors import KnownError
+from ..surfaces.errors import KnownError
 from .errors import TransferError
 from .mesh_object import MeshObject, mesh_objects
 from .mesh_reading import bring_up_to_date, read_mark

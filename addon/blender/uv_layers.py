@@ -9,7 +9,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..maps.surface import Surface
+from ..surfaces.surface import Surface
 from . import compat
 from .errors import TransferError
 from .mesh_object import MeshObject

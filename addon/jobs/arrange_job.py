@@ -9,11 +9,11 @@ import numpy as np
 from ..blender import mesh_reading
 from ..blender.errors import TransferError
 from ..blender.transaction import Transaction
-from ..maps import arrange
-from ..maps.islands import cut_into_islands
-from ..maps.mirror import NO_MIRROR
-from ..maps.surface import Island
+from ..layers import arrange
+from ..layers.mirror import NO_MIRROR
 from ..maps.wording import counted
+from ..surfaces.islands import cut_into_islands
+from ..surfaces.surface import Island
 from .island_layer import IslandLayer
 
 DONE = {"TRIM": "put into trims", "MIRROR": "laid on their mirror images"}

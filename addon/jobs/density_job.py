@@ -4,7 +4,7 @@
 import dataclasses
 
 from ..blender.transaction import Transaction
-from ..maps.uv_density import mean_density, with_density
+from ..layers.uv_density import mean_density, with_density
 from ..maps.wording import counted
 from .island_layer import IslandLayer
 

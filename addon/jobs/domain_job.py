@@ -9,12 +9,12 @@ import numpy as np
 from ..blender import checker, map_writing
 from ..blender.copied_object import add_copied_object
 from ..blender.transaction import Transaction
+from ..layers.tile_pattern import Pattern
 from ..maps.beside import OVER
 from ..maps.domain_outcomes import DomainOutcome, map_domain
 from ..maps.outcomes import Progress, Task
 from ..maps.sphere_copy import sphere_copy
 from ..maps.spheres import SphereOutcome
-from ..maps.tile_pattern import Pattern
 from .choice_job import ChoiceJob
 
 BESIDE = 0.1  # of an object's size, between the object and its sphere

@@ -8,7 +8,7 @@ from ..blender import compat, mesh_reading
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import check_mesh
-from ..maps.even_drag import EvenPreview
+from ..layers.even_drag import EvenPreview
 from . import native_package
 
 

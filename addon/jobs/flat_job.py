@@ -11,12 +11,12 @@ from ..blender import mesh_reading
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import GONE, check_readable, reason
-from ..maps.errors import failing_alone
-from ..maps.flat_layout import FlatLayout, flat_layout
+from ..layers.flat_layout import FlatLayout, flat_layout
 from ..maps.flat_pattern import FlatPattern, Label, flat_pattern, pattern_layout
 from ..maps.outcomes import Progress, share_of
-from ..maps.surface import Surface
 from ..maps.wording import counted, explain
+from ..surfaces.errors import failing_alone
+from ..surfaces.surface import Surface
 from . import native_package
 
 NEW_LAYER = "Koebe"  # of a copy whose source has no UVs

@@ -11,9 +11,9 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, check_readable
 from ..blender.transaction import Transaction
-from ..maps.surface import Island, Surface
-from ..maps.uv_islands import uv_islands
 from ..maps.wording import counted
+from ..surfaces.surface import Island, Surface
+from ..surfaces.uv_islands import uv_islands
 
 
 @dataclasses.dataclass(frozen=True)

@@ -13,9 +13,9 @@ from ..blender.lifted_object import add_lifted_object
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import GONE, attempt, check_readable, reason
 from ..blender.transaction import Transaction
-from ..maps.errors import failing_alone
 from ..maps.lifting import LiftChoice, LiftOutcome, lift_surface
 from ..maps.outcomes import Progress, share_of
+from ..surfaces.errors import failing_alone
 from . import native_package
 
 

@@ -13,11 +13,11 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import transaction
-from ..maps.errors import MapError
 from ..maps.live import LiveState, follow, joined, parted
 from ..maps.outcomes import Progress, Task
 from ..maps.parts import PartsIsland, cut_into_parts, move_parts
 from ..maps.wording import explain
+from ..surfaces.errors import MapError
 from . import native_package
 
 

@@ -16,13 +16,13 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, reason, with_own_meshes
 from ..blender.transaction import Transaction, transaction
+from ..layers.tile_pattern import Pattern
 from ..maps.mapping import map_surfaces
 from ..maps.options import Options
 from ..maps.outcomes import LATER, Outcome, Place, Progress, Task, failure_row
-from ..maps.surface import Surface
-from ..maps.tile_pattern import Pattern
-from ..maps.welding import joined
 from ..maps.wording import counted, few
+from ..surfaces.surface import Surface
+from ..surfaces.welding import joined
 from . import native_package
 
 

@@ -10,11 +10,11 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
-from ..maps.circle_domain import CircleDomain, CircleImage, read_domains
-from ..maps.distortion import texel_figures
-from ..maps.moebius import Moebius
-from ..maps.surface import next_corners
+from ..layers.circle_domain import CircleDomain, CircleImage, read_domains
+from ..layers.distortion import texel_figures
 from ..maps.wording import few
+from ..surfaces.moebius import Moebius
+from ..surfaces.surface import next_corners
 
 MOST_EDGES = 60_000  # limit of edges drawn during a drag
 

@@ -13,8 +13,8 @@ from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
 from ..maps.outcomes import Progress, share_of
-from ..maps.surface import Surface
 from ..maps.wording import counted
+from ..surfaces.surface import Surface
 
 
 @dataclasses.dataclass

@@ -11,13 +11,13 @@ from ..blender import map_writing, mesh_reading, seams
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.transaction import Transaction
+from ..layers.uv_density import mean_density
 from ..maps.atlas import one_atlas
 from ..maps.beside import OVER
 from ..maps.options import PartsChoice
 from ..maps.outcomes import Progress, Sketch, Task
 from ..maps.parts import PartsOutcome, cut_into_parts, move_parts
-from ..maps.surface import Surface
-from ..maps.uv_density import mean_density
+from ..surfaces.surface import Surface
 from .choice_job import ChoiceJob
 
 

@@ -10,7 +10,7 @@ from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
-from ..maps.relax_brush import Dab, RelaxBrush
+from ..layers.relax_brush import Dab, RelaxBrush
 
 
 class RelaxJob:

@@ -9,7 +9,7 @@ from ..blender import mesh_reading
 from ..blender.mesh_object import MeshObject
 from ..maps.domain_outcomes import islands_to_map
 from ..maps.outcomes import Task
-from ..maps.surface import Surface
+from ..surfaces.surface import Surface
 from .domain_job import DomainJob
 
 

@@ -13,12 +13,12 @@ from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh
 from ..blender.transaction import Transaction
 from ..maps.beside import new_overlaps
-from ..maps.errors import MapError
 from ..maps.live import LEAST_EVEN
 from ..maps.outcomes import Progress, Task, share_of
 from ..maps.pins import join_pins
-from ..maps.surface import Surface, next_corners
 from ..maps.wording import counted
+from ..surfaces.errors import MapError
+from ..surfaces.surface import Surface, next_corners
 
 SEWN_OVER = ". Islands lie over each other: Pack Only makes room"
 

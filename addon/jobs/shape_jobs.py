@@ -10,8 +10,8 @@ from ..blender.transaction import Transaction
 from ..maps.carried_uv import Carried, carry, read_source
 from ..maps.outcomes import LATER, Progress, share_of
 from ..maps.shapes import Comparison, Shape, ShapeError, compare, map_shape, module
-from ..maps.surface import Surface
 from ..maps.wording import few
+from ..surfaces.surface import Surface
 from . import native_package
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces as arrays, their maps to UVs, and the texts about them. Imports no bpy and no other room."""
+"""Maps of surfaces to UVs, their options, and the words of reports. Imports no bpy. May import surfaces, layers."""

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from .errors import MapError
+from ..surfaces.errors import MapError
+from ..surfaces.stored import LostAreaError
+from ..surfaces.surface import Numbers, Surface
 from .options import PartsChoice
 from .outcomes import LATER, Progress, Task
 from .parts import OTHERS, PartsIsland, PartsOutcome, cut_into_parts
-from .stored import LostAreaError
-from .surface import Numbers, Surface
 from .warning_words import of_solver
 from .wording import in_mesh
 

@@ -6,8 +6,8 @@ import dataclasses
 from types import ModuleType
 from typing import Any
 
+from ..surfaces.errors import kind_of
 from .disk_outcomes import SurfaceOutcome
-from .errors import kind_of
 from .mapping import map_surfaces
 from .options import Options, PartsChoice
 from .outcomes import Outcome, Progress, Task, share_of

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from .distortion import both_areas
+from ..layers.distortion import both_areas
+from ..layers.packing import fit_placement
+from ..layers.uv_density import mean_density
+from ..surfaces.surface import Island, Surface
+from ..surfaces.triangles import signed_areas
+from ..surfaces.uv_islands import uv_islands, vertex_uv
 from .outcomes import Task
-from .packing import fit_placement
-from .surface import Island, Surface
-from .triangles import signed_areas
-from .uv_density import mean_density
-from .uv_islands import uv_islands, vertex_uv
 
 SAME_SIZE = 0.995  # share of the wanted size that counts as all of it
 NO_ROOM = "no room beside the islands of the other faces: the new ones lie to the right of the UV square"

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from ..surfaces.triangles import as_complex, as_points, flipped_triangles
+from ..surfaces.upright import upright_turn
 from .outcomes import Progress
 from .shapes import Shape, ShapeError, map_shape
-from .triangles import as_complex, as_points, flipped_triangles
-from .upright import upright_turn
 
 # UV units: distance from a circle, or between the corners of a vertex, allowed in 32-bit UVs.
 ON_CIRCLE = 1e-5

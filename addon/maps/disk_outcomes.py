@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .mirror import Symmetry
-from .opening import Opening
+from ..layers.mirror import Symmetry
+from ..layers.packing import Placement
+from ..surfaces.opening import Opening
+from ..surfaces.rounding import RESOLUTION, rounded
+from ..surfaces.stored import Stored
+from ..surfaces.surface import Island
+from ..surfaces.triangles import as_complex, as_points, covered, density_ratio, longest_edges, signed_areas
 from .outcomes import LATER, Outcome, in_numbers
-from .packing import Placement
-from .rounding import RESOLUTION, rounded
-from .stored import Stored
-from .surface import Island
-from .triangles import as_complex, as_points, covered, density_ratio, longest_edges, signed_areas
 from .warning_words import of_solver
 from .wording import UNEVEN_TEXELS, counted, cut_edges, cut_line, density_text, few, in_mesh, own_warning, too_uneven
 

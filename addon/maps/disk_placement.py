@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from ..layers.packing import Placement, fit_placement, packed
+from ..surfaces.errors import MapError, failing_alone
+from ..surfaces.surface import Island
+from ..surfaces.triangles import signed_areas
 from .beside import OVER, put_beside
 from .disk_outcomes import IslandOutcome, SurfaceOutcome
-from .errors import MapError, failing_alone
 from .options import Options
 from .outcomes import Task
-from .packing import Placement, fit_placement, packed
-from .surface import Island
-from .triangles import signed_areas
 
 
 def lay_out(koebe: ModuleType, outcomes: Sequence[SurfaceOutcome], options: Options, cancel: Any) -> None:

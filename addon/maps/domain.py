@@ -6,7 +6,7 @@ import functools
 from collections.abc import Callable
 from typing import Any
 
-from .errors import MapError
+from ..surfaces.errors import MapError
 from .options import OF_RUNS, Chosen, of_map
 
 

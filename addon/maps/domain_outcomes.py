@@ -9,16 +9,16 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..surfaces.errors import MapError, failing_alone
+from ..surfaces.islands import cut_into_islands
+from ..surfaces.seams import cut_edges
+from ..surfaces.stored import LostAreaError, Stored, flipped_corners, judge_corners
+from ..surfaces.surface import Island, Surface
+from ..surfaces.triangles import density_ratio, signed_areas
 from .domain import Domain
-from .errors import MapError, failing_alone
-from .islands import cut_into_islands
 from .mapping import check_area
 from .options import Chosen
 from .outcomes import LATER, Outcome, Progress, Task, in_numbers, share_of
-from .seams import cut_edges
-from .stored import LostAreaError, Stored, flipped_corners, judge_corners
-from .surface import Island, Surface
-from .triangles import density_ratio, signed_areas
 from .warning_words import of_solver
 from .wording import UNEVEN_TEXELS, counted, density_text, in_mesh, too_uneven
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from .errors import NOWHERE
-from .flat_layout import FlatError, FlatLayout, flat_layout
-from .islands import cut_into_islands, put_together
+from ..layers.flat_layout import FlatError, FlatLayout, flat_layout
+from ..surfaces.errors import NOWHERE
+from ..surfaces.islands import cut_into_islands, put_together
+from ..surfaces.surface import Surface
+from ..surfaces.triangles import areas
 from .outcomes import Progress
-from .surface import Surface
-from .triangles import areas
 from .wording import counted
 
 PATTERN_SIDE = 300.0  # mm, the root of the area of a surface that is laid flat at no real size

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from ..surfaces.errors import MapError, elements_of, kind_of
+from ..surfaces.rounding import RESOLUTION
 from .domain import Domain, DomainError
 from .domain_outcomes import DomainIsland, DomainOutcome
-from .errors import MapError, elements_of, kind_of
 from .options import Chosen
 from .outcomes import LATER, Task, in_numbers
-from .rounding import RESOLUTION
 from .wording import counted
 
 ROUND = 1e-3  # largest distance of a round hole's vertices from its circle, over the radius

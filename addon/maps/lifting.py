@@ -8,12 +8,12 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from .errors import elements_of, kind_of
-from .islands import cut_into_islands
-from .offending_elements import FACES, VERTICES, offending_elements
+from ..surfaces.errors import elements_of, kind_of
+from ..surfaces.islands import cut_into_islands
+from ..surfaces.offending_elements import FACES, VERTICES, offending_elements
+from ..surfaces.surface import Island, Surface
 from .outcomes import Progress, share_of
 from .places import centers, points
-from .surface import Island, Surface
 from .warning_words import of_solver
 from .wording import counted, explain, in_mesh
 

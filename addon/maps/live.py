@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from .even_drag import STILL
-from .islands import cut_into_islands
+from ..layers.even_drag import STILL
+from ..layers.packing import fit_placement
+from ..surfaces.islands import cut_into_islands
+from ..surfaces.surface import Island, Surface, next_corners
+from ..surfaces.triangles import signed_areas
+from ..surfaces.uv_islands import uv_cuts, vertex_uv
 from .outcomes import Task
-from .packing import fit_placement
 from .pins import has_pins, pin_island, pins_of
-from .surface import Island, Surface, next_corners
-from .triangles import signed_areas
-from .uv_islands import uv_cuts, vertex_uv
 
 MOST_STEPS = 60  # Newton steps until a warm map has settled. Ten are many
 LEAST_EVEN = 0.1  # E around pins if the angles are kept

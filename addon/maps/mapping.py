@@ -10,21 +10,21 @@ from typing import Any
 
 import numpy as np
 
+from ..surfaces.errors import MapError, failing_alone, foreseen
+from ..surfaces.islands import cut_into_islands, whole_island
+from ..surfaces.opening import Opening, open_island
+from ..surfaces.stored import SERVES, judge, lost_text, turned_of
+from ..surfaces.surface import Island
+from ..surfaces.triangles import areas, flipped_triangles
+from ..surfaces.tube import unroll
+from ..surfaces.upright import upright_turn
 from . import places
 from .disk_outcomes import IslandOutcome, SurfaceOutcome
 from .disk_placement import lay_out
-from .errors import MapError, failing_alone, foreseen
-from .islands import cut_into_islands, whole_island
-from .opening import Opening, open_island
 from .options import Options
 from .outcomes import Progress, Task
 from .side_by_side import Unit, side_by_side
-from .stored import SERVES, judge, lost_text, turned_of
-from .surface import Island
 from .symmetry import make_symmetric
-from .triangles import areas, flipped_triangles
-from .tube import unroll
-from .upright import upright_turn
 from .wording import counted
 
 # Of the extent: the distance from a line that rounding to 32 bits can cause, and a little more.

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from .errors import elements_of, kind_of
-from .offending_elements import offending_elements
-from .surface import Surface
+from ..surfaces.errors import elements_of, kind_of
+from ..surfaces.offending_elements import offending_elements
+from ..surfaces.surface import Surface
 from .warning_words import in_words
 from .wording import MIRRORED, explain, failure_line, own_warning
 

@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
+from ..surfaces.errors import MapError, failing_alone
+from ..surfaces.islands import cut_into_islands, put_together
+from ..surfaces.seams import cut_edges, inner_seams, tube_slits
+from ..surfaces.stored import LostAreaError, judge_corners, lost_text
+from ..surfaces.surface import Numbers, Surface, next_corners
+from ..surfaces.triangles import areas, density_ratio, signed_areas
 from .beside import OVER, PINNED_OVER, in_place, new_overlaps, put_beside
-from .errors import MapError, failing_alone
-from .islands import cut_into_islands, put_together
 from .option_table import ROWS, solver_default
 from .options import PartsChoice
 from .outcomes import LATER, Outcome, Progress, Task
 from .pins import join_pins
-from .seams import cut_edges, inner_seams, tube_slits
-from .stored import LostAreaError, judge_corners, lost_text
-from .surface import Numbers, Surface, next_corners
-from .triangles import areas, density_ratio, signed_areas
 from .warning_words import of_solver
 from .wording import counted, density_text, in_mesh
 

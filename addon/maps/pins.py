@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from .errors import MapError
+from ..surfaces.errors import MapError
+from ..surfaces.surface import Island
+from ..surfaces.uv_islands import uv_islands, vertex_uv
 from .outcomes import Task
-from .surface import Island
-from .uv_islands import uv_islands, vertex_uv
 from .wording import named_vertices
 
 

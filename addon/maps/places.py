@@ -5,9 +5,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .errors import MapError
+from ..surfaces.errors import MapError
+from ..surfaces.surface import Island
 from .outcomes import Place
-from .surface import Island
 
 
 def centers(islands: Sequence[Island], place: Place) -> list[int | None]:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from ..surfaces.errors import MapError, failing_alone
+from ..surfaces.surface import Surface
 from .disk_outcomes import IslandOutcome, SurfaceOutcome
-from .errors import MapError, failing_alone
 from .mapping import check_area, judge_island, map_surfaces
 from .options import Options
 from .outcomes import Outcome, Progress, Task, share_of
-from .surface import Surface
 from .wording import counted
 
 if TYPE_CHECKING:

@@ -5,10 +5,10 @@ import dataclasses
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from .errors import KnownError
-from .islands import cut_into_islands
+from ..surfaces.errors import KnownError
+from ..surfaces.islands import cut_into_islands
+from ..surfaces.surface import Island, Surface
 from .outcomes import Progress
-from .surface import Island, Surface
 from .wording import explain
 
 if TYPE_CHECKING:

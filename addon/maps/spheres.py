@@ -8,11 +8,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..surfaces.triangles import areas, density_ratio
 from .domain import Domain, DomainError, takers
 from .domain_outcomes import DomainIsland, DomainOutcome
 from .options import Chosen
 from .outcomes import LATER, Task
-from .triangles import areas, density_ratio
 from .wording import counted
 
 WHERE_TORN = {"equirectangular": "at a pole", "octahedral": "at the middle of a side of the square"}

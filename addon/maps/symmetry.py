@@ -5,9 +5,9 @@ from types import ModuleType
 
 import numpy as np
 
-from .circle_domain import DomainError, domain_in
+from ..layers.circle_domain import DomainError, domain_in
+from ..layers.mirror import symmetric
 from .disk_outcomes import IslandOutcome
-from .mirror import symmetric
 
 WORSE, NOISE = 1.05, 0.05  # factor on the angle error, plus degrees: the allowed cost of symmetry
 

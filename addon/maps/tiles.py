@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..layers.tile_fit import FittedTile, fitted
+from ..surfaces.errors import MapError
+from ..surfaces.surface import Island
 from .domain import Domain, DomainError, takers
 from .domain_outcomes import DomainIsland, DomainOutcome
-from .errors import MapError
 from .options import Chosen
 from .outcomes import LATER, Task
-from .surface import Island
-from .tile_fit import FittedTile, fitted
 from .wording import counted, own_warning
 
 if TYPE_CHECKING:

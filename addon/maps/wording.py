@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import elements_of, kind_of
-from .surface import Island, Numbers
+from ..surfaces.errors import elements_of, kind_of
+from ..surfaces.surface import Island, Numbers
 
 if TYPE_CHECKING:
     import koebe
 
-    from .opening import Opening
+    from ..surfaces.opening import Opening
 
 # For each kind of `koebe.TopologyError`: what is wrong, and what an artist can do about it.
 REASONS = {

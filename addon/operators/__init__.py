@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The artist's actions: gather, run, write, report. May import maps, solver, blender, jobs, state."""
+"""The artist's actions: gather, run, write, report. May import surfaces, layers, maps, solver, blender, jobs, state."""

@@ -12,7 +12,7 @@ from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.arrange_job import ArrangedLayer, Arrangement
 from ..jobs.island_layer import IslandLayer
-from ..maps.arrange import FITS, MODES, box
+from ..layers.arrange import FITS, MODES, box
 from ..state.option_properties import option, shown_number
 from ..state.trims import KoebeTrims, active_trim, rectangles, trims_of
 from .answers import refused

@@ -9,10 +9,10 @@ from ..blender.mesh_object import MeshObject
 from ..blender.mesh_reading import read_layer, read_surface
 from ..blender.targets import attempt, target_objects
 from ..blender.transaction import transaction
-from ..maps.distortion import texel_density
-from ..maps.surface import Surface
-from ..maps.tile_pattern import Pattern
+from ..layers.distortion import texel_density
+from ..layers.tile_pattern import Pattern
 from ..state.option_properties import option
+from ..surfaces.surface import Surface
 from .answers import finished, refused
 from .run_operator import can_map
 

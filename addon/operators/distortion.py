@@ -11,7 +11,7 @@ from ..blender.mesh_reading import read_layer, read_surface
 from ..blender.noted_properties import set_property
 from ..blender.targets import attempt, check_mesh, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
-from ..maps import distortion
+from ..layers import distortion
 from .answers import finished, refused
 from .polls import OnTargets
 

@@ -8,11 +8,11 @@ import bpy
 from ..blender.errors import TransferError
 from ..blender.targets import reason, target_objects
 from ..jobs.even_job import EvenJob
-from ..maps.errors import KnownError
-from ..maps.even_drag import EvenDrag
+from ..layers.even_drag import EvenDrag
 from ..solver.errors import NativeError
 from ..solver.worker import Worker
 from ..state.option_properties import UNWRAP_OPTION_NAMES, settings_of
+from ..surfaces.errors import KnownError
 from .answers import refused
 from .modal_run import redraw
 from .polls import OnTargets

@@ -15,8 +15,8 @@ from ..blender.selection import select_objects
 from ..blender.targets import attempt, target_objects
 from ..blender.transaction import transaction
 from ..jobs.flat_job import Flat, FlattenJob, read_flat
+from ..layers.flat_svg import flat_svg
 from ..maps.flat_pattern import FlatPattern
-from ..maps.flat_svg import flat_svg
 from ..maps.wording import counted
 from .answers import finished, refused
 from .modal_run import ModalRun

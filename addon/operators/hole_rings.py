@@ -13,8 +13,8 @@ from ..blender.selection import select_only
 from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.moebius_job import MoebiusJob
-from ..maps.hole_rings import ring_edges
-from ..maps.offending_elements import EDGES
+from ..layers.hole_rings import ring_edges
+from ..surfaces.offending_elements import EDGES
 from .answers import refused
 from .polls import OnTargets, native_or_error
 

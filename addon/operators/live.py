@@ -9,13 +9,13 @@ from bpy.props import BoolProperty
 
 from ..blender.errors import TransferError
 from ..jobs.live_job import LiveJob, read_state
-from ..maps.errors import KnownError
 from ..maps.live import LiveState
 from ..maps.options import OptionError
 from ..solver.errors import NativeError
 from ..solver.worker import Worker
 from ..state.option_properties import choice_of, settings_of
 from ..state.run_report import even_of
+from ..surfaces.errors import KnownError
 from .modal_run import listen, redraw
 
 QUIET_SECONDS = 0.15  # without a change, before anything is computed: not during a drag

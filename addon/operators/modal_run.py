@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 
-from ..maps.errors import KnownError
 from ..maps.options import OptionError
 from ..solver.errors import NativeError
 from ..solver.worker import Worker
+from ..surfaces.errors import KnownError
 from .answers import refused
 
 # The status line's names for the stages of a computation.

@@ -16,13 +16,13 @@ from ..blender.targets import reason, target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs import native_package
 from ..jobs.moebius_job import MoebiusJob
-from ..maps.circle_domain import CircleDomain, CircleImage, DomainError
-from ..maps.circle_drag import HOLE, REACH, TURN, Grip
-from ..maps.moebius import Moebius
+from ..layers.circle_domain import CircleDomain, CircleImage, DomainError
+from ..layers.circle_drag import HOLE, REACH, TURN, Grip
 from ..maps.wording import few, lines
 from ..solver.errors import NativeError
 from ..state import moved_circles
 from ..state.run_report import report_of
+from ..surfaces.moebius import Moebius
 from .answers import refused
 from .modal_run import redraw
 from .polls import OnTargets

@@ -12,7 +12,7 @@ from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs import native_package
 from ..jobs.relax_job import RelaxJob
-from ..maps.relax_brush import Dab
+from ..layers.relax_brush import Dab
 from ..solver.errors import NativeError
 from ..solver.worker import Worker
 from ..state.run_report import forget

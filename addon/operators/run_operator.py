@@ -12,11 +12,11 @@ from ..blender import edit_mode
 from ..blender.targets import target_objects
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
-from ..maps.errors import KnownError
 from ..maps.option_table import ROWS
 from ..maps.wording import failure_line
 from ..solver.worker import Worker
 from ..state import run_report
+from ..surfaces.errors import KnownError
 from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .select_from_report import select_offenders

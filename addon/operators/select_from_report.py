@@ -11,8 +11,8 @@ from ..blender.mesh_object import MeshObject
 from ..blender.selection import edges_along, select_objects, select_only
 from ..blender.transaction import Transaction, transaction
 from ..jobs.map_job import Job
-from ..maps.offending_elements import EDGES, FACES, VERTICES
 from ..state.run_report import KoebeIslandReport, selectable_entries
+from ..surfaces.offending_elements import EDGES, FACES, VERTICES
 from .answers import refused
 from .modal_run import OperatorBase
 

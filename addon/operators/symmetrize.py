@@ -10,8 +10,8 @@ from ..blender.noted_properties import note_group
 from ..blender.targets import attempt, target_objects, with_own_meshes
 from ..blender.transaction import Transaction, transaction
 from ..jobs.moebius_job import MoebiusJob
-from ..maps.circle_domain import DomainError
-from ..maps.mirror import Symmetry, symmetric
+from ..layers.circle_domain import DomainError
+from ..layers.mirror import Symmetry, symmetric
 from ..state import moved_circles
 from ..state.run_report import report_of
 from .answers import finished, refused

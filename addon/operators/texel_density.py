@@ -11,7 +11,7 @@ from ..blender.noted_properties import note_group
 from ..blender.targets import target_objects
 from ..blender.transaction import transaction
 from ..jobs.density_job import DensityLayer
-from ..maps.uv_density import island_density
+from ..layers.uv_density import island_density
 from ..state.density_report import density_of, density_words
 from ..state.option_properties import option, settings_of, shown_number
 from .answers import refused

@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import FloatProperty, IntProperty, StringProperty
 
-from ..maps.uv_density import in_words
+from ..layers.uv_density import in_words
 from .option_properties import settings_of
 from .registering import added_to
 

@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 
 from ..blender.mesh_reading import bring_up_to_date, read_layer
-from ..maps.circle_domain import CircleDomain, CircleImage
-from ..maps.moebius import Moebius
+from ..layers.circle_domain import CircleDomain, CircleImage
 from ..maps.wording import MOST_UNEVEN, counted
+from ..surfaces.moebius import Moebius
 from .run_report import KoebeIslandReport, report_of
 
 MOVED, SYMMETRIC = "moved by hand", "made symmetric"

@@ -20,9 +20,9 @@ from bpy.props import (
 
 from ..blender.noted_properties import note_group
 from ..blender.transaction import Transaction
+from ..layers.distortion import texel_figures
 from ..maps.carried_uv import Carried
-from ..maps.distortion import texel_figures
-from ..maps.surface import Island
+from ..surfaces.surface import Island
 from .registering import added_to
 
 COLLECTIONS = ("loops", "warnings")  # of an island's report

@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 
 from ..blender import distortion_attribute
-from ..maps import distortion_colors
+from ..layers import distortion_colors
 from . import drawing
 
 

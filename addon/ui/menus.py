@@ -7,7 +7,7 @@ import bpy
 
 from ..blender import checker
 from ..blender.mesh_object import mesh_objects
-from ..maps.arrange import MODES
+from ..layers.arrange import MODES
 from ..maps.option_table import ROWS
 from ..maps.presets import PRESETS
 from ..operators.arrange import UV_OT_koebe_arrange, UV_OT_koebe_trims

@@ -8,7 +8,7 @@ from ..blender import sequence_player, vector_attribute
 from ..blender.mesh_object import MeshObject
 from ..blender.mesh_reading import read_layout
 from ..blender.targets import target_objects
-from ..maps.uv_outline import outline
+from ..layers.uv_outline import outline
 from ..operators.moebius import UV_OT_koebe_moebius
 from ..state.run_report import report_of
 from . import drawing

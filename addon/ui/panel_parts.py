@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..maps.domains import DOMAINS
-from ..maps.stored import SERVES
 from ..operators.pack import UV_OT_koebe_pack
 from ..operators.sew import UV_OT_koebe_sew
 from ..operators.unwrap import SHAPE_OF, UV_OT_koebe_unwrap
 from ..state.option_properties import KoebeSettings, copy_options
+from ..surfaces.stored import SERVES
 from .help import draw_help
 
 CHARACTER = 7.8  # pixels of the sidebar's width per character of text, at a resolution scale of 1

@@ -24,7 +24,7 @@ def add_grid(map_uv):
 def values(obj, addon, kind):
     """Distortion of each face."""
     surface = addon("blender.mesh_reading").read_surface(obj, False)
-    return addon("maps.distortion").face_values(surface, scenes.corner_uv(obj.data, "Koebe"), kind)
+    return addon("layers.distortion").face_values(surface, scenes.corner_uv(obj.data, "Koebe"), kind)
 
 
 def test_a_similarity_has_none(addon):
@@ -52,7 +52,7 @@ def test_area_counts_doublings_of_the_texel_density(addon):
 def test_faces_without_uvs_are_told_apart(addon):
     obj = add_grid(lambda x, y: (max(x, 1), y))
     assert np.isnan(values(obj, addon, "angle")).tolist() == [i % 4 == 0 for i in range(16)]
-    assert addon("maps.distortion_colors").colors(np.array([np.nan]), "angle")[0] == pytest.approx((0.35, 0.35, 0.35))
+    assert addon("layers.distortion_colors").colors(np.array([np.nan]), "angle")[0] == pytest.approx((0.35, 0.35, 0.35))
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])

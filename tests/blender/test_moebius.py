@@ -197,7 +197,7 @@ def test_frames_while_dragging_and_esc_restore_every_bit(addon, koebe):
     """What the tool does between press and release, without a window."""
     obj = mapped()
     job = addon("jobs.moebius_job").MoebiusJob(koebe, obj)
-    domain, moebius = job.domains[0], addon("maps.moebius")
+    domain, moebius = job.domains[0], addon("surfaces.moebius")
     before = fingerprint.fingerprint()
     for angle in RING:
         moved = moebius.dragged(0.2j, cmath.rect(0.5, angle))

@@ -164,7 +164,7 @@ def test_moved_circles_are_the_operators(addon):
     scenes.select(moved)
     assert bpy.ops.uv.koebe_moebius(center=center, rotation=turn) == {"FINISHED"}
     assert np.abs(shown_uv(live) - scenes.corner_uv(moved.data, "Koebe")).max() < EXACT
-    moebius = addon("maps.moebius")
+    moebius = addon("surfaces.moebius")
     formula = moebius.rotation(turn).after(moebius.to_middle(complex(*center)))
     z = formula.apply(2.0 * before[:, 0].astype(np.float64) - 1.0 + 1j * (2.0 * before[:, 1] - 1.0))
     assert np.abs(shown_uv(live) - np.column_stack([z.real, z.imag]) * 0.5 - 0.5).max() < EXACT

@@ -38,7 +38,7 @@ def test_they_are_the_edges_without_a_neighbour_in_the_uvs(addon, how):
         bpy.ops.uv.koebe_uniformize(checker=False)
     obj = bpy.context.object
     vertex, edge, following, uv = addon("blender.mesh_reading").read_layout(obj, LAYER)
-    ends = addon("maps.uv_outline").outline(vertex, edge, following, uv)
+    ends = addon("layers.uv_outline").outline(vertex, edge, following, uv)
     found = sorted(
         (max(edge[pair], key=lambda e: (set(obj.data.edges[e].vertices) == set(vertex[pair].tolist()))).item(),
          tuple(sorted((int(vertex[i]), tuple(uv[i].tolist())) for i in pair)))
@@ -49,4 +49,4 @@ def test_they_are_the_edges_without_a_neighbour_in_the_uvs(addon, how):
 
 def test_a_layer_without_faces_has_none(addon):
     empty = np.zeros(0, np.int32)
-    assert addon("maps.uv_outline").outline(empty, empty, empty, np.zeros((0, 2), np.float32)).shape == (0, 2)
+    assert addon("layers.uv_outline").outline(empty, empty, empty, np.zeros((0, 2), np.float32)).shape == (0, 2)

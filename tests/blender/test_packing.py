@@ -10,7 +10,7 @@ pytestmark = pytest.mark.alike
 
 @pytest.fixture
 def packing(addon):
-    return addon("maps.packing")
+    return addon("layers.packing")
 
 
 @pytest.fixture

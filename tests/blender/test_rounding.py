@@ -19,7 +19,7 @@ def fan_along_the_rim(n=60, step=2e-4):
 
 @pytest.mark.parametrize("turn", np.linspace(0.1, 6.0, 7))
 def test_thin_triangles_on_a_rim_stay_right(addon, turn):
-    rounding, triangles_of = addon("maps.rounding"), addon("maps.triangles")
+    rounding, triangles_of = addon("surfaces.rounding"), addon("surfaces.triangles")
     z, triangles = fan_along_the_rim()
     z = 0.26 * cmath.exp(1j * turn) * z + 0.7 * (1 + 1j)
     points = np.stack([z.real, z.imag], axis=1)
@@ -32,7 +32,7 @@ def test_thin_triangles_on_a_rim_stay_right(addon, turn):
 
 
 def test_what_is_turned_over_before_rounding_stays(addon):
-    rounding = addon("maps.rounding")
+    rounding = addon("surfaces.rounding")
     points = np.array([[0.1, 0.1], [0.2, 0.9], [0.9, 0.1], [0.9, 0.9]])
     uv, flipped = rounding.rounded(points, np.array([[0, 1, 2], [2, 3, 1]]))
     assert np.array_equal(uv, points.astype(np.float32)) and flipped.tolist() == [0]

@@ -78,7 +78,7 @@ def test_a_surface_with_a_loose_vertex_is_no_whole_island(surface):
 
 
 def test_areas_are_those_of_the_cross_product_however_many_triangles(addon, surface, monkeypatch):
-    monkeypatch.setattr(addon("maps.triangles"), "BLOCK", 7)
+    monkeypatch.setattr(addon("surfaces.triangles"), "BLOCK", 7)
     random = np.random.default_rng(3)
     points, triangles = random.normal(size=(40, 3)), random.integers(0, 40, size=(23, 3)).astype(np.int32)
     a, b, c = (points[triangles[:, k]] for k in range(3))
@@ -172,7 +172,7 @@ def test_nothing_selected_gives_no_island(surface):
 
 
 def test_components_agree_with_a_search(addon):
-    connected_components = addon("maps.connected_components").connected_components
+    connected_components = addon("surfaces.connected_components").connected_components
     random = np.random.default_rng(7)
     for count, edges in [(1, 0), (50, 20), (200, 150), (200, 400), (500, 499)]:
         first, second = random.integers(0, count, edges), random.integers(0, count, edges)
@@ -185,7 +185,7 @@ def test_components_agree_with_a_search(addon):
 
 
 def test_components_of_a_long_path_and_of_a_star_with_a_high_hub_take_few_rounds(addon, monkeypatch):
-    components = addon("maps.connected_components")
+    components = addon("surfaces.connected_components")
     monkeypatch.setattr(components.itertools, "count", lambda: range(20))
     path = np.random.default_rng(1).permutation(20000)
     assert not components.connected_components(20000, path[:-1], path[1:]).any()

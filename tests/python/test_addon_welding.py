@@ -16,7 +16,7 @@ def surface_of(addon, points, faces, seams=()):
     corner = 4 * np.arange(len(faces))[:, None] + [[0, 1, 2, 0, 2, 3]]
     places = [{tuple(points[a]), tuple(points[b])} for a, b in edges.T]
     seam = np.array([place in [{*map(tuple, one)} for one in seams] for place in places])
-    return addon("maps.surface").Surface(
+    return addon("surfaces.surface").Surface(
         points, vertex, edge.ravel().astype(np.int32), corner[:, 0].astype(np.int32), np.full(len(faces), 4, np.int32),
         seam, np.ones(len(faces), bool), corner.reshape(-1, 3).astype(np.int32), np.repeat(np.arange(len(faces)), 2),
     )  # fmt: skip
@@ -32,9 +32,9 @@ def test_joined_surfaces_have_the_islands_of_the_whole_one(addon, apart, with_se
     soup = surface_of(addon, points, own, seams)
     moved = np.random.default_rng(2).uniform(-0.5, 0.5, points.shape) * apart / np.sqrt(3)
     apart_soup = type(soup)(**{**vars(soup), "positions": points + moved})
-    cut = addon("maps.islands").cut_into_islands
+    cut = addon("surfaces.islands").cut_into_islands
     assert len(cut(apart_soup)) == len(QUADS)
-    joined, first = addon("maps.welding").joined(koebe, apart_soup, max(apart, 1e-9))
+    joined, first = addon("surfaces.welding").joined(koebe, apart_soup, max(apart, 1e-9))
     assert len(np.unique(first)) == len(VERTICES) and joined.selected.all()
     found, wanted = cut(joined), cut(whole)
     assert [len(island.faces) for island in found] == [len(island.faces) for island in wanted]
@@ -46,7 +46,7 @@ def test_joined_surfaces_have_the_islands_of_the_whole_one(addon, apart, with_se
 def test_faces_that_collapse_are_not_mapped(addon):
     surface = surface_of(addon, VERTICES, QUADS)
     width = np.linalg.norm(np.diff(VERTICES[QUADS[0, :2]], axis=0))
-    joined, first = addon("maps.welding").joined(koebe, surface, 1.01 * width)
+    joined, first = addon("surfaces.welding").joined(koebe, surface, 1.01 * width)
     corners = np.sort(first[QUADS], axis=1)
     twice = (np.diff(corners, axis=1) == 0).any(axis=1)
     assert twice.any() and np.array_equal(joined.selected, ~twice)

@@ -106,7 +106,7 @@ def test_wrong_calls_are_refused():
 
 
 def test_a_drag_asks_for_one_step_at_a_time_and_ends(addon):
-    even_drag = addon("maps.even_drag")
+    even_drag = addon("layers.even_drag")
     drag = even_drag.EvenDrag(0.25, 100.0)
     assert drag.next() is None and not drag.has_changed
     drag.pull(100.0 + 0.5 * even_drag.WIDTH)
@@ -132,7 +132,7 @@ def test_a_drag_asks_for_one_step_at_a_time_and_ends(addon):
 
 
 def test_a_step_for_an_earlier_place_does_not_end_the_drag(addon):
-    drag = addon("maps.even_drag").EvenDrag(0.0, 0.0)
+    drag = addon("layers.even_drag").EvenDrag(0.0, 0.0)
     drag.pull(50.0)
     assert drag.next() is not None
     drag.pull(60.0)

@@ -133,7 +133,7 @@ def test_an_exception_of_the_progress_ends_everything(side):
 
 
 def test_surfaces_that_are_numbered_one_after_the_other_are_seen_to_be_several(addon):
-    falls_apart = addon("maps.islands")._falls_apart
+    falls_apart = addon("surfaces.islands")._falls_apart
     chance = np.random.default_rng(1)
     found = set()
     for _ in range(500):

@@ -3,9 +3,9 @@
 
 import numpy as np
 
+from ..surfaces.moebius import own_center, to_middle
+from ..surfaces.surface import Surface
 from .circle_domain import CircleDomain
-from .moebius import own_center, to_middle
-from .surface import Surface
 
 SMOOTHINGS = 4  # passes that take single faces back which stick out of their ring
 

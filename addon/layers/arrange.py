@@ -8,7 +8,7 @@ from collections.abc import Hashable, Sequence
 
 import numpy as np
 
-from .surface import Surface, next_corners
+from ..surfaces.surface import Surface, next_corners
 
 # Word: label, what it does.
 MODES = {

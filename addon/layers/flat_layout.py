@@ -5,11 +5,11 @@ import dataclasses
 
 import numpy as np
 
-from .connected_components import connected_components
-from .errors import NOWHERE, KnownError
-from .surface import Surface, next_corners
-from .triangles import areas, signed_areas
-from .uv_islands import uv_islands
+from ..surfaces.connected_components import connected_components
+from ..surfaces.errors import NOWHERE, KnownError
+from ..surfaces.surface import Surface, next_corners
+from ..surfaces.triangles import areas, signed_areas
+from ..surfaces.uv_islands import uv_islands
 
 PERCENTILES = (5.0, 95.0)  # most edges' lengths lie between these
 TRUE = 0.05  # largest error of these for pieces that count as true to scale

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from .islands import cut_into_islands
-from .surface import Island, Surface
-from .triangles import signed_areas
-from .uv_islands import uv_islands, vertex_uv
+from ..surfaces.islands import cut_into_islands
+from ..surfaces.surface import Island, Surface
+from ..surfaces.triangles import signed_areas
+from ..surfaces.uv_islands import uv_islands, vertex_uv
 
 ROUNDS = 2  # tries with a smaller circle, where the relaxed UVs would turn over a face once they are stored in 32 bits
 SMALLER = 0.7

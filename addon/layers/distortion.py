@@ -3,8 +3,8 @@
 
 import numpy as np
 
-from .surface import Island, Surface
-from .triangles import areas, density_ratio, signed_areas
+from ..surfaces.surface import Island, Surface
+from ..surfaces.triangles import areas, density_ratio, signed_areas
 
 ANGLE, AREA = "angle", "area"
 

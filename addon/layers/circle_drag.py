@@ -5,8 +5,8 @@ import cmath
 import dataclasses
 import math
 
+from ..surfaces.moebius import Moebius, center_and_turn, dragged, own_center, rotation
 from .circle_domain import CircleDomain
-from .moebius import Moebius, center_and_turn, dragged, own_center, rotation
 
 REACH = 1.35  # radii from the disk's middle: up to here a drag outside the disk turns it
 FARTHEST = 0.98  # radii from the middle: no drag goes farther out, where 32 bits cannot tell faces apart

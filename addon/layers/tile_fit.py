@@ -5,7 +5,7 @@ import dataclasses
 
 import numpy as np
 
-from .errors import MapError
+from ..surfaces.errors import MapError
 
 BITS = 24  # of a 32-bit float's significand
 LONGEST = 1 << 12  # of a tile, in periods: a longer one leaves too few bits for each period

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .surface import edge_ends
+from ..surfaces.surface import edge_ends
 
 
 def outline(

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from .connected_components import connected_components
-from .surface import Surface, across, next_corners
+from ..surfaces.connected_components import connected_components
+from ..surfaces.surface import Surface, across, next_corners
 
 GRID = 2.0**24  # steps of UVs between 0 and 1: periods of a tile are whole numbers of them
 FARTHEST = 2.0**12  # UV units between the sides of a cut

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from .errors import MapError
-from .surface import Island, Surface
-from .uv_islands import uv_islands, vertex_uv
+from ..surfaces.errors import MapError
+from ..surfaces.surface import Island, Surface
+from ..surfaces.uv_islands import uv_islands, vertex_uv
 
 WIDTH = 400.0  # pixels of a drag from 0 to 1
 FINE = 0.1  # of a drag's speed, with Shift

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from .surface import Surface
+from ..surfaces.surface import Surface
 from .tile_pattern import REPEAT, CutSides, Pattern, cut_sides
 
 

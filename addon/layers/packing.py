@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .triangles import as_complex, as_points
+from ..surfaces.triangles import as_complex, as_points
 
 # UV units: a smaller island had no place of its own, as in a layer that was never unwrapped.
 SMALLEST_PLACE = 1e-6

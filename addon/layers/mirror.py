@@ -6,10 +6,10 @@ from types import ModuleType
 
 import numpy as np
 
+from ..surfaces.moebius import balance_point, rotation, to_middle
+from ..surfaces.triangles import as_points, flipped_triangles
+from ..surfaces.upright import upright_turn
 from .circle_domain import CircleDomain, CircleImage, DomainError, Loop
-from .moebius import balance_point, rotation, to_middle
-from .triangles import as_points, flipped_triangles
-from .upright import upright_turn
 
 GRID = 2.0**-24  # UV units: for multiples u in [0, 1] both u and 1 - u are exact in 32 bits
 NO_MIRROR = "the mesh is not symmetric: some vertices or faces have no mirror image"

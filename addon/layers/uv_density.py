@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .surface import Island, Surface
-from .triangles import areas, signed_areas
+from ..surfaces.surface import Island, Surface
+from ..surfaces.triangles import areas, signed_areas
 
 FOOT = 0.3048  # metres
 

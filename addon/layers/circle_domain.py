@@ -7,13 +7,13 @@ from types import ModuleType
 
 import numpy as np
 
-from .errors import NOWHERE, KnownError
-from .moebius import Moebius, balance_point, inside_out, own_center, rotation, to_middle
-from .rounding import RESOLUTION, rounded
-from .surface import Island, Surface
-from .triangles import as_complex, as_points, longest_edges
-from .upright import upright_turn
-from .uv_islands import uv_islands, vertex_uv
+from ..surfaces.errors import NOWHERE, KnownError
+from ..surfaces.moebius import Moebius, balance_point, inside_out, own_center, rotation, to_middle
+from ..surfaces.rounding import RESOLUTION, rounded
+from ..surfaces.surface import Island, Surface
+from ..surfaces.triangles import as_complex, as_points, longest_edges
+from ..surfaces.upright import upright_turn
+from ..surfaces.uv_islands import uv_islands, vertex_uv
 
 ON_CIRCLE = 1e-5  # UV units: distance from its circle allowed in 32-bit UVs
 LEAST_ROUND = 0.5  # share of a loop's vertices on its circle; the others belong to ears of the loop
