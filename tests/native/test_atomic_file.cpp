@@ -1,8 +1,8 @@
 // Laws of atomic files: before commit nothing has changed, and after it everything.
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 
-#include "io/file_error.h"
-#include "io/temporary_name.h"
+#include "files/file_error.h"
+#include "files/temporary_name.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "lift/svg_drawing.h"
 #include "planar/filled_paths.h"
+#include "svg/svg_drawing.h"
 
 #include "core/errors.h"
 #include "planar/planar_predicates.h"

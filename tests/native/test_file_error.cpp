@@ -1,5 +1,5 @@
 // Laws of file errors: the type tells whether a retry can help, the message tells the reason.
-#include "io/file_error.h"
+#include "files/file_error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Laws of identity: what is one file on the disk is the same, whatever it is called, and nothing else is.
-#include "io/descriptor.h"
-#include "io/file_identity.h"
+#include "files/descriptor.h"
+#include "files/file_identity.h"
 
-#include "io/atomic_file.h"
-#include "io/file_error.h"
+#include "files/atomic_file.h"
+#include "files/file_error.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>

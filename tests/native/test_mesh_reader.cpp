@@ -1,5 +1,5 @@
 // Laws of the readers: every format says the same, to the last bit; a file is read whole or refused.
-#include "io/file_error.h"
+#include "files/file_error.h"
 #include "io/mesh_reader.h"
 #include "temporary_folder.h"
 

@@ -3,9 +3,9 @@
 
 #include "core/errors.h"
 #include "execution/thread_share.h"
+#include "files/text_writer.h"
 #include "io/mesh_reader.h"
 #include "io/mesh_writer.h"
-#include "io/text_writer.h"
 #include "random_polygons.h"
 #include "temporary_folder.h"
 

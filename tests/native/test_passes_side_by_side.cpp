@@ -6,7 +6,7 @@
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "execution/thread_share.h"
-#include "io/file_error.h"
+#include "files/file_error.h"
 #include "io/mesh_reader.h"
 #include "io/mesh_writer.h"
 #include "io/polygon_triangulation.h"

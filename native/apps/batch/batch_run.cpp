@@ -8,7 +8,7 @@
 #include "batch/summary.h"
 #include "core/counted.h"
 #include "exit_code.h"
-#include "io/file_error.h"
+#include "files/file_error.h"
 
 #include <uv.h>
 

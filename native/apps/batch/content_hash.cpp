@@ -1,7 +1,7 @@
 #include "batch/content_hash.h"
 
 #include "batch/path_text.h"
-#include "io/file_error.h"
+#include "files/file_error.h"
 
 #include <sodium/crypto_hash_sha256.h>
 

@@ -2,8 +2,8 @@
 
 #include "batch/path_text.h"
 #include "batch/summary.h"
-#include "io/extension.h"
-#include "io/file_error.h"
+#include "files/extension.h"
+#include "files/file_error.h"
 #include "io/mesh_formats.h"
 
 #include <algorithm>

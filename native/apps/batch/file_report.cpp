@@ -2,7 +2,7 @@
 
 #include "batch/content_hash.h"
 #include "batch/path_text.h"
-#include "io/file_error.h"
+#include "files/file_error.h"
 
 #include <fstream>
 #include <regex>

@@ -1,6 +1,6 @@
 #include "batch/path_text.h"
 
-#include "io/file_error.h"
+#include "files/file_error.h"
 
 #include <uv.h>
 

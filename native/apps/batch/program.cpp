@@ -1,7 +1,7 @@
 #include "batch/program.h"
 
 #include "batch/path_text.h"
-#include "io/file_error.h"
+#include "files/file_error.h"
 
 #include <uv.h>
 

@@ -1,8 +1,8 @@
 #include "batch/whole_file.h"
 
 #include "batch/path_text.h"
-#include "io/atomic_file.h"
-#include "io/file_error.h"
+#include "files/atomic_file.h"
+#include "files/file_error.h"
 
 #include <system_error>
 

@@ -1,6 +1,6 @@
 #include "report/pattern_svg.h"
 
-#include "io/text_writer.h"
+#include "files/text_writer.h"
 
 #include <algorithm>
 

@@ -3,8 +3,8 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "shape/conformal_module.h"
-#if __has_include("lift/svg_drawing.h")
-#include "lift/svg_drawing.h"
+#if __has_include("svg/svg_drawing.h")
+#include "svg/svg_drawing.h"
 #define KOEBE_READS_SVG
 #endif
 

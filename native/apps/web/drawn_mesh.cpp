@@ -1,8 +1,8 @@
 #include "web/drawn_mesh.h"
 
+#include "files/text_lines.h"
 #include "io/mesh_reader.h"
 #include "io/polygon_triangulation.h"
-#include "io/text_lines.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 
 #include "core/errors.h"
 #include "core/sort_unique.h"
-#include "io/extension.h"
+#include "files/extension.h"
 #include "io/format_readers.h"
 #include "io/gltf_meshes.h"
 #include "io/obj_writer.h"

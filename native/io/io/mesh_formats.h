@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/api.h"
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 #include "io/file_losses.h"
 #include "io/filed_text.h"
 #include "io/polygon_mesh.h"

@@ -2,8 +2,8 @@
 
 #include "core/errors.h"
 #include "execution/thread_share.h"
-#include "io/extension.h"
-#include "io/file_bytes.h"
+#include "files/extension.h"
+#include "files/file_bytes.h"
 #include "io/mesh_formats.h"
 
 #include <algorithm>

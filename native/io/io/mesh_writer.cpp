@@ -1,7 +1,7 @@
 #include "io/mesh_writer.h"
 
-#include "io/extension.h"
-#include "io/file_identity.h"
+#include "files/extension.h"
+#include "files/file_identity.h"
 
 namespace koebe {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/warning.h"
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 #include "io/mesh_formats.h"
 #include "io/mesh_reader.h"
 

@@ -1,8 +1,8 @@
 #include "core/errors.h"
+#include "files/text_lines.h"
 #include "io/format_readers.h"
 #include "io/obj_text.h"
 #include "io/refusals.h"
-#include "io/text_lines.h"
 
 #include <algorithm>
 #include <array>

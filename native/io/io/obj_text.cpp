@@ -1,7 +1,7 @@
 #include "io/obj_text.h"
 
 #include "execution/thread_share.h"
-#include "io/text_lines.h"
+#include "files/text_lines.h"
 
 #include <algorithm>
 #include <array>

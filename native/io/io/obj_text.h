@@ -1,8 +1,8 @@
 // Writes the text of an OBJ file again, with other texture coordinates and all its other contents.
 #pragma once
 
+#include "files/text_writer.h"
 #include "io/polygon_mesh.h"
-#include "io/text_writer.h"
 
 #include <cstddef>
 #include <span>

@@ -1,8 +1,8 @@
 #include "io/obj_writer.h"
 
 #include "core/counted.h"
+#include "files/text_writer.h"
 #include "io/obj_text.h"
-#include "io/text_writer.h"
 #include "io/texture_coordinates.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Writes OBJ files: the polygons as filed, with texture coordinates or groups, and the file's other contents.
 #pragma once
 
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 #include "io/file_losses.h"
 #include "io/filed_text.h"
 #include "io/polygon_mesh.h"

@@ -1,7 +1,7 @@
 #include "core/errors.h"
+#include "files/text_lines.h"
 #include "io/format_readers.h"
 #include "io/refusals.h"
-#include "io/text_lines.h"
 
 #include <algorithm>
 #include <cctype>

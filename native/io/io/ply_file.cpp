@@ -1,8 +1,8 @@
 #include "io/ply_file.h"
 
 #include "core/errors.h"
+#include "files/text_lines.h"
 #include "io/refusals.h"
-#include "io/text_lines.h"
 
 #include <fast_float/fast_float.h>
 

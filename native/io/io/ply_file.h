@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/types.h"
-#include "io/text_writer.h"
+#include "files/text_writer.h"
 
 #include <cstddef>
 #include <optional>

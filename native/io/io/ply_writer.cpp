@@ -1,7 +1,7 @@
 #include "io/ply_writer.h"
 
+#include "files/text_writer.h"
 #include "io/ply_file.h"
-#include "io/text_writer.h"
 #include "io/texture_coordinates.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // contents of the input file.
 #pragma once
 
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 #include "io/file_losses.h"
 #include "io/filed_text.h"
 #include "io/polygon_mesh.h"

@@ -1,9 +1,9 @@
 #include "core/counted.h"
 #include "core/errors.h"
-#include "io/extension.h"
+#include "files/extension.h"
+#include "files/text_lines.h"
 #include "io/format_readers.h"
 #include "io/refusals.h"
-#include "io/text_lines.h"
 #include "io/welding.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "lift/pattern_file.h"
 
-#include "io/extension.h"
-#include "io/file_bytes.h"
+#include "files/extension.h"
+#include "files/file_bytes.h"
 #include "io/mesh_reader.h"
 #include "lift/patterns.h"
 

@@ -4,7 +4,7 @@
 #include "io/polygon_triangulation.h"
 #include "lift/lift.h"
 #include "lift/png_image.h"
-#include "lift/svg_drawing.h"
+#include "svg/svg_drawing.h"
 
 #include <optional>
 #include <string>

@@ -20,16 +20,6 @@ double scale_in_middle(const FlatSheet& sheet)
 
 }  // namespace
 
-PlaneBox box_around(const std::vector<Complex>& points)
-{
-    PlaneBox box{points.front(), points.front()};
-    for (const Complex z : points) {
-        box.low = {std::min(box.low.real(), z.real()), std::min(box.low.imag(), z.imag())};
-        box.high = {std::max(box.high.real(), z.real()), std::max(box.high.imag(), z.imag())};
-    }
-    return box;
-}
-
 Complex unit_turn(double degrees)
 {
     const Complex turn = std::polar(1.0, degrees / 180.0 * std::numbers::pi);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lift/flat_sheet.h"
+#include "planar/plane_box.h"
 
 #include <optional>
 #include <string>
@@ -16,15 +17,6 @@ struct PatternPlace {
     int repeats = 1;                  ///< copies round a ring, or along the first period of a torus
     double turn = 0.0;                ///< degrees counter-clockwise
 };
-
-/// A rectangle in the plane.
-struct PlaneBox {
-    Complex low, high;
-    Complex size() const { return high - low; }
-    Complex middle() const { return 0.5 * low + 0.5 * high; }
-};
-
-PlaneBox box_around(const std::vector<Complex>& points);
 
 /// The turn as a unit number: quarter turns to the last bit.
 Complex unit_turn(double degrees);

@@ -1,7 +1,7 @@
 #include "lift/patterns.h"
 
 #include "core/errors.h"
-#include "io/extension.h"
+#include "files/extension.h"
 #include "lift/border_room.h"
 #include "lift/even_sites.h"
 #include "lift/lattice.h"

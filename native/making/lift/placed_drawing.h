@@ -4,7 +4,7 @@
 #include "lift/flat_sheet.h"
 #include "lift/outline.h"
 #include "lift/pattern_place.h"
-#include "lift/svg_drawing.h"
+#include "svg/svg_drawing.h"
 
 #include <optional>
 #include <vector>

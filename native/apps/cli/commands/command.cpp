@@ -9,7 +9,7 @@
 #include "core/numbering.h"
 #include "execution/profile.h"
 #include "exit_code.h"
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 
 #include <algorithm>
 #include <atomic>

@@ -14,8 +14,8 @@
 #include "core/counted.h"
 #include "execution/detachable_run.h"
 #include "execution/stopwatch.h"
+#include "files/atomic_file.h"
 #include "holes/fan_filling.h"
-#include "io/atomic_file.h"
 
 #include <memory>
 #include <set>

@@ -2,10 +2,10 @@
 #include "cli/commands/corner_map.h"
 
 #include "core/counted.h"
+#include "files/extension.h"
+#include "files/file_error.h"
+#include "files/file_identity.h"
 #include "flatten/flatten.h"
-#include "io/extension.h"
-#include "io/file_error.h"
-#include "io/file_identity.h"
 #include "report/flatten_json.h"
 #include "report/pattern_dxf.h"
 #include "report/pattern_svg.h"

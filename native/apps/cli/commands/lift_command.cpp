@@ -5,7 +5,7 @@
 #include "cli/options/option_table.h"
 
 #include "core/counted.h"
-#include "io/extension.h"
+#include "files/extension.h"
 #include "io/stl_writer.h"
 #include "io/three_mf_writer.h"
 #include "lift/lift.h"

@@ -4,7 +4,7 @@
 #include "cli/files/mesh_input.h"
 #include "cli/options/map_request.h"
 #include "core/warning.h"
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 #include "quality/distortion.h"
 #include "report/svg.h"
 

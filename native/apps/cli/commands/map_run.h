@@ -10,7 +10,7 @@
 #include "execution/stopwatch.h"
 #include "execution/thread_share.h"
 #include "exit_code.h"
-#include "io/extension.h"
+#include "files/extension.h"
 #include "report/json.h"
 
 #include <filesystem>

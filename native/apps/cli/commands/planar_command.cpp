@@ -7,7 +7,7 @@
 #include "cli/process/standard_streams.h"
 #include "exit_code.h"
 
-#include "io/extension.h"
+#include "files/extension.h"
 #include "planar_domain/planar_map.h"
 #include "report/json.h"
 #include "report/planar_json.h"

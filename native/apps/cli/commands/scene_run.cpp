@@ -5,7 +5,7 @@
 #include "cli/process/standard_streams.h"
 #include "core/counted.h"
 #include "core/sort_unique.h"
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 #include "quality/stored_uv.h"
 #include "report/json.h"
 

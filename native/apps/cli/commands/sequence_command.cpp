@@ -10,7 +10,7 @@
 
 #include "core/errors.h"
 #include "execution/stopwatch.h"
-#include "io/file_error.h"
+#include "files/file_error.h"
 #include "pipeline/convex_disk.h"
 #include "pipeline/surface_solver.h"
 

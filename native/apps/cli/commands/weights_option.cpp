@@ -4,7 +4,7 @@
 #include "cli/options/option_table.h"
 #include "core/errors.h"
 #include "core/vertex_weights.h"
-#include "io/text_lines.h"
+#include "files/text_lines.h"
 
 #include <string_view>
 

@@ -1,9 +1,9 @@
 #include "cli/files/output_files.h"
 
 #include "cli/process/standard_streams.h"
-#include "io/atomic_file.h"
-#include "io/descriptor.h"
-#include "io/file_identity.h"
+#include "files/atomic_file.h"
+#include "files/descriptor.h"
+#include "files/file_identity.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,6 +1,6 @@
 #include "cli/files/text_file.h"
 
-#include "io/file_error.h"
+#include "files/file_error.h"
 
 #include <algorithm>
 #include <cerrno>

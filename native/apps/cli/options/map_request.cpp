@@ -1,6 +1,6 @@
 #include "cli/options/map_request.h"
 
-#include "io/extension.h"
+#include "files/extension.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "cli/process/standard_streams.h"
 
-#include "io/file_error.h"
+#include "files/file_error.h"
 
 #include <cerrno>
 #include <cstdio>

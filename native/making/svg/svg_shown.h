@@ -1,7 +1,7 @@
-// What of an SVG is shown, by what its elements say of themselves. For svg_document.cpp only.
+// What of an SVG is shown, by what its elements say of themselves.
 #pragma once
 
-#include "lift/svg_words.h"
+#include "svg/svg_words.h"
 
 #include <string_view>
 

@@ -1,6 +1,6 @@
-#include "lift/svg_shown.h"
+#include "svg/svg_shown.h"
 
-#include "lift/svg_viewport.h"
+#include "svg/svg_viewport.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "lift/svg_styles.h"
+#include "svg/svg_styles.h"
 
 #include <algorithm>
 #include <optional>

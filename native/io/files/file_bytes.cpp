@@ -1,7 +1,7 @@
-#include "io/file_bytes.h"
+#include "files/file_bytes.h"
 
-#include "io/descriptor.h"
-#include "io/file_error.h"
+#include "files/descriptor.h"
+#include "files/file_error.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,7 +1,7 @@
-#include "lift/svg_text.h"
+#include "svg/svg_text.h"
 
 #include "core/errors.h"
-#include "lift/svg_words.h"
+#include "svg/svg_words.h"
 
 #include <algorithm>
 #include <map>

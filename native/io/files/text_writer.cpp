@@ -1,4 +1,4 @@
-#include "io/text_writer.h"
+#include "files/text_writer.h"
 
 #include "execution/thread_share.h"
 

@@ -1,9 +1,9 @@
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 
-#include "io/descriptor.h"
-#include "io/file_error.h"
-#include "io/file_identity.h"
-#include "io/temporary_name.h"
+#include "files/descriptor.h"
+#include "files/file_error.h"
+#include "files/file_identity.h"
+#include "files/temporary_name.h"
 
 #include <atomic>
 #include <cerrno>

@@ -1,4 +1,4 @@
-// Words of an SVG's attributes, and the values of its elements. For the sources of svg_drawing.h only.
+// Words of an SVG's attributes, and the values of its elements.
 #pragma once
 
 #include <rapidxml_ns/rapidxml_ns.hpp>

@@ -1,7 +1,7 @@
-// Lengths and viewports of an SVG (W3C, SVG 1.1, 7). For svg_document.cpp only.
+// Lengths and viewports of an SVG (W3C, SVG 1.1, 7).
 #pragma once
 
-#include "lift/svg_words.h"
+#include "svg/svg_words.h"
 
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "io/text_lines.h"
+#include "files/text_lines.h"
 
 #include <fast_float/fast_float.h>
 

@@ -1,4 +1,4 @@
-#include "lift/svg_viewport.h"
+#include "svg/svg_viewport.h"
 
 #include "core/counted.h"
 

@@ -1,7 +1,7 @@
-// Style sheets of an SVG (W3C, CSS 2.2, 5 and 6). For svg_document.cpp only.
+// Style sheets of an SVG (W3C, CSS 2.2, 5 and 6).
 #pragma once
 
-#include "lift/svg_words.h"
+#include "svg/svg_words.h"
 
 #include <array>
 #include <functional>

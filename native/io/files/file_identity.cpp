@@ -1,9 +1,9 @@
-#include "io/file_identity.h"
+#include "files/file_identity.h"
 
-#include "io/descriptor.h"
-#include "io/extension.h"
-#include "io/file_error.h"
-#include "io/temporary_name.h"
+#include "files/descriptor.h"
+#include "files/extension.h"
+#include "files/file_error.h"
+#include "files/temporary_name.h"
 
 #include <cerrno>
 #include <cstring>

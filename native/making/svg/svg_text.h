@@ -1,4 +1,4 @@
-// The text of an SVG before it is parsed as XML. For svg_drawing.cpp only.
+// The text of an SVG before it is parsed as XML.
 #pragma once
 
 #include <string>

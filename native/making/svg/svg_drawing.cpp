@@ -1,9 +1,9 @@
-#include "lift/svg_drawing.h"
+#include "svg/svg_drawing.h"
 
 #include "core/errors.h"
-#include "lift/pattern_place.h"
-#include "lift/svg_document.h"
-#include "lift/svg_text.h"
+#include "planar/plane_box.h"
+#include "svg/svg_document.h"
+#include "svg/svg_text.h"
 
 // svgpp's arcs seem uninitialized to gcc.
 #if defined(__GNUC__) && !defined(__clang__)

@@ -1,4 +1,4 @@
-#include "io/descriptor.h"
+#include "files/descriptor.h"
 
 #include <cerrno>
 

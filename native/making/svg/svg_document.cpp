@@ -1,10 +1,10 @@
-#include "lift/svg_document.h"
+#include "svg/svg_document.h"
 
 #include "core/errors.h"
-#include "lift/svg_shown.h"
-#include "lift/svg_styles.h"
-#include "lift/svg_viewport.h"
-#include "lift/svg_words.h"
+#include "svg/svg_shown.h"
+#include "svg/svg_styles.h"
+#include "svg/svg_viewport.h"
+#include "svg/svg_words.h"
 
 #include <algorithm>
 #include <array>

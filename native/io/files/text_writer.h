@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/types.h"
-#include "io/atomic_file.h"
+#include "files/atomic_file.h"
 
 #include <algorithm>
 #include <charconv>

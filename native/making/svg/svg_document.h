@@ -1,7 +1,7 @@
-// The elements of an SVG as they are drawn: styles, switches and uses resolved. For svg_drawing.cpp only.
+// The elements of an SVG as they are drawn: styles, switches and uses resolved.
 #pragma once
 
-#include "lift/svg_words.h"
+#include "svg/svg_words.h"
 
 namespace koebe::detail {
 
