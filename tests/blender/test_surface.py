@@ -12,7 +12,7 @@ pytestmark = pytest.mark.alike
 @pytest.fixture
 def surface(addon):
     """Surfaces, their islands, and the areas of triangles, under one name."""
-    parts = [addon(f"maps.{name}") for name in ("surface", "islands", "triangles")]
+    parts = [addon(f"surfaces.{name}") for name in ("surface", "islands", "triangles")]
     return types.SimpleNamespace(**{name: value for part in parts for name, value in vars(part).items()})
 
 
