@@ -29,6 +29,7 @@ def registered_addon():
     return native_package.load()
 
 
-def maps_module(name):
-    """A module of the add-on's room `maps`."""
-    return addon_module(f"maps.{name}")
+def named_module(name):
+    """A module of the rooms that need no bpy."""
+    (room,) = [room for room in ("surfaces", "layers", "maps") if (ADDON / room / f"{name}.py").exists()]
+    return addon_module(f"{room}.{name}")

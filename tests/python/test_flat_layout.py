@@ -5,10 +5,10 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from addon_support import maps_module
+from addon_support import named_module
 from test_moebius import ring_domain, surface_of
 
-flat, svg = maps_module("flat_layout"), maps_module("flat_svg")
+flat, svg = named_module("flat_layout"), named_module("flat_svg")
 SVG = "{http://www.w3.org/2000/svg}"
 
 

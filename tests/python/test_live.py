@@ -5,9 +5,9 @@ import dataclasses
 import koebe
 import numpy as np
 import pytest
-from addon_support import maps_module
+from addon_support import named_module
 
-live, surfaces, outcomes = (maps_module(name) for name in ("live", "surface", "outcomes"))
+live, surfaces, outcomes = (named_module(name) for name in ("live", "surface", "outcomes"))
 
 
 def strip(turn=0.0, across=4, along=40, width=0.8):

@@ -3,10 +3,10 @@
 import koebe
 import numpy as np
 import pytest
-from addon_support import maps_module
+from addon_support import named_module
 from test_moebius import domains, surface_of
 
-mirror = maps_module("mirror")
+mirror = named_module("mirror")
 EVEN_HOLES = ((4, 8, 4, 9), (4, 8, 22, 27), (12, 16, 13, 18), (20, 25, 8, 23))  # rows and columns of 31 × 31 quads
 
 

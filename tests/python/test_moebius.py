@@ -3,11 +3,11 @@
 import koebe
 import numpy as np
 import pytest
-from addon_support import maps_module
+from addon_support import named_module
 
 POINT, OTHER = 0.3 - 0.5j, -0.2 + 0.6j
 RIM = np.exp(2j * np.pi * np.arange(64) / 64)
-moebius, domains, surfaces = (maps_module(name) for name in ("moebius", "circle_domain", "surface"))
+moebius, domains, surfaces = (named_module(name) for name in ("moebius", "circle_domain", "surface"))
 MAPS_TO_TRY = [
     moebius.to_middle(POINT), moebius.dragged(POINT, OTHER), moebius.rotation(0.7), moebius.inside_out(POINT, 0.2),
     moebius.dragged(POINT, OTHER).after(moebius.inside_out(OTHER, 0.1)),
@@ -170,7 +170,7 @@ def test_a_new_rim_is_balanced_and_upright(mapped):
     z = (image.uv.astype(np.float64) @ [1, 1j] - domain.offset) / domain.scale
     weights = domain.weights()
     assert abs((weights * z).sum() / weights.sum()) < 1e-5
-    turn = maps_module("upright").upright_turn(domain.island, np.stack([z.real, z.imag], axis=1))
+    turn = named_module("upright").upright_turn(domain.island, np.stack([z.real, z.imag], axis=1))
     assert abs(turn - 1.0) < 1e-2  # 32 bits leave that much of the thin triangles at the square's corners
 
 
@@ -222,7 +222,7 @@ def test_errors_are_typed_and_say_what_is_wrong(mapped):
         domain.moved(0, 0.0, 0.0, hole=7)
     with pytest.raises(domains.DomainError, match="becomes the rim"):
         domain.moved(3, 0.0, 0.0, hole=3)
-    assert issubclass(domains.DomainError, maps_module("errors").KnownError)
+    assert issubclass(domains.DomainError, named_module("errors").KnownError)
 
 
 def test_uvs_that_are_no_circle_domain_are_refused():

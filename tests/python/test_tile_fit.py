@@ -5,12 +5,12 @@ import dataclasses
 import koebe
 import numpy as np
 import pytest
-from addon_support import maps_module
+from addon_support import named_module
 from domain_surfaces import holed_ring, holed_torus
 from test_moebius import surface_of
 
-tile_fit, tile_pattern = maps_module("tile_fit"), maps_module("tile_pattern")
-flipped_corners = maps_module("stored").flipped_corners
+tile_fit, tile_pattern = named_module("tile_fit"), named_module("tile_pattern")
+flipped_corners = named_module("stored").flipped_corners
 
 
 def random_lattice(random):
@@ -111,7 +111,7 @@ def test_a_fitted_tile_is_the_map_of_the_tile(seed, fit):
 def test_a_tile_that_is_too_long_is_refused():
     uv = np.array([[[0, 0], [1e-5, 0], [0, 1]], [[1e-5, 0], [1e-5, 1], [0, 1.0]]])
     for fit in ("period", "square"):
-        with pytest.raises(maps_module("errors").MapError, match="too long"):
+        with pytest.raises(named_module("errors").MapError, match="too long"):
             tile_fit.fitted(uv, np.array([[0, 1, 2], [1, 3, 2]]), np.array([[1e-5, 0.0]]), fit)
 
 
@@ -128,8 +128,8 @@ def test_flipped_triangles_are_counted_with_their_direction():
     (0, 0, "schottky", "sphere"), (0, 1, "schottky", "uniformize"), (0, 3, "schottky", "uniformize"),
 ])  # fmt: skip
 def test_what_is_no_such_domain_is_offered_another(handles, loops, domain, offer):
-    domains = maps_module("domains")
-    with pytest.raises(maps_module("domain").DomainError, match="this surface has") as caught:
+    domains = named_module("domains")
+    with pytest.raises(named_module("domain").DomainError, match="this surface has") as caught:
         domains.DOMAINS[domain].check(handles, loops)
     assert caught.value.offer == tuple(offer.split())
     domains.DOMAINS["torus"].check(1, loops)

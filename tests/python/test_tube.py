@@ -3,11 +3,11 @@
 import koebe
 import numpy as np
 import pytest
-from addon_support import maps_module
+from addon_support import named_module
 from test_domains import GIRTH, pipe, uneven
 from test_moebius import surface_of
 
-islands, tube, triangles_of = maps_module("islands"), maps_module("tube"), maps_module("triangles")
+islands, tube, triangles_of = named_module("islands"), named_module("tube"), named_module("triangles")
 
 
 @pytest.mark.parametrize("girths", [2.0, 12.0, 1000.0])
