@@ -19,16 +19,10 @@ inline constexpr double later_share = 0.6;
 inline constexpr double window_share = 0.85;
 /// overflow over area | so uneven that any cut in two is better than none | chosen
 inline constexpr double hopeless = 1.0;
-/// overflow over area | most for one map that can be painted on | chosen
-inline constexpr double most_uneven = 2.0;
 /// overflow over area | what repairs may add without a price | chosen
 inline constexpr double free_unevenness = 0.5;
 
 // Bent angles.
-/// degrees | a smaller mean angle error is not seen: no other layout is tried | chosen
-inline constexpr double unseen_error = 1.0;
-/// degrees | the surface is crumpled, and a map without repairs says little | crumpled pieces
-inline constexpr double crumpled_error = 10.0;
 /// degrees | what repairs may add without a price | chosen
 inline constexpr double free_bend = 5.0;
 /// of the angle error at E = 0 | what parts carried from a proxy may have until they are relaxed | chosen
@@ -107,10 +101,8 @@ inline constexpr double strained = 1.0;
 inline constexpr double stuck = 0.25;
 /// of a length | a cut unloads the surface beside it so far | chosen
 inline constexpr double cut_reach = 0.25;
-/// length | between tips of darts, and between through cuts, that are opened together | chosen
+/// length | between tips of darts, or through cuts, opened together; from round loops to other darts | chosen
 inline constexpr double dart_spacing = 0.12;
-/// length | of darts from round loops, or they would cut off thin strips | chosen
-inline constexpr double rim_spacing = 0.04;
 /// length | round the tip of a dart that did not pay: no new tips there | chosen
 inline constexpr double refused_reach = 0.06;
 /// length | of the longest dart | chosen
@@ -135,8 +127,6 @@ inline constexpr double wasted_texels = 0.01;
 // Room in the square.
 /// energy | of a square as large as the surface | 29 models: coverage 57 -> 69 %, cuts 5 % longer
 inline constexpr double room_worth = 0.005;
-/// of the square | what convex parts cover when packed | as room_worth
-inline constexpr double packed_share = 0.85;
 /// area | no part that fits into this square is shortened | as room_worth
 inline constexpr double least_square = 1.45;
 /// energy | a cut of length 1 between planar regions: it has to save 2 % of the area | 24 models: coverage 63 -> 73 %

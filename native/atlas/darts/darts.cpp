@@ -107,7 +107,7 @@ std::vector<Dart> promising_darts(const FlatPart& flat, const EvenForces& forces
                 continue;
             Dart dart = shortest_dart(flat, tree, v);
             if (std::ranges::any_of(dart.vertices.begin(), std::prev(dart.vertices.end()), [&](Index w) {
-                    return outside[w] != 0 || (!round && from_round[w] < tuning::rim_spacing);
+                    return outside[w] != 0 || (!round && from_round[w] < tuning::dart_spacing);
                 }))
                 continue;
             // It pays if a crack there would release more than it costs.

@@ -184,14 +184,12 @@ double cost_of(const FlatPart& part, double part_price)
     return overflow_of(part, areas) + angle_cost(error, areas.sum()) + part_price;
 }
 
-/// Whether the map by which a piece was split shows that as one map it loses much, is very uneven, or bends more.
+/// Whether the map by which a piece was split shows that as one map it loses much, or bends more.
 bool hopeless_as_one(const Part& root, double error)
 {
-    const PartMap& map = root.map;
-    if (map.lost_area > most_lost * root.mesh.area || map.disk_overflow > tuning::most_uneven * root.mesh.area)
-        return true;
+    if (root.map.lost_area > most_lost * root.mesh.area) return true;
     const double own =
-        summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, planar_points(map.positions));
+        summed_angle_error(root.mesh.vertices, root.mesh.surface.triangles, planar_points(root.map.positions));
     return own > error * static_cast<double>(root.mesh.faces.size());
 }
 
@@ -245,10 +243,10 @@ FlatParts flat_parts(const CutSurface& whole, const Mirror& mirror, std::vector<
 std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root, FlatParts& parts, double part_price,
                                       ExecutionContext& context)
 {
-    // Worth a try? Not if the parts have no faults, and angles that nobody sees or that one map cannot better.
+    // Worth a try? Not if the parts have no faults, and angles that one map cannot better.
     const double error = angle_error(parts.parts);
-    const bool is_cut = root != nullptr && parts.parts.size() > 1 && error < tuning::crumpled_error;
-    if (!parts.flaws.broken() && (error < tuning::unseen_error || (is_cut && hopeless_as_one(*root, error)))) return {};
+    const bool is_cut = root != nullptr && parts.parts.size() > 1;
+    if (!parts.flaws.broken() && is_cut && hopeless_as_one(*root, error)) return {};
     // One map of the whole. It must beat the parts before its repair, and after it.
     std::optional<FlatPart> found;
     try {
@@ -259,7 +257,7 @@ std::optional<FlatPart> better_as_one(const CutSurface& whole, const Part* root,
     FlatPart& one = *found;
     const auto error_of_one = [&] { return summed_angle_error(one.vertices, one.surface.triangles, one.points); };
     const double most = error * static_cast<double>(one.faces.size());
-    if (!parts.flaws.broken() && error < tuning::crumpled_error && error_of_one() > most) return {};
+    if (!parts.flaws.broken() && error_of_one() > most) return {};
     const Flaws flaws = repair(one, whole.areas, context);
     parts.flaws.spoilt = 0.0;
     if (flaws.broken() && !fewer(flaws, parts.flaws)) return {};
