@@ -72,7 +72,7 @@ from koebe_uv_batch.headless.files import Target, is_same, save_json, write_all 
 from koebe_uv_batch.headless.flag_names import in_flags  # noqa: E402
 from koebe_uv_batch.headless.objects import chosen_objects, in_their_places, leave_edit_mode  # noqa: E402
 from koebe_uv_batch.jobs import native_package  # noqa: E402
-from koebe_uv_batch.jobs.domain_jobs import job_type  # noqa: E402
+from koebe_uv_batch.jobs.job_of_domain import job_type  # noqa: E402
 from koebe_uv_batch.jobs.map_job import Job  # noqa: E402
 from koebe_uv_batch.jobs.parts_job import PartsJob  # noqa: E402
 from koebe_uv_batch.jobs.sequence_job import SequenceJob  # noqa: E402

@@ -26,8 +26,8 @@ PAPER, INK = (0.93, 0.90, 0.82), (0.05, 0.13, 0.36)
 def mapped(obj, domain, squares):
     """Map the object to one of the domains beside the disk; returns what became of its island."""
     options = addon_module("maps.options").Options(checker_size=squares)
-    choice = addon_module("maps.domains").DOMAINS[domain].choice()
-    job = addon_module("jobs.domain_jobs").job_type(choice)([obj], options, choice)
+    choice = addon_module("maps.domain_table").DOMAINS[domain].choice()
+    job = addon_module("jobs.job_of_domain").job_type(choice)([obj], options, choice)
     job.compute()
     job.write()
     (one,) = job.outcomes[0].mapped

@@ -7,7 +7,7 @@ import dataclasses
 from typing import Any, NoReturn
 
 from ..maps import options
-from ..maps.domains import DOMAINS
+from ..maps.domain_table import DOMAINS
 from ..maps.option_table import LARGEST, ROWS, Row, rows_of
 from .exit_and_signals import USAGE, Stop
 from .flag_names import flag

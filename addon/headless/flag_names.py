@@ -3,7 +3,7 @@
 
 import re
 
-from ..maps.domains import DOMAINS
+from ..maps.domain_table import DOMAINS
 
 # Texts of other rooms use the panel's names.
 FLAGS = {

@@ -115,7 +115,9 @@ def own_warning(kind: str, text: str, elements: Iterable[int] = ()) -> dict[str,
 
 
 # Places in a warning's sentence that count faces or vertices, or name a vertex; a loop keeps its number.
-_COUNTS = re.compile(r"\b(\d+) (face|vertex)(?:s|\b)|\b(\d+) vertices\b|\b(\d+)(?= of them too small\b)")
+_COUNTS = re.compile(
+    r"\b(?P<count>\d+)(?: (?P<noun>face|vertex)(?:s|\b)| (?P<vertices>vertices)\b|(?= of them too small\b))"
+)
 _NAMES = re.compile(
     r"(?<=\bvertex )\d+|(?<=\bedge )\d+(?=-)|(?<=\d-)\d+|(?<=the circle, the first )\d+|"
     r"(?<=a place, the first is )\d+|(?<=the disk, the first is )\d+|(?<=at vertices, the first is )\d+"
@@ -131,11 +133,13 @@ def in_mesh(numbers: Island | Numbers, warning: "koebe.Warning") -> dict[str, An
     elements = old if number is None or not old else np.unique(number[old]).tolist()
 
     def count(match: re.Match[str]) -> str:
-        found, noun = int(match[1] or match[3] or match[4]), match[2] or ("vertex" if match[3] else "face")
-        own = found == len(old) and warning.of == ("vertices" if noun == "vertex" else "faces")
-        if noun == "face" and not own:
+        found, noun = int(match["count"]), match["noun"] or ("vertex" if match["vertices"] else "face")
+        counts_all_elements = found == len(old) and warning.of == ("vertices" if noun == "vertex" else "faces")
+        if noun == "face" and not counts_all_elements:
             noun = "triangle"
-        return counted(len(elements) if own else found, noun, "vertices" if noun == "vertex" else None)
+        return counted(
+            len(elements) if counts_all_elements else found, noun, "vertices" if noun == "vertex" else None
+        )
 
     def name(match: re.Match[str]) -> str:
         vertex = int(match[0])

@@ -6,7 +6,7 @@ import bpy
 
 from ..blender.targets import target_objects
 from ..jobs.domain_job import DomainJob
-from ..jobs.domain_jobs import job_type
+from ..jobs.job_of_domain import job_type
 from ..maps.domain import Domain
 from ..maps.handles import SCHOTTKY
 from ..maps.spheres import SPHERE
@@ -21,7 +21,7 @@ def shown(domain: str) -> tuple[str, ...]:
 
 
 class DomainOperator(MapOperator):
-    """Mixin of these operators. `domain` is a row of maps/domains.py."""
+    """Mixin of these operators. `domain` is a row of maps/domain_table.py."""
 
     domain: Domain
 

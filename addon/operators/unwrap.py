@@ -9,9 +9,9 @@ from ..blender.targets import target_objects
 from ..jobs.auto_job import AutoJob
 from ..jobs.map_job import Job
 from ..maps.domain import Domain
-from ..maps.domains import DOMAINS
+from ..maps.domain_table import DOMAINS
 from ..state.option_properties import UNWRAP_OPTION_NAMES, choice_of, mixin, options_of
-from .domains import OPERATORS
+from .domain_table import OPERATORS
 from .parts import UV_OT_koebe_parts
 from .run_operator import MapOperator
 from .uniformize import UV_OT_koebe_uniformize

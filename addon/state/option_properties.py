@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from ..maps.domains import DOMAINS
+from ..maps.domain_table import DOMAINS
 from ..maps.option_table import ROWS, Row, rows_of
 from ..maps.options import WRITTEN, Options, PartsChoice
 from .registering import added_to

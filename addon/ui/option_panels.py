@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 
 from ..blender.targets import target_objects
-from ..maps.domains import DOMAINS
+from ..maps.domain_table import DOMAINS
 from ..maps.option_table import ROWS
 from ..operators.bake_texture import UV_OT_koebe_bake_texture
 from ..operators.fill_holes import MESH_OT_koebe_fill_holes

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ..maps.domains import DOMAINS
+from ..maps.domain_table import DOMAINS
 from ..operators.pack import UV_OT_koebe_pack
 from ..operators.sew import UV_OT_koebe_sew
 from ..operators.unwrap import SHAPE_OF, UV_OT_koebe_unwrap

@@ -3,7 +3,7 @@
 #include "native_call.h"
 
 #include "core/error_description.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -250,7 +250,7 @@ def of_the_package(obj, function, **options):
 
 def domain_job(addon, obj, choice):
     """The job of an operator that maps to a domain beside the disk."""
-    return addon("jobs.domain_jobs").job_type(choice)([obj], addon("maps.options").Options(), choice)
+    return addon("jobs.job_of_domain").job_type(choice)([obj], addon("maps.options").Options(), choice)
 
 
 def boundary_loops(mesh):

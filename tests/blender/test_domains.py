@@ -138,7 +138,7 @@ def test_cuts_and_loops_can_be_selected(kind):
 @pytest.mark.parametrize("kind", MAKE)
 def test_esc_before_the_end_changes_nothing(addon, kind):
     obj = MAKE[kind]()
-    choice = addon("maps.domains").DOMAINS[kind].choice()
+    choice = addon("maps.domain_table").DOMAINS[kind].choice()
     job = scenes.domain_job(addon, obj, choice)
     job.cancel_token.cancel()
     with pytest.raises(job.koebe.Cancelled):

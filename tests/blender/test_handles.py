@@ -134,7 +134,7 @@ def test_the_report_has_the_meshs_numbers(addon):
     x = scenes.read(obj.data.vertices, "co", np.float32, 3)[:, 0]
     ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
     obj.data.edges.foreach_set("use_seam", (np.abs(x[ends] - 6.0) < 0.1).all(axis=1))
-    job = scenes.domain_job(addon, obj, addon("maps.domains").SCHOTTKY.choice())
+    job = scenes.domain_job(addon, obj, addon("maps.domain_table").SCHOTTKY.choice())
     job.compute()
     job.write()
     (outcome,) = job.outcomes

@@ -221,7 +221,7 @@ def test_the_report_has_the_meshs_numbers(addon):
     obj = add_ball()
     ends = scenes.read(obj.data.edges, "vertices", np.int32, 2)
     obj.data.edges.foreach_set("use_seam", (ends % 10 == 4).all(axis=1))
-    job = scenes.domain_job(addon, obj, addon("maps.domains").SPHERE.choice(layout="octahedral"))
+    job = scenes.domain_job(addon, obj, addon("maps.domain_table").SPHERE.choice(layout="octahedral"))
     job.compute()
     job.write()
     (outcome,) = job.outcomes

@@ -207,7 +207,7 @@ def map_or_refuse(obj, job, assert_is_right):
 
 def map_or_refuse_many(addon, seed, times, make, choices, assert_is_right):
     """As map_or_refuse, of so many objects that `make` adds, each with every one of its choices."""
-    random, domains = np.random.default_rng(seed), addon("maps.domains")
+    random, domains = np.random.default_rng(seed), addon("maps.domain_table")
     for _ in range(times):
         obj = make(random)
         bpy.context.view_layer.update()

@@ -155,7 +155,7 @@ TEST(ModuleEnclosure, capacities_of_circles_do_not_depend_on_the_position)
         for (int k = 1; k < count; ++k) order[k] = count - k;
         std::vector<Condenser> renumbered = condensers;
         for (Condenser& condenser : renumbered)
-            for (std::vector<int>* side : {&condenser.low, &condenser.high})
+            for (std::vector<int>* side : {&condenser.at_zero, &condenser.at_one})
                 for (int& k : *side) k = k == 0 ? 0 : count - k;
         const CircleCapacities second = near(conformal_module(circles, order));
         const VectorXd none = VectorXd::Zero(first.module().size());

@@ -157,7 +157,7 @@ def test_the_options_of_a_tile(addon):
     assert parse(OUT).domain is None
     words = ["--domain", "ring", "--holes", "radial", "--fit", "period", "--max-sweeps", "7", "--layer", "Own"]
     request = parse([*OUT, *words])
-    domains = addon("maps.domains")
+    domains = addon("maps.domain_table")
     assert request.domain == domains.RING.choice(holes="radial", fit="period", max_sweeps=7)
     assert request.options.layer == "Own"
     assert parse([*OUT, "--domain", "torus"]).domain == domains.TORUS.choice()

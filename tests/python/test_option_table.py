@@ -184,7 +184,7 @@ def test_defaults_may_be_left_to_the_table():
 def test_the_addon_hands_every_option_to_the_solver(addon):
     options = addon("maps.options")
     chosen = {"uniformize": options.Options(), "parts": options.PartsChoice(),
-              **{name: domain.choice() for name, domain in addon("maps.domains").DOMAINS.items()}}  # fmt: skip
+              **{name: domain.choice() for name, domain in addon("maps.domain_table").DOMAINS.items()}}  # fmt: skip
     by_island = {"price", "cut", "round_cuts", "outer", "inner", "center", "point", "importance", "show"} | OF_READING
     engine = {row["name"] for row in TABLE if "with" in row}
     not_there = {"sphere": {"threads"}, "parts": {"threads"}}  # by the run

@@ -19,8 +19,8 @@ nlohmann::ordered_json to_json(const CapacityReport& report)
 {
     nlohmann::ordered_json capacities = nlohmann::ordered_json::array();
     for (const Capacity& capacity : report.capacities)
-        capacities.push_back({{"low", capacity.condenser.low},
-                              {"high", capacity.condenser.high},
+        capacities.push_back({{"low", capacity.condenser.at_zero},
+                              {"high", capacity.condenser.at_one},
                               {"lower", capacity.value.lower},
                               {"upper", capacity.value.upper}});
     nlohmann::ordered_json json{{"version", KOEBE_VERSION},      {"input", ""},

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "execution/execution.h"
-#include "hard/flat_charts.h"
+#include "hard/laid_part.h"
 
 #include <cstddef>
 #include <optional>

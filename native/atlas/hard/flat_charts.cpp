@@ -7,6 +7,7 @@
 #include "cut/disjoint_sets.h"
 #include "darts/tension.h"
 #include "flat/regions.h"
+#include "hard/laid_part.h"
 #include "mesh/connected_pieces.h"
 #include "planar/rigid_fit.h"
 #include "surface/face_vectors.h"

@@ -5,7 +5,6 @@
 #include "flat/flat_part.h"
 #include "part_maps/part_mesh.h"
 
-#include <optional>
 #include <set>
 #include <vector>
 
@@ -40,8 +39,5 @@ struct FlatCharts {
 /// A chart that overlaps itself counts as curved. @param most_tips of one chart
 /// @param hard_angle in degrees
 FlatCharts flat_charts(const CutSurface& surface, std::size_t most_tips, double hard_angle);
-
-/// Some faces of charts as they lie. @return no value if they are no disk with holes, or overlap
-std::optional<FlatPart> laid_part(const CutSurface& surface, const FlatCharts& charts, const std::vector<Index>& faces);
 
 }  // namespace koebe

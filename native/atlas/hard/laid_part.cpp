@@ -1,10 +1,11 @@
+#include "hard/laid_part.h"
+
 #include "core/connectivity.h"
 #include "core/errors.h"
 #include "core/numbering.h"
 #include "darts/dart_rounds.h"
 #include "darts/darts.h"
 #include "flat/flat_repair.h"
-#include "hard/flat_charts.h"
 #include "planar/boundary_crossings.h"
 #include "surface/loop_edges.h"
 

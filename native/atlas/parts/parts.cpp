@@ -196,8 +196,8 @@ void mend_rims(FlatMesh& mesh, int threads, ExecutionContext& context)
     side_by_side(mesh.parts.size(), threads, context, [&](std::size_t k, ExecutionContext& own) {
         FlatPart& part = mesh.parts[k];
         if (!part.one_to_one) return;
-        const std::vector<Index> polygons = values_at(mesh.polygon, part.faces), turned;
-        SurfacePolygons surface{part.vertices, part.surface.triangles, polygons, turned};
+        const std::vector<Index> polygons = values_at(mesh.polygon, part.faces), none_turned;
+        SurfacePolygons surface{part.vertices, part.surface.triangles, polygons, none_turned};
         surface.free_rims = true;
         const std::vector<char> rigid = at_rigid_faces(part, mesh.layout.noise);
         for (std::size_t v = 0; v < part.held.size(); ++v)
@@ -314,7 +314,7 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
     mend_rims(mesh, options.threads, context);
     clock.take(mesh.seconds);
 
-    // Pack them.
+    // Pack them, and make polygons convex where they lie.
     const double unit = length_of_unit();
     const PackedParts packed = packed_parts(mesh, options, unit, up, context);
     std::vector<Index> anew = faces_anew(mesh, packed);
@@ -326,12 +326,12 @@ PartsResult compute(const Vertices& vertices, const Triangles& triangles, const 
         result.stacked.push_back(
             {static_cast<Index>(k), static_cast<Index>(packed.twins[k]->of), packed.twins[k]->mirrored});
     }
-    const std::vector<Index> none, rigid = rigid_vertices(mesh);
+    const std::vector<Index> none_turned, rigid = rigid_vertices(mesh);
     PartsLayout layout = layout_at(std::move(mesh), packed.places, mirrored);
-    const SurfacePolygons polygons{layout.vertices, layout.triangles, options.polygon, none, rigid};
+    const SurfacePolygons polygons{layout.vertices, layout.triangles, options.polygon, none_turned, rigid};
     mend_polygons(polygons, layout.uv, context);
 
-    // Report what is stored.
+    // Report on the UVs as 32-bit floats store them.
     describe(layout, vertices, triangles, packed, options, options.pixels / unit, result);
     if (!anew.empty())
         result.warnings.push_back(

@@ -121,6 +121,7 @@ std::vector<std::vector<Index>> carried_faces(const Proxy& proxy, const std::vec
     if (!net) return {};
     const std::vector<CarriedPath> paths = carried_paths(proxy, *net, context);
     const NearFaces near(proxy);
+    // Straightened paths first. If their pieces do not correspond to the parts: the paths as found.
     for (const bool is_straight : {true, false}) {
         std::vector<Index> twin = proxy.fine.whole.surface.twin;
         for (const auto& [chain, path] : is_straight ? straightened(proxy, paths, context) : paths)

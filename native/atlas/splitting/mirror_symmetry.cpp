@@ -42,14 +42,16 @@ std::vector<std::vector<Index>> mirrored_faces(const CutSurface& whole, const Mi
     std::vector<Index> label(mirror.image.size());
     for (std::size_t k = 0; k < parts.size(); ++k)
         for (const Index f : parts[k]->mesh.faces) label[mirror.group[f]] = static_cast<Index>(k);
-    const auto own = [&](Index g) { return mirror.image[g] == g || chosen * mirror.side[g] > 0.0; };
-    // Faces are joined over an edge if their polygons are in one part on the chosen side, or the images are; over the
-    // plane if they were in one part.
+    const auto on_chosen_side = [&](Index g) { return mirror.image[g] == g || chosen * mirror.side[g] > 0.0; };
+    // Faces are joined over an edge if their polygons are in one part on the chosen side, or the images are. A polygon
+    // and its own image over the plane are joined if they were in one part, others as the image is.
     const auto joined = [&](Index a, Index b) {
-        if (own(a) && own(b)) return label[a] == label[b];
-        if (!own(a) && !own(b)) return label[mirror.image[a]] == label[mirror.image[b]];
-        const Index here = own(a) ? a : b, there = own(a) ? b : a, image = mirror.image[there];
-        return image == here ? label[here] == label[there] : label[here] == label[image];
+        if (on_chosen_side(a) && on_chosen_side(b)) return label[a] == label[b];
+        if (!on_chosen_side(a) && !on_chosen_side(b)) return label[mirror.image[a]] == label[mirror.image[b]];
+        const bool is_first_chosen = on_chosen_side(a);
+        const Index here = is_first_chosen ? a : b, there = is_first_chosen ? b : a, image = mirror.image[there];
+        const bool is_own_image = image == here;
+        return label[here] == label[is_own_image ? there : image];
     };
     Index count = 0;
     const std::vector<Index>& twin = whole.surface.twin;

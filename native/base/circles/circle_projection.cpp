@@ -1,7 +1,7 @@
 #include "circles/circle_projection.h"
 
 #include "circles/on_circle.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 
 #include <cmath>
 #include <numbers>

@@ -3,7 +3,7 @@
 #include "circles/circle_fit.h"
 #include "circles/moebius.h"
 #include "core/counted.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "execution/run_on_copies.h"
 #include "linear/dense_spd.h"
 #include "pipeline/final_check.h"

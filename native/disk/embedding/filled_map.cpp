@@ -4,7 +4,7 @@
 #include "circles/moebius.h"
 #include "circles/on_circle.h"
 #include "core/numbering.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "embedding/widened_rim.h"
 #include "planar/planar_predicates.h"
 #include "quality/stored_uv.h"

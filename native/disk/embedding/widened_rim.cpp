@@ -1,6 +1,7 @@
 #include "embedding/widened_rim.h"
 
 #include "core/connectivity.h"
+#include "mesh/connected_pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,27 +31,14 @@ std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer, Inde
     const auto chord = [&](Index h) {
         return twin[h] != no_twin && place[origin(triangles, h)] >= 0 && place[target(triangles, h)] >= 0;
     };
-    std::vector<Index> part(triangles.rows(), -1), size, stack;
-    for (Index seed = 0; seed < static_cast<Index>(triangles.rows()); ++seed) {
-        if (part[seed] >= 0) continue;
-        const auto id = static_cast<Index>(size.size());
-        size.push_back(0);
-        part[seed] = id;
-        stack.assign(1, seed);
-        while (!stack.empty()) {
-            const Index f = stack.back();
-            stack.pop_back();
-            ++size[id];
-            for (Index h = 3 * f; h < 3 * f + 3; ++h)
-                if (twin[h] != no_twin && !chord(h) && part[face_of(twin[h])] < 0) {
-                    part[face_of(twin[h])] = id;
-                    stack.push_back(face_of(twin[h]));
-                }
-        }
-    }
+    Index count = 0;
+    const std::vector<Index> part = joined_pieces(twin, count, [&](Index h) { return !chord(h); });
+    std::vector<Index> size(static_cast<std::size_t>(count), 0);
+    for (const Index id : part) ++size[id];
     std::vector<std::vector<Index>> chords(size.size());  // half-edges of each part
     for (Index h = 0; h < static_cast<Index>(triangles.size()); ++h)
         if (chord(h)) chords[part[face_of(h)]].push_back(h);
+    // The root: the largest part, or the part with the centre.
     auto root = static_cast<Index>(std::max_element(size.begin(), size.end()) - size.begin());
     for (Index h = 0; h < static_cast<Index>(triangles.size()) && center >= 0; ++h)
         if (origin(triangles, h) == center) root = part[face_of(h)];
@@ -65,14 +53,15 @@ std::vector<Arc> arcs_of(const FilledDisk& filled, const VertexLoop& outer, Inde
                 order.push_back({part[face_of(twin[h])], twin[h]});
                 parent[order.back().part] = order[k].part;
             }
-    std::vector<double> faces(size.begin(), size.end());
+    // Each part adds its faces to the part towards the root: an arc counts all faces behind its chord.
+    std::vector<double> faces_behind(size.begin(), size.end());
     std::vector<Arc> arcs;
     for (std::size_t k = order.size() - 1; k > 0; --k) {
         const auto [id, door] = order[k];
         // The part is on the left of its door, so the loop runs on from the door's end to its start.
         const Index first = place[target(triangles, door)], last = place[origin(triangles, door)];
-        arcs.push_back({first, (last - first + n) % n, faces[id]});
-        faces[parent[id]] += faces[id];
+        arcs.push_back({first, (last - first + n) % n, faces_behind[id]});
+        faces_behind[parent[id]] += faces_behind[id];
     }
     return arcs;
 }

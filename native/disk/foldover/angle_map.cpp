@@ -1,7 +1,7 @@
 #include "foldover/angle_map.h"
 
 #include "core/length.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
 #include "foldover/angle_polish.h"
 
 #include "core/numbering.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "foldover/angle_map.h"
 #include "foldover/angle_newton.h"
 #include "foldover/angle_relaxation.h"

@@ -2,7 +2,7 @@
 
 #include "circles/on_circle.h"
 #include "core/sort_unique.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "execution/thread_share.h"
 #include "planar/boundary_crossings.h"
 #include "planar/planar_predicates.h"

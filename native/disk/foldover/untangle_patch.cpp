@@ -1,6 +1,6 @@
 #include "foldover/untangle_patch.h"
 
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "foldover/patch_problem.h"
 
 #include <algorithm>

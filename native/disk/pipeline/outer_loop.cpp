@@ -23,9 +23,9 @@ void move_to_front(std::vector<T>& list, int place)
 int balanced_outer_loop(const FaceScales& scales, const std::vector<Circle>& circles,
                         const std::vector<int>& candidates)
 {
-    double least = 0.0;
-    least_area_distortion(scales, least);
-    least *= worth_changing;
+    double to_beat = 0.0;
+    least_area_distortion(scales, to_beat);
+    to_beat *= worth_changing;
     int best = 0;
     for (const int k : candidates) {
         if (k == 0) continue;
@@ -35,8 +35,8 @@ int balanced_outer_loop(const FaceScales& scales, const std::vector<Circle>& cir
         turned.log_ratio.array() += 2.0 * std::log(circles[k].radius) - 4.0 * arm.abs().log();  // 2 log |w'|
         double distortion = 0.0;
         least_area_distortion(turned, distortion);
-        if (distortion < least) {
-            least = distortion;
+        if (distortion < to_beat) {
+            to_beat = distortion;
             best = k;
         }
     }

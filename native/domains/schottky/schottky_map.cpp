@@ -23,7 +23,9 @@
 namespace koebe {
 namespace {
 
-/// A map and its UVs.
+constexpr double near_sizes[] = {1.6, 0.6};  // of a circle beside the one found, over its radius
+constexpr double other_sizes[] = {1.6, 0.6, 2.5, 0.4};
+
 struct LaidMap {
     CutMap map;
     SchottkyTile tile;
@@ -70,14 +72,14 @@ LaidMap laid_map(CutMap map, const FinerFaces& faces, const std::vector<Index>& 
     if (result.hopeless()) return result;
     if (result.tangled()) repair(result.tile);
     if (circles.apart)
-        for (const double factor : {1.6, 0.6}) {
+        for (const double factor : near_sizes) {
             if (!result.tangled()) break;
             const FundamentalCircles beside = circles_beside(plane, circles, factor);
             if (beside.apart) repair(tiling.by_circles(plane, beside));
         }
     if (!circles.apart || !result.faults.any()) return result;
     // The boundary of the UVs may have faults for one circle and none for another.
-    for (const double factor : {1.6, 0.6, 2.5, 0.4}) {
+    for (const double factor : other_sizes) {
         const FundamentalCircles beside = circles_beside(plane, circles, factor);
         if (!beside.apart) continue;
         SchottkyTile tile = tiling.by_circles(plane, beside);

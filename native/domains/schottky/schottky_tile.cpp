@@ -5,7 +5,7 @@
 #include "core/errors.h"
 #include "core/numbering.h"
 #include "core/sort_unique.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "foldover/untangle.h"
 #include "planar/boundary_crossings.h"
 #include "quality/stored_uv.h"

@@ -2,7 +2,7 @@
 
 #include "core/numbering.h"
 #include "core/sort_unique.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "execution/each_in_pieces.h"
 #include "mesh/vertex_faces.h"
 #include "sphere/placed_face.h"

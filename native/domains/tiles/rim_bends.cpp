@@ -1,7 +1,7 @@
 #include "tiles/rim_bends.h"
 
 #include "core/connectivity.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "tiles/tile.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 #include "quality/take_verdict.h"
 #include "tiles/floating_loops.h"
 #include "tiles/rim_bends.h"
-#include "tiles/slit_map.h"
+#include "tiles/slit_strip.h"
 #include "tiles/tile_map.h"
 #include "tiles/tile_result.h"
 
@@ -199,7 +199,7 @@ struct FlatRing {
 FlatRing by_potentials(const PeriodicSurface& domain, RingHoles holes)
 {
     FlatRing ring;
-    ring.map = slit_map(domain, holes, ring.height);
+    ring.map = slit_strip(domain, holes, ring.height);
     if (holes == RingHoles::circles) ring.circles = annulus_circles(ring.height);
     return ring;
 }

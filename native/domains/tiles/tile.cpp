@@ -2,7 +2,7 @@
 
 #include "core/connectivity.h"
 #include "core/numbering.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "planar/boundary_crossings.h"
 #include "tiles/tile_cut.h"
 

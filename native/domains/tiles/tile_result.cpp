@@ -5,7 +5,7 @@
 #include "core/connectivity.h"
 #include "core/counted.h"
 #include "core/numbering.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "core/vertex_weights.h"
 #include "even/even_map.h"
 #include "execution/execution.h"

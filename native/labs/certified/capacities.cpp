@@ -96,7 +96,7 @@ std::vector<Interval> CapacityBounds::enclose(const std::vector<Condenser>& all,
             if (fixed_[v]) flux[surface_.loop_of()[v]] += source(v, c);
         flux = rounded_fluxes(std::move(flux), held_);
         total.push_back(0.0);
-        for (const int k : all[c].high) total.back() += flux[k];
+        for (const int k : all[c].at_one) total.back() += flux[k];
         carried.push_back(tree_.carry(flux));
         load.col(c) = functions_.load(weights_, carried.back());
     }
@@ -144,7 +144,7 @@ MatrixXd CapacityBounds::loop_values(const std::vector<Condenser>& all) const
     MatrixXd values = MatrixXd::Zero(functions_.size(), static_cast<Eigen::Index>(all.size()));
     for (std::size_t c = 0; c < all.size(); ++c)
         for (Index v = 0; v < surface_.vertex_count(); ++v)
-            if (std::ranges::find(all[c].high, surface_.loop_of()[v]) != all[c].high.end())
+            if (std::ranges::find(all[c].at_one, surface_.loop_of()[v]) != all[c].at_one.end())
                 values(v, static_cast<Eigen::Index>(c)) = 1.0;
     return values;
 }
@@ -184,8 +184,8 @@ constexpr double growth_reserve = 2.0;         // cut faces become four, and the
 /// Which loops are held, ascending: condensers that hold the same loops share their factors.
 std::vector<int> held_loops(const Condenser& condenser)
 {
-    std::vector<int> held = condenser.low;
-    held.insert(held.end(), condenser.high.begin(), condenser.high.end());
+    std::vector<int> held = condenser.at_zero;
+    held.insert(held.end(), condenser.at_one.begin(), condenser.at_one.end());
     std::ranges::sort(held);
     return held;
 }
@@ -193,7 +193,7 @@ std::vector<int> held_loops(const Condenser& condenser)
 void require_condenser(const Condenser& condenser, int loop_count)
 {
     const std::vector<int> held = held_loops(condenser);
-    if (condenser.low.empty() || condenser.high.empty())
+    if (condenser.at_zero.empty() || condenser.at_one.empty())
         throw InputError("a condenser needs a loop at 0 and a loop at 1");
     if (held.front() < 0 || held.back() >= loop_count)
         throw InputError("a condenser names a loop that is not there: the surface has " + std::to_string(loop_count),
@@ -389,9 +389,10 @@ std::vector<Condenser> loop_condensers(int loop_count)
     const auto add = [&](const std::vector<int>& high) {
         Condenser condenser{{}, high};
         for (int k = 0; k < loop_count; ++k)
-            if (std::ranges::find(high, k) == high.end()) condenser.low.push_back(k);
-        const auto is_exchanged = [&](const Condenser& other) { return other.high == condenser.low; };
-        if (!condenser.low.empty() && std::ranges::none_of(condensers, is_exchanged)) condensers.push_back(condenser);
+            if (std::ranges::find(high, k) == high.end()) condenser.at_zero.push_back(k);
+        const auto is_exchanged = [&](const Condenser& other) { return other.at_one == condenser.at_zero; };
+        if (!condenser.at_zero.empty() && std::ranges::none_of(condensers, is_exchanged))
+            condensers.push_back(condenser);
     };
     for (int j = 0; j < loop_count; ++j) add({j});
     for (int j = 0; j < loop_count; ++j)

@@ -23,7 +23,7 @@ constexpr double unit_roundoff = 0x1p-53;
 /// Of the two sides of a condenser that holds all circles, the one without the unit circle.
 const std::vector<int>& inner_side(const Condenser& condenser)
 {
-    return std::ranges::find(condenser.high, 0) == condenser.high.end() ? condenser.high : condenser.low;
+    return std::ranges::find(condenser.at_one, 0) == condenser.at_one.end() ? condenser.at_one : condenser.at_zero;
 }
 
 /// Below it the functions on circle b are analytic in the angle (CirclePart::stretch): no other centre is in the

@@ -34,7 +34,7 @@ std::vector<Condenser> renumbered(std::vector<Condenser> condensers, const std::
     std::vector<int> circle_of(order.size());
     for (std::size_t k = 0; k < order.size(); ++k) circle_of[order[k]] = static_cast<int>(k);
     for (Condenser& condenser : condensers)
-        for (std::vector<int>* loops : {&condenser.low, &condenser.high})
+        for (std::vector<int>* loops : {&condenser.at_zero, &condenser.at_one})
             for (int& loop : *loops) loop = circle_of[loop];
     return condensers;
 }

@@ -37,7 +37,7 @@ public:
         for (std::size_t k = 0; k < loops.size(); ++k)
             circle_of[loop_with(surface.loops, loops[k].vertices.front())] = static_cast<int>(k);
         for (Condenser& condenser : of_circles_)
-            for (std::vector<int>* numbers : {&condenser.low, &condenser.high})
+            for (std::vector<int>* numbers : {&condenser.at_zero, &condenser.at_one})
                 for (int& loop : *numbers) loop = circle_of[loop];
     }
 

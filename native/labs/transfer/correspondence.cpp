@@ -5,7 +5,7 @@
 #include "core/complex_places.h"
 #include "core/counted.h"
 #include "core/errors.h"
-#include "core/tolerances.h"
+#include "core/uv_resolution.h"
 #include "quality/distortion.h"
 #include "shape/conformal_module.h"
 #include "shape/loop_matching.h"

@@ -13,6 +13,7 @@
 namespace koebe {
 namespace {
 
+constexpr Index straight_steps = 50;    // of a walk, before it may go on by chance
 constexpr double edge_rounding = 1e-6;  // of a triangle's size: a point beside all triangles by less lies on an edge
 
 /// The square of a cube round the sphere that a direction goes through.
@@ -71,12 +72,14 @@ SurfacePoint SpherePlaces::at(const Eigen::Vector3d& place, Index start) const
     for (Index step = 0; step < most && side.minCoeff() < 0.0; ++step) {
         Eigen::Index k = 0;
         side.minCoeff(&k);
-        random = random * 1664525U + 1013904223U;  // a walk in a circle ends by chance
-        if (const Eigen::Index other = (random >> 16) % 3; step > 50 && side[other] < 0.0) k = other;
+        // A long walk may go in a circle: it takes another side by chance.
+        random = random * 1664525U + 1013904223U;
+        if (const Eigen::Index other = (random >> 16) % 3; step > straight_steps && side[other] < 0.0) k = other;
         face = across_[3 * face + k];
         side = sides(place, face);
     }
-    if (side.minCoeff() < 0.0) {  // on an edge, by edge_rounding: the best of all triangles
+    // The walk has not arrived: rounding on an edge, or too many steps. Then all triangles are tried.
+    if (side.minCoeff() < 0.0) {
         double best = -std::numeric_limits<double>::infinity();
         for (Index f = 0; f < static_cast<Index>(triangles_.rows()); ++f) {
             if (points_(triangles_.row(f), Eigen::all).colwise().sum().dot(place) <= 0.0) continue;

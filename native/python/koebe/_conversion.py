@@ -17,7 +17,7 @@ from .io.corner_mesh import mesh_with_corner_uv
 from .io.export import CUT_TEXT, export, has_one_place_a_vertex, obj_of
 from .io.files import whole_file
 from .io.formats import GIFTI, MESHIO, NATIVE, PYVISTA, is_foreign_surface, is_freesurfer_name, is_patch_name
-from .io.meshes import SPHERE
+from .io.mesh_copies import SPHERE
 from .io.vertex_fields import read_region
 from .maps.input import surface_of
 from .maps.result import MapReport

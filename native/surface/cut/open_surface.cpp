@@ -6,7 +6,7 @@
 #include "core/sort_unique.h"
 #include "core/types.h"
 #include "cut/handle_loops.h"
-#include "cut/seamed_mesh.h"
+#include "cut/seam_faces.h"
 #include "cut/slits.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // seam_faces: the first seams of a mesh.
+#include "cut/seam_faces.h"
 #include "cut/disjoint_sets.h"
 #include "cut/edge_runs.h"
-#include "cut/seamed_mesh.h"
 
 #include "core/length.h"
 

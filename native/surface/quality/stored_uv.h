@@ -1,8 +1,8 @@
 // UVs as Blender stores them: u = (1 + x) / 2, v = (1 + y) / 2, rounded to 32-bit floats.
 #pragma once
 
-#include "core/tolerances.h"
 #include "core/types.h"
+#include "core/uv_resolution.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // koebe flatten IN OUT.svg|OUT.dxf
-#include "cli/commands/corner_map.h"
+#include "cli/commands/corner_command.h"
 
 #include "core/counted.h"
 #include "files/extension.h"

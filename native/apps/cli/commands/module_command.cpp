@@ -84,8 +84,8 @@ Condenser condenser_of(const std::string& words)
     const std::size_t slash = words.find('/');
     if (slash == std::string::npos)
         throw CLI::ValidationError("--between", "loops at 0 and loops at 1 need a / between them");
-    read(words.substr(0, slash), condenser.low);
-    read(words.substr(slash + 1), condenser.high);
+    read(words.substr(0, slash), condenser.at_zero);
+    read(words.substr(slash + 1), condenser.at_one);
     return condenser;
 }
 

@@ -1,5 +1,5 @@
 // koebe parts IN OUT
-#include "cli/commands/corner_map.h"
+#include "cli/commands/corner_command.h"
 
 #include "core/counted.h"
 #include "parts/parts.h"

@@ -1,5 +1,5 @@
 // koebe schottky IN OUT
-#include "cli/commands/corner_map.h"
+#include "cli/commands/corner_command.h"
 
 #include "core/counted.h"
 #include "report/schottky_json.h"

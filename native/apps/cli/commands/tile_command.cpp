@@ -1,5 +1,5 @@
 // koebe torus IN OUT, koebe ring IN OUT
-#include "cli/commands/corner_map.h"
+#include "cli/commands/corner_command.h"
 
 #include "core/counted.h"
 #include "report/tile_json.h"

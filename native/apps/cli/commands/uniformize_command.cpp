@@ -1,5 +1,5 @@
 // koebe uniformize IN OUT
-#include "cli/commands/corner_map.h"
+#include "cli/commands/corner_command.h"
 #include "cli/commands/subcommand.h"
 #include "cli/commands/uniformize_kind.h"
 #include "cli/commands/weights_option.h"

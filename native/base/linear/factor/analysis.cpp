@@ -71,15 +71,15 @@ PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Inde
                               const std::vector<Index>& number)
 {
     const Index size = static_cast<Index>(rows.size());
-    const SparseMatrix own = with_interface(matrix, rows, interface, rank, number);
+    const SparseMatrix bordered = with_interface(matrix, rows, interface, rank, number);
     std::vector<Index> last(interface.size());
     std::iota(last.begin(), last.end(), size);
     CholmodCommon common;
-    std::vector<Index> order = elimination_order(own, last, true, common);
+    std::vector<Index> order = elimination_order(bordered, last, true, common);
     common->nmethods = 1;
     common->method[0].ordering = CHOLMOD_GIVEN;
     common->postorder = 0;
-    cholmod_sparse lower = view(own, -1);
+    cholmod_sparse lower = view(bordered, -1);
     const Factor symbolic = detail::own(cholmod_analyze_p(&lower, order.data(), nullptr, 0, common.get()), common);
     common.require(symbolic != nullptr, "symbolic analysis");
 
@@ -94,7 +94,7 @@ PieceSupernodes analyze_piece(const SparseMatrix& matrix, const std::vector<Inde
     result.first.push_back(size);
     result.row_begin.assign(row_begin, row_begin + count + 1);
     result.rows.assign(all_rows, all_rows + row_begin[count]);
-    order.resize(size);
+    order.resize(size);  // the interface comes last: only the piece's own rows stay
     for (const Index i : order) result.order.push_back(rows[i]);
     return result;
 }

@@ -8,15 +8,8 @@ import numpy as np
 from .._fields import face_angle_error_deg, log_scale, log_scale_of_corners
 from .._types import Bools, Floats, Whole
 from ..errors import InputError
-from .meshes import (
-    ANGLE_ERROR,
-    CORNER_UV,
-    LOG_SCALE,
-    Fields,
-    is_gifti,
-    mesh_with_fields,
-    mesh_with_vertices,
-)
+from .mesh_copies import ANGLE_ERROR, CORNER_UV, LOG_SCALE, Fields, mesh_with_fields, mesh_with_vertices
+from .meshes import is_gifti
 
 if TYPE_CHECKING:
     from ..maps.source import Source

@@ -29,7 +29,8 @@ from .formats import (
     volume_info,
     volume_meta,
 )
-from .meshes import LOG_SCALE, SPHERE, is_gifti, kind_of, read_mesh
+from .mesh_copies import LOG_SCALE, SPHERE
+from .meshes import is_gifti, kind_of, read_mesh
 
 _SPHERE_RADIUS = 100.0  # millimetres, as FreeSurfer's spheres have it
 CUT_TEXT = "the map has cuts, so that a vertex has several places: write a .gii or a VTK file"

@@ -1,11 +1,10 @@
-"""Converts meshes of other packages to arrays and back: PyVista, VTK, trimesh, meshio, nibabel's GIfTI. The meshes are
-recognized by their classes, so that no package is imported here. Any other object with points and faces can be read:
-nilearn's, Open3D's, BrainSpace's, MNE's.
+"""Reads meshes of other packages as arrays: PyVista, VTK, trimesh, meshio, nibabel's GIfTI. The meshes are recognized
+by their classes, so that no package is imported here. Any other object with points and faces can be read: nilearn's,
+Open3D's, BrainSpace's, MNE's. mesh_copies.py writes into copies of them.
 
 Each holds vertices and cells, some of which are faces. Other cells (points, lines) are kept and carry no values.
 """
 
-import copy
 import importlib
 import importlib.util
 from collections.abc import Mapping, Sequence
@@ -17,12 +16,10 @@ import numpy as np
 from .._types import Floats, Whole
 from ..errors import InputError
 
-UV, LOG_SCALE, ANGLE_ERROR, VERTEX = "koebe_uv", "koebe_log_scale", "koebe_angle_error", "koebe_vertex"
-CORNER_UV, SPHERE = "koebe_corner_uv", "koebe_sphere"
+VTK_PIXEL = 8  # number of VTK's cell type: a quadrilateral with its last two corners exchanged
 
-_POINTS, _TRIANGLES, _SHAPE, _VECTOR, _NONE = 1008, 1009, 2005, 1007, 0  # NIfTI's intent codes
+_POINTS, _TRIANGLES = 1008, 1009  # NIfTI's intent codes
 _VTK_FACES = {5: "triangle", 7: "polygon", 9: "quad"}  # numbers of VTK's cell types
-_VTK_PIXEL = 8  # a quadrilateral with its last two corners exchanged
 _VTK_NO_FACES = {1, 2, 3, 4}  # points and lines
 
 
@@ -88,161 +85,12 @@ def read_mesh(mesh: Any) -> Polygons:
     return polygons
 
 
-@dataclass(frozen=True)
-class Fields:
-    """What a map says of a mesh.
-
-    uv       (V, 2) texture coordinates; NaN where a vertex has none, or several
-    points   the fields of the vertices: name -> (V,) or (V, k)
-    faces    the fields of the faces: name -> (P,) or (P, k)
-    """
-
-    uv: Floats
-    points: dict[str, Floats]
-    faces: dict[str, Floats]
-
-
 def is_gifti(mesh: Any) -> bool:
     """Whether the mesh keeps its vertices: other files of a cortex count on their number."""
     return kind_of(mesh) == "gifti"
 
 
-def mesh_with_fields(mesh: Any, polygons: Polygons, fields: Fields) -> Any:
-    """A copy of the mesh with texture coordinates and fields."""
-    # Cells that are no faces (points, lines) have NaN.
-    of_cells = {}
-    for name, values in fields.faces.items():
-        of_cells[name] = np.full((polygons.cell_count, *values.shape[1:]), np.nan)
-        of_cells[name][polygons.cell] = values
-    # Each package has its own place for fields.
-    kind = kind_of(mesh)
-    if kind == "trimesh":
-        result = mesh.copy()
-        _put_uv(result, fields.uv)
-        result.vertex_attributes.update(fields.points)
-        result.face_attributes.update(of_cells)
-    elif kind == "pyvista":
-        result = mesh.copy(deep=True)
-        for name, values in {UV: fields.uv, **fields.points}.items():
-            result.point_data[name] = values
-        for name, values in of_cells.items():
-            result.cell_data[name] = values
-        result.active_texture_coordinates = fields.uv
-    elif kind == "gifti":
-        result = copy.deepcopy(mesh)
-        gifti = importlib.import_module("nibabel.gifti")
-        for name, values in {UV: fields.uv, **fields.points, **of_cells}.items():
-            intent = _NONE if name in of_cells else _SHAPE if values.ndim == 1 else _VECTOR
-            array = gifti.GiftiDataArray(np.float32(values), intent, "NIFTI_TYPE_FLOAT32", meta={"Name": name})
-            result.add_gifti_data_array(array)
-    else:
-        result = copy.deepcopy(mesh)
-        result.point_data.update({UV: fields.uv, **fields.points})
-        ends = np.cumsum([len(block.data) for block in result.cells])[:-1]
-        for name, values in of_cells.items():
-            result.cell_data[name] = np.split(values, ends)
-    return result
-
-
-def mesh_with_vertices(mesh: Any, polygons: Polygons, old: Whole, corners: Whole) -> Any:
-    """A copy of the mesh, of any kind that does not keep its vertices, with other vertices under its faces, and the
-    field koebe_vertex.
-
-    old      (n,) the vertex that each new one is a copy of; the first V are the old ones, in their order
-    corners  (C,) new vertex of each corner of the polygons
-    Points and lines keep their vertices. New vertices carry their old vertices' data.
-    """
-    kind = kind_of(mesh)
-    if kind == "trimesh":
-        trimesh = importlib.import_module("trimesh")
-        result = trimesh.Trimesh(
-            np.asarray(mesh.vertices)[old],
-            corners.reshape(-1, 3),
-            process=False,
-            metadata=copy.deepcopy(mesh.metadata),
-            vertex_attributes={name: np.asarray(values)[old] for name, values in mesh.vertex_attributes.items()},
-            face_attributes={name: np.array(values) for name, values in mesh.face_attributes.items()},
-        )
-        result.vertex_attributes[VERTEX] = old
-        _copy_visual(mesh.visual, result, old)
-    elif kind == "pyvista":
-        result = _pyvista_with_vertices(mesh, polygons, old, corners)
-        result.point_data[VERTEX] = old
-    else:
-        result = copy.deepcopy(mesh)
-        result.points = np.asarray(mesh.points)[old]
-        result.point_data = {name: np.asarray(values)[old] for name, values in mesh.point_data.items()}
-        result.point_data[VERTEX] = old
-        # Corners are in the order of the blocks.
-        begin = 0
-        for block in result.cells:
-            if block.type in ("vertex", "line"):
-                continue
-            sizes = [len(face) for face in block.data]
-            part = corners[begin : begin + sum(sizes)]
-            begin += sum(sizes)
-            if _is_ragged(block.data):
-                block.data = np.split(part, np.cumsum(sizes)[:-1])
-            else:
-                block.data = part.reshape(len(sizes), -1).astype(np.asarray(block.data).dtype)
-    return result
-
-
-def _copy_visual(visual: Any, mesh: Any, old: Whole) -> None:
-    """Give a Trimesh the colours or the material of another one, whose vertices `old` it has."""
-    kind = getattr(visual, "kind", None)
-    if kind == "vertex":
-        mesh.visual.vertex_colors = np.asarray(visual.vertex_colors)[old]
-    elif kind == "face":
-        mesh.visual.face_colors = np.array(visual.face_colors)
-    elif kind == "texture":
-        mesh.visual = type(visual)(material=visual.material)
-        mesh.visual.vertex_attributes.update(
-            {name: np.asarray(one)[old] for name, one in visual.vertex_attributes.items()}
-        )
-
-
-def _put_uv(mesh: Any, uv: Floats) -> None:
-    """Give a Trimesh UVs. Its material stays, and its colours are where trimesh keeps them beside UVs."""
-    old = mesh.visual
-    kind = getattr(old, "kind", None)
-    new = importlib.import_module("trimesh.visual").TextureVisuals(uv=uv, material=getattr(old, "material", None))
-    if kind == "texture":
-        new.vertex_attributes.update({name: one for name, one in old.vertex_attributes.items() if name != "uv"})
-    elif kind == "vertex":
-        mesh.vertex_attributes["color"] = new.vertex_attributes["color"] = np.array(old.vertex_colors)
-    elif kind == "face":
-        mesh.face_attributes["color"] = np.array(old.face_colors)
-    mesh.visual = new
-
-
-def _pyvista_with_vertices(mesh: Any, polygons: Polygons, old: Whole, corners: Whole) -> Any:
-    """A PolyData or UnstructuredGrid with these vertices."""
-    sizes = np.diff(polygons.begin)
-    heads = polygons.begin[:-1]
-    if hasattr(mesh, "celltypes"):
-        types = np.asarray(mesh.celltypes)
-        cell_sizes, all_corners = _unpadded(mesh.cells)
-        begin = np.concatenate([[0], np.cumsum(cell_sizes)])
-        ordered = corners.copy()
-        for first in heads[types[polygons.cell] == _VTK_PIXEL]:
-            ordered[[first + 2, first + 3]] = ordered[[first + 3, first + 2]]
-        within = np.arange(len(corners)) - np.repeat(heads, sizes)
-        all_corners[np.repeat(begin[polygons.cell], sizes) + within] = ordered
-        result = type(mesh)(_padded(cell_sizes, all_corners), types, np.asarray(mesh.points)[old])
-    else:
-        parts = {name: np.array(getattr(mesh, name)) for name in ("verts", "lines") if len(getattr(mesh, name))}
-        result = type(mesh)(np.asarray(mesh.points)[old], faces=_padded(sizes, corners), **parts)
-    for name, values in mesh.point_data.items():
-        result.point_data[name] = np.asarray(values)[old]
-    for name, values in mesh.cell_data.items():
-        result.cell_data[name] = np.array(values)
-    for name, values in mesh.field_data.items():
-        result.field_data[name] = np.array(values)
-    return result
-
-
-def _padded(sizes: Whole, corners: Whole) -> Whole:
+def padded(sizes: Whole, corners: Whole) -> Whole:
     """The cells as in VTK's files: each one's size, then its corners."""
     return np.insert(corners, np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64), sizes)
 
@@ -289,21 +137,21 @@ def _from_trimesh(mesh: Any) -> Polygons:
 def _from_pyvista(mesh: Any) -> Polygons:
     if hasattr(mesh, "celltypes"):
         types = np.asarray(mesh.celltypes)
-        pixels = types == _VTK_PIXEL
-        others = set(types.tolist()) - {*_VTK_FACES, *_VTK_NO_FACES, _VTK_PIXEL}
+        pixels = types == VTK_PIXEL
+        others = set(types.tolist()) - {*_VTK_FACES, *_VTK_NO_FACES, VTK_PIXEL}
         if others:
             raise InputError(
                 f"the grid has cells of VTK's types {sorted(others)}, which are no triangles, quadrilaterals or "
                 "polygons: give mesh.extract_surface()"
             )
-        sizes, corners = _unpadded(mesh.cells)
+        sizes, corners = unpadded(mesh.cells)
         begin = np.concatenate([[0], np.cumsum(sizes)])
         for first in begin[:-1][pixels]:
             corners[[first + 2, first + 3]] = corners[[first + 3, first + 2]]
         is_face = pixels | np.isin(types, list(_VTK_FACES))
         kept = np.repeat(is_face, sizes)
         return _packed(mesh.points, corners[kept], sizes[is_face], np.flatnonzero(is_face), len(types))
-    sizes, corners = _unpadded(mesh.faces)
+    sizes, corners = unpadded(mesh.faces)
     before = mesh.n_verts + mesh.n_lines  # VTK numbers them first
     return _packed(mesh.points, corners, sizes, before + np.arange(len(sizes)), mesh.n_cells)
 
@@ -311,14 +159,14 @@ def _from_pyvista(mesh: Any) -> Polygons:
 def _without_strips(mesh: Any) -> Any:
     """A PolyData with the triangles of the strips behind its other cells, every second one turned round. Each triangle
     has its strip's data."""
-    sizes, corners = _unpadded(mesh.strips)
+    sizes, corners = unpadded(mesh.strips)
     counts = np.maximum(sizes - 2, 0)
     first = np.repeat(np.cumsum(sizes) - sizes, counts)
     place = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     at, turned = first + place, place % 2
     triangles = np.stack([corners[at + turned], corners[at + 1 - turned], corners[at + 2]], axis=1)
-    old_sizes, old_corners = _unpadded(mesh.faces)
-    faces = _padded(np.append(old_sizes, np.full(len(at), 3)), np.append(old_corners, triangles))
+    old_sizes, old_corners = unpadded(mesh.faces)
+    faces = padded(np.append(old_sizes, np.full(len(at), 3)), np.append(old_corners, triangles))
     parts = {name: np.array(getattr(mesh, name)) for name in ("verts", "lines") if len(getattr(mesh, name))}
     result = type(mesh)(np.asarray(mesh.points), faces=faces, **parts)
     before = mesh.n_cells - len(sizes)
@@ -368,7 +216,7 @@ def _polygons(vertices: Any, blocks: list[Any], cells: Sequence[Whole], cell_cou
     """Blocks of faces: tables (k, n), or lists of faces of any sizes."""
     sizes, corners = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
     for block in blocks:
-        faces = [np.asarray(face) for face in block] if _is_ragged(block) else np.asarray(block)
+        faces = [np.asarray(face) for face in block] if is_ragged(block) else np.asarray(block)
         if isinstance(faces, list) and any(face.ndim != 1 for face in faces):
             raise InputError("each face of the mesh must be a list of vertices")
         sizes.append(np.array([len(face) for face in faces], dtype=np.int64))
@@ -380,7 +228,7 @@ def _polygons(vertices: Any, blocks: list[Any], cells: Sequence[Whole], cell_cou
     return _packed(vertices, np.concatenate(corners), np.concatenate(sizes), number, cell_count)
 
 
-def _is_ragged(block: Any) -> bool:
+def is_ragged(block: Any) -> bool:
     return len(block) > 0 and (not isinstance(block, np.ndarray) or block.dtype == object)
 
 
@@ -392,7 +240,7 @@ def _packed(vertices: Any, corners: Whole, sizes: Whole, cell: Whole, cell_count
     return Polygons(points, corners, begin, cell, cell_count)
 
 
-def _unpadded(padded: Any) -> tuple[Whole, Whole]:
+def unpadded(padded: Any) -> tuple[Whole, Whole]:
     """Sizes (P,) and corners of cells filed one after another, each as its size and its corners."""
     flat = np.array(padded, dtype=np.int64)
     if len(flat) and len(flat) % (flat[0] + 1) == 0:  # all of one size: no loop

@@ -67,7 +67,6 @@ def read_field(path: str | os.PathLike[str], *, hemisphere: str | None = None) -
     name = Path(path_of(path)).name.lower()
     if hemisphere is not None:
         choice_of(hemisphere, "hemisphere", _CIFTI)
-    # CIFTI, GIfTI, else FreeSurfer.
     if name.endswith(".nii"):
         with read_by("nibabel", path) as nibabel:
             return _from_cifti(nibabel.load(os.fspath(path)), path, hemisphere)
@@ -81,6 +80,7 @@ def read_field(path: str | os.PathLike[str], *, hemisphere: str | None = None) -
             known = {number: text for number, text in known.items() if text != f"unused {number}"}
             shades = {number: _shade(row[:3], 255.0 - row[3]) for number, row in enumerate(table)}
             return VertexField(np.where(np.isin(labels, list(known)), labels, NO_LABEL).astype(np.int32), known, shades)
+        # FreeSurfer's new format: 3 bytes, three whole numbers, floats. The old one: twice 3 bytes, 16-bit numbers.
         size = os.path.getsize(path)
         if head_of(path)[:3] == b"\xff\xff\xff":
             with open(path, "rb") as file:

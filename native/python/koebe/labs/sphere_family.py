@@ -48,18 +48,18 @@ def sphere_family(
     landmarks, fields    of every shape, in one order
     how                  moebius, bend and stiffness, as in transfer
     """
-    first = whole(reference, "reference", least=0, most=len(shapes) - 1)
+    base = whole(reference, "reference", least=0, most=len(shapes) - 1)
     for name, given in (("landmarks", landmarks), ("fields", fields)):
         if given is not None and len(given) != len(shapes):
             raise InputError(f"there are {name} of {len(given)} shapes, not of {len(shapes)}")
     names = checked_labels(labels, len(shapes))
 
     def correspond(number: int, part: Run) -> SphereCorrespondence:
-        pairs = landmark_pairs_of(landmarks, number, first)
-        both = None if fields is None else (fields[number], fields[first])
+        pairs = landmark_pairs_of(landmarks, number, base)
+        both = None if fields is None else (fields[number], fields[base])
         watched: dict[str, Any] = {**how, "progress": part.progress, "cancel": part.cancel}
-        return transfer(shapes[number], shapes[first], landmarks=pairs, fields=both, **watched)
+        return transfer(shapes[number], shapes[base], landmarks=pairs, fields=both, **watched)
 
-    laid = laid_over_mean(shapes, first, correspond, run)
+    laid = laid_over_mean(shapes, base, correspond, run)
     run.at(1.0, "finish")
     return SphereFamily(names, laid)

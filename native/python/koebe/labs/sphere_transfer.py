@@ -20,7 +20,8 @@ from ..errors import InputError, OptionError
 from ..io.export import export, has_one_place_a_vertex
 from ..io.formats import is_patch_name
 from ..maps.carry import carried, landmark_pairs
-from ..maps.result import Beltrami, MapReport
+from ..maps.figures import Beltrami
+from ..maps.result import MapReport
 from ..maps.source import Source
 from ..maps.sphere import SphereMap
 from .sphere_alignment import applied, by_fields, by_landmarks, correlation, nearest_rotation

@@ -20,7 +20,8 @@ from .._types import Bools, Floats, Ints, Values
 from .._watched import watched
 from ..errors import InputError
 from ..maps.carry import carried, landmark_pairs
-from ..maps.result import Beltrami, UniformizeResult
+from ..maps.figures import Beltrami
+from ..maps.result import UniformizeResult
 from ..maps.sphere import SphereMap
 from .fit import FitResult
 from .shapes import DomainAlignment, mapped_surface

@@ -6,7 +6,7 @@ import numpy as np
 
 from .._types import Bools, Ints
 from .domain_map import DomainMap
-from .result import Seconds
+from .figures import Seconds
 from .source import Source
 
 

@@ -11,8 +11,8 @@ from .._signatures import PartsOptions, Unpack
 from .._types import Bools, Ints
 from ..errors import InputError
 from .domain_map import DomainMap, prepared
+from .figures import Seconds
 from .input import polygons_of
-from .result import Seconds
 
 
 class PartsResult(DomainMap):

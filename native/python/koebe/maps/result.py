@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
-from typing import Any, TypedDict
+from typing import Any
 
 import numpy as np
 
@@ -18,89 +18,15 @@ from .._native import _koebe
 from .._report_entries import Loop, Warning
 from .._types import Bools, Complex, Floats, Ints
 from ..errors import InputError
-from ..io.meshes import ANGLE_ERROR, LOG_SCALE, Fields, mesh_with_fields
+from ..io.mesh_copies import ANGLE_ERROR, LOG_SCALE, Fields, mesh_with_fields
 from ..io.picture import drawing_svg, outline_svg
+from .figures import AngleError, AreaDistortion, Beltrami, MeanRoundness, Seconds, Step
 from .source import Source
 
 # UV units: a face whose longest edge is shorter is below the resolution of 32-bit UVs.
 UV_RESOLUTION: float = _koebe.uv_resolution
 # Disk units: how far from its circle a loop vertex may lie to count as on it.
 CIRCLE_TOLERANCE: float = _koebe.circle_tolerance
-
-
-class _AngleErrorBeforePolish(TypedDict, total=False):
-    before_polish: float
-
-
-class AngleError(_AngleErrorBeforePolish):
-    """Degrees, |angle in UV - angle on the surface| over all corners; before_polish is the mean without `polish`."""
-
-    mean: float
-    sd: float
-    max: float
-
-
-class Beltrami(TypedDict):
-    """|mu| of the face-wise linear maps, dimensionless."""
-
-    mean: float
-    max: float
-
-
-class LogAreaRatio(TypedDict):
-    """log of (UV area / surface area), area-weighted on the surface, minus its mean: 0 is even texel density."""
-
-    log_sd: float
-    log_min: float
-    log_max: float
-
-
-class _AreaBeforeBalance(TypedDict, total=False):
-    before_balance: LogAreaRatio
-
-
-class AreaDistortion(LogAreaRatio, _AreaBeforeBalance):
-    """before_balance is measured before `balance`, on this map's outer loop: the value of a call without balance,
-    unless that call has faces to turn back."""
-
-
-class Step(TypedDict):
-    """A step of the Koebe iteration: the loops it opened, the change of all circles, the mean e(gamma_k) after it.
-
-    mean_roundness_holes is the mean without the outer loop.
-    """
-
-    step: int
-    pair: list[int]
-    change: float
-    mean_roundness: float
-    mean_roundness_holes: float
-
-
-class MeanOverLoops(TypedDict):
-    """Means over all loops, and over the holes: all loops but the outer one; 0 without loops."""
-
-    all: float
-    holes: float
-
-
-class MeanRoundness(MeanOverLoops):
-    """Means of the paper's e(gamma_k), and of `roundness_least_squares`."""
-
-    least_squares: MeanOverLoops
-
-
-class Seconds(TypedDict):
-    """Time of each stage."""
-
-    read: float
-    topology: float
-    metric: float
-    factor: float
-    iterate: float
-    finish: float
-    write: float
-    total: float
 
 
 def figures_of(report: Mapping[str, Any]) -> dict[str, Any]:
@@ -113,7 +39,7 @@ class MapReport(Result):
     and report; times and memory do not count.
 
     converged        False: the map is not finished, and a warning tells why
-    angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of this module say, in 64 bits
+    angle_error_deg, beltrami, area_distortion, conformal_energy    as the types of figures.py say, in 64 bits
     angle_error_stored_deg    the angle error of the UVs as stored, in 32-bit floats. Faces without area count too: a
                      corner at a side without length counts as a right angle
     lost_area        share of the surface's area in faces without a positive area as stored

@@ -9,7 +9,7 @@ from .._options import takes
 from .._signatures import SchottkyOptions, Unpack
 from .._types import Complex, Floats
 from .domain_map import DomainMap, domain_map
-from .result import Seconds
+from .figures import Seconds
 from .source import Source
 
 

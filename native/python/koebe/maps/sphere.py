@@ -8,9 +8,9 @@ from .._native import _koebe
 from .._options import takes
 from .._signatures import SphereOptions, Unpack
 from .._types import Bools, Floats
-from ..io.meshes import SPHERE
+from ..io.mesh_copies import SPHERE
 from .domain_map import DomainMap, domain_map
-from .result import Seconds
+from .figures import Seconds
 from .source import Source
 
 

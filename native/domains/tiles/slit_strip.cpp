@@ -1,4 +1,4 @@
-#include "tiles/slit_map.h"
+#include "tiles/slit_strip.h"
 
 #include "core/connectivity.h"
 #include "core/errors.h"
@@ -121,7 +121,7 @@ ModulusBounds modulus_bounds(const PeriodicSurface& domain, RingHoles holes)
     return {1.0 / energy_on_faces(domain, f, 0.0), energy_on_faces(domain, g, 1.0)};
 }
 
-FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height)
+FlatMap slit_strip(const PeriodicSurface& domain, RingHoles holes, double& height)
 {
     const VectorXd f = FloatingLoops(domain, holes == RingHoles::concentric).between_rims();
     const VectorXd g = FloatingLoops(domain, holes == RingHoles::radial).round();

@@ -9,7 +9,7 @@ namespace koebe {
 /// Makes the rims straight and the holes slits: u and v are the two harmonic functions.
 /// @param holes concentric or radial @param height out: height over period
 /// Without holes it is the tube's conformal map to a cylinder. Nothing is exponential in it, so any height will do.
-FlatMap slit_map(const PeriodicSurface& domain, RingHoles holes, double& height);
+FlatMap slit_strip(const PeriodicSurface& domain, RingHoles holes, double& height);
 
 /// Of a ring's height over period.
 struct ModulusBounds {
