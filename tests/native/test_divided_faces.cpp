@@ -1,7 +1,7 @@
 // Laws of faces with vertices of neighbours on their edges: pieces cover them, and cracks separate nothing.
 #include "flat/divided_faces.h"
 
-#include "flat/regions.h"
+#include "flat/noise_level.h"
 #include "part_maps/part_mesh.h"
 #include "parts/parts.h"
 

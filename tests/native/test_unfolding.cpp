@@ -2,7 +2,7 @@
 #include "hard/unfolding.h"
 
 #include "core/connectivity.h"
-#include "flat/regions.h"
+#include "flat/noise_level.h"
 #include "mesh/topology.h"
 
 #include <gtest/gtest.h>

@@ -34,10 +34,8 @@ struct PlanarRegions {
 
 /// Each region grows from its largest face over all neighbours whose vertices lie near its plane. The plane is fitted
 /// again until the region stops to grow. So thin faces, whose own normals are only rounding, belong to the plane around
-/// them. The tolerance is that of stored coordinates. If few faces share a plane then, larger tolerances are tried, up
-/// to 0.4 % of the diagonal of the surface's box. The first one is taken for the noise at which large regions, whose
-/// edges bend to both sides, hold as much of the area as at the next two. Where many faces share planes exactly, noise
-/// is slight at most.
-PlanarRegions planar_regions(const CutSurface& surface);
+/// them. @param tolerance the largest distance of a vertex from its plane @param is_noise the tolerance is that of
+/// noise
+PlanarRegions regions_within(const CutSurface& surface, double tolerance, bool is_noise);
 
 }  // namespace koebe

@@ -6,7 +6,7 @@
 #include "cost/tuning.h"
 #include "cut/disjoint_sets.h"
 #include "darts/tension.h"
-#include "flat/regions.h"
+#include "flat/noise_level.h"
 #include "hard/laid_part.h"
 #include "mesh/connected_pieces.h"
 #include "planar/rigid_fit.h"
