@@ -127,8 +127,8 @@ inline constexpr double wasted_texels = 0.01;
 // Room in the square.
 /// energy | of a square as large as the surface | 29 models: coverage 57 -> 69 %, cuts 5 % longer
 inline constexpr double room_worth = 0.005;
-/// of the square | what convex parts cover when packed | as room_worth
-inline constexpr double packed_share = 0.85;
+/// area | no part that fits into this square is shortened | as room_worth
+inline constexpr double least_square = 1.45;
 /// energy | a cut of length 1 between planar regions: it has to save 2 % of the area | 24 models: coverage 63 -> 73 %
 inline constexpr double hard_cut = 1e-4;
 /// energy | one more island of planar regions: it has to save 1 % | as hard_cut: cuts 6 % longer

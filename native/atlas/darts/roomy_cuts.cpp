@@ -343,7 +343,7 @@ double square_for_all(const std::vector<const FlatPart*>& parts)
         const PlanarPoints outline = flat->points(loop, Eigen::all);
         sum += area_inside(outline(convex_hull(outline), Eigen::all));
     }
-    return sum / tuning::packed_share;
+    return std::max(sum, tuning::least_square);
 }
 
 std::vector<ThroughCut> roomy_cuts(const FlatPart& flat, double square, const ThroughPrice& price)

@@ -8,7 +8,7 @@
 
 namespace koebe {
 
-/// About the area of the square into which parts can be packed: their convex hulls, of which a packing covers a share.
+/// About the area of the square into which parts can be packed: that of their convex hulls, or least_square.
 double square_for_all(const std::vector<const FlatPart*>& parts);
 
 /// A few cuts of a part whose two pieces need less room, first the cut worth most of its cost. A part needs the area of
