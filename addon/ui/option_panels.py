@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The parts of the panel that are closed at first: options of the runs, and tools used less often."""
 
-from typing import Any
-
 import bpy
 
 from ..blender.targets import target_objects
@@ -14,7 +12,7 @@ from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_sv
 from ..operators.hole_rings import MESH_OT_koebe_loops_around_holes
 from ..operators.live import live
 from ..operators.option_presets import UV_OT_koebe_reset
-from ..operators.run_operator import draw_option, is_used
+from ..operators.run_operator import draw_option
 from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..state.option_properties import (
