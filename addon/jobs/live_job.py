@@ -22,7 +22,6 @@ from ..maps.parts import PartsIsland, cut_into_parts, move_parts
 from ..maps.wording import explain
 from . import native_package
 
-
 LONGEST = 10.0  # processor seconds until it gives up: a pin far outside its island must not end the work with Live
 LOOK_SECONDS = 0.25
 
