@@ -301,6 +301,15 @@ def add_socket(tree: Any, side: str, kind: str, name: str, default: Any = None, 
         made.default_value = default
 
 
+SEAM_COLOR = 0.859, 0.145, 0.071  # as Blender draws seams at first
+
+
+def seam_color() -> tuple[float, float, float]:
+    """The colour of seams in the 3D View, which is not in each theme of 5.2."""
+    red, green, blue = getattr(bpy.context.preferences.themes[0].view_3d, "edge_seam", SEAM_COLOR)
+    return red, green, blue
+
+
 def be_modifier(tree: Any) -> None:
     """Let geometry nodes be chosen in a modifier. Before 4.0 all can be chosen."""
     if hasattr(tree, "is_modifier"):

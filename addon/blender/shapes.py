@@ -95,6 +95,17 @@ def check_frames(context: bpy.types.Context, obj: MeshObject) -> None:
         )
 
 
+def deformed_surface(context: bpy.types.Context, obj: MeshObject, surface: Surface) -> Surface:
+    """The surface that was just read, in the shape that modifiers and shape keys give it now.
+
+    In Edit Mode only modifiers count that are shown there. Raises TransferError, as `check_frames` and `frame_shapes`.
+    """
+    check_frames(context, obj)
+    shape = _evaluated(context, obj, surface, context.scene.frame_current, with_triangles=True)
+    assert shape.triangle_corners is not None
+    return dataclasses.replace(surface, positions=shape.positions, triangle_corners=shape.triangle_corners)
+
+
 def _set_frame(scene: Any, frame: int, subframe: float) -> None:
     scene.frame_set(frame, subframe=subframe)
 

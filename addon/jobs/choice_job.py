@@ -3,9 +3,14 @@
 
 from typing import Any
 
+import numpy as np
+
+from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..maps.options import Options
 from ..maps.outcomes import Outcome, Progress, Task, share_of
+from ..maps.wording import counted
+from ..surfaces.surface import Surface
 from .map_job import Job
 
 
@@ -28,6 +33,16 @@ class ChoiceJob(Job):
     @property
     def _importance(self) -> str:
         return str(getattr(self.choice, "importance", ""))
+
+    def _check_pins(self, obj: MeshObject, surface: Surface) -> None:
+        """Raise TransferError if there are pinned UVs: a tile has its place in the square, and its periods."""
+        pins = self._pinned(obj, surface)
+        if pins.any():
+            count = counted(len(np.unique(surface.corner_vertex[pins])), "vertex", "vertices")
+            raise TransferError(
+                f"{obj.name}: pinned UVs of {count} would move. Unwrap to Parts keeps them. Or in the UV Editor Shift "
+                "P selects them and Alt P unpins them"
+            )
 
     def _begin(self) -> None:
         """Prepare before the objects are read."""

@@ -3,6 +3,8 @@
 
 import contextlib
 import dataclasses
+import threading
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -19,6 +21,9 @@ from ..maps.parts import PartsIsland, cut_into_parts, move_parts
 from ..maps.wording import explain
 from ..surfaces.errors import MapError
 from . import native_package
+
+LONGEST = 10.0  # processor seconds until it gives up: a pin far outside its island must not end the work with Live
+LOOK_SECONDS = 0.25
 
 
 def read_state(obj: MeshObject, layer: str) -> LiveState:
@@ -62,9 +67,34 @@ class LiveJob:
         self.even = even if choice.keep_angles else choice.even
         self._cleared = before.surface.seam & ~state.surface.seam
         self._made: tuple[np.ndarray, np.ndarray] | None = None
+        self._late = False
 
     def compute(self, progress: Progress | None = None) -> None:
-        """Touches no Blender data. Raises TransferError, koebe.Cancelled."""
+        """Touches no Blender data. Raises TransferError, also if it takes too long, or koebe.Cancelled."""
+        done = threading.Event()
+        threading.Thread(target=self._watch, args=(done,), daemon=True).start()
+        try:
+            self._compute(progress)
+        except self.koebe.Cancelled:
+            if not self._late:
+                raise
+            raise TransferError(
+                f"{self._task.name}: its islands did not follow within {LONGEST:.0f} s: go in smaller steps, or press "
+                "Unwrap"
+            ) from None
+        finally:
+            done.set()
+
+    def _watch(self, done: threading.Event) -> None:
+        """Raise the token if it takes too long."""
+        begin = time.process_time()
+        while not done.wait(LOOK_SECONDS):
+            if time.process_time() - begin > LONGEST:
+                self._late = True
+                self.cancel_token.cancel()
+                return
+
+    def _compute(self, progress: Progress | None) -> None:
         if self.even is not None:
             for task, start in self._starts(progress):
                 with contextlib.suppress(MapError):  # pins that are in the way there may not be in another map's

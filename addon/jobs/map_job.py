@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..blender import checker, map_writing, mesh_reading, rendered_layer, sequence_player, uv_layers
+from ..blender import checker, map_writing, mesh_reading, rendered_layer, sequence_player, shapes, uv_layers
 from ..blender.errors import TransferError
 from ..blender.mesh_object import MeshObject
 from ..blender.targets import Target, check_mesh, reason, with_own_meshes
@@ -105,6 +105,8 @@ class Job:
 
     def _surface(self, obj: MeshObject) -> Surface:
         surface, self._first = mesh_reading.read_surface(obj, self.selected_only, self._cut_at), None
+        if self.options.deformed:
+            surface = shapes.deformed_surface(bpy.context, obj, surface)
         self._dropped = np.zeros_like(surface.selected)
         if not np.isfinite(surface.positions).all():  # the solver refuses them, and names them
             return surface
@@ -131,7 +133,7 @@ class Job:
         center, point = (self._named(self._place(obj, one)) for one in (self.options.center, self.options.point))
         importance = mesh_reading.vertex_weights(obj, self._importance) if self._importance else None
         return Task(obj.name, surface, outer, mirrored, center=center, point=point, importance=importance,
-                    rest=self._rest(obj, surface))  # fmt: skip
+                    rest=self._rest(obj, surface), pins=self._pins(obj, surface))  # fmt: skip
 
     def _rest(self, obj: MeshObject, surface: Surface) -> np.ndarray | None:
         """The UVs of the layer, if faces that are not selected have some there; NaN where nothing is to stay."""
@@ -146,14 +148,20 @@ class Job:
         uv_layers.check_layer(obj, self.options.layer)
 
     def _check_pins(self, obj: MeshObject, surface: Surface) -> None:
-        """Raise TransferError if pinned UVs would move: no map here can keep them."""
-        pins = self._pinned(obj, surface)
-        if pins.any():
-            count = counted(len(np.unique(surface.corner_vertex[pins])), "vertex", "vertices")
+        """Raise TransferError if pinned UVs would move whatever they are."""
+        if (self.options.placement == "together" or self.options.symmetry != "off") and (
+            self._pinned(obj, surface).any()
+        ):
             raise TransferError(
-                f"{obj.name}: pinned UVs of {count} would move. Unwrap to Parts keeps them. Or in the UV Editor Shift "
-                "P selects them and Alt P unpins them"
+                f"{obj.name}: pinned UVs cannot be kept with Placement: Together or with Symmetry: choose others"
             )
+
+    def _pins(self, obj: MeshObject, surface: Surface) -> np.ndarray | None:
+        """The pinned UVs (C, 2), NaN elsewhere, or None."""
+        pinned = self._pinned(obj, surface)
+        if not pinned.any():
+            return None
+        return np.where(pinned[:, None], mesh_reading.read_layer(obj, self.options.layer), np.nan)
 
     def _pinned(self, obj: MeshObject, surface: Surface) -> np.ndarray:
         """Which corners (C,) of selected faces are pinned in the layer."""
@@ -163,7 +171,7 @@ class Job:
         """Subtract the least importance over all objects; without the group it is 0. Raises TransferError."""
         known = [task.importance for task in self.tasks if task.importance is not None]
         if not known:
-            raise TransferError(f"Importance is the vertex group {self._importance!r}, but no object has this group")
+            raise TransferError(f"More Texels is the vertex group {self._importance!r}, but no object has this group")
         least = min(float(one.min()) for one in known) if len(known) == len(self.tasks) else 0.0
         self.tasks = [
             dataclasses.replace(task, importance=None if task.importance is None else task.importance - least)

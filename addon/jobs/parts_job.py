@@ -40,7 +40,7 @@ class PartsJob(ChoiceJob):
         show = mesh_reading.vertex_weights(obj, self.choice.show) if self.choice.show else None
         like = self._density_of_layer(obj, surface) if self.choice.texels == "layer" else None
         task = dataclasses.replace(
-            super()._task(obj, surface), show=show, like=like, pins=self._pins(obj, surface), sketch=Sketch()
+            super()._task(obj, surface), show=show, like=like, sketch=Sketch()
         )
         self._places.append(surface.positions + np.array(obj.matrix_world.translation))
         return task
@@ -55,13 +55,6 @@ class PartsJob(ChoiceJob):
                 f"{obj.name}: pinned UVs cannot be kept on several tiles, in one atlas or with Overlap: "
                 "switch these off"
             )
-
-    def _pins(self, obj: MeshObject, surface: Surface) -> np.ndarray | None:
-        """The pinned UVs (C, 2), NaN elsewhere, or None."""
-        pinned = self._pinned(obj, surface)
-        if not pinned.any():
-            return None
-        return np.where(pinned[:, None], mesh_reading.read_layer(obj, self.options.layer), np.nan)
 
     def _density_of_layer(self, obj: MeshObject, surface: Surface) -> float:
         """The mean density of the layer that the parts shall be like. Raises TransferError."""

@@ -15,6 +15,7 @@ from ..surfaces.triangles import signed_areas
 from ..surfaces.uv_islands import uv_islands, vertex_uv
 from .outcomes import Task
 
+SAMPLES = 1000  # middles of triangles that are looked up, where islands lie over themselves
 SAME_SIZE = 0.995  # share of the wanted size that counts as all of it
 NO_ROOM = "no room beside the islands of the other faces: the new ones lie to the right of the UV square"
 PINNED_OVER = "islands with pins lie over each other, or over other islands"
@@ -140,7 +141,7 @@ def new_overlaps(koebe: ModuleType, surface: Surface, layer: np.ndarray, corners
     layer    (C, 2) of all UVs; NaN where there is no island
     corners  (m,) of the new islands
 
-    False, too, if islands that stay lie over each other, or an island over itself.
+    False, too, if only islands that stay lie over each other, or an island over itself.
     """
     is_new = np.zeros(len(layer), dtype=bool)
     is_new[corners] = True
@@ -157,4 +158,31 @@ def new_overlaps(koebe: ModuleType, surface: Surface, layer: np.ndarray, corners
         )  # fmt: skip
         return bool(made.overlaps)
 
-    return overlap(there, True) and not overlap(there, False) and not (others.any() and overlap(others, True))
+    if not overlap(there, True):
+        return False
+    if overlap(there, False) or (others.any() and overlap(others, True)):
+        return _new_lies_over(surface, layer.astype(np.float64), there, ~others)
+    return True
+
+
+def _new_lies_over(surface: Surface, layer: np.ndarray, there: np.ndarray, new: np.ndarray) -> bool:
+    """Whether the middle of a triangle lies in a triangle of another island, and one of the two is new.
+
+    there, new  (T,) bool. Of many triangles some stand for all
+    """
+    of_face = np.full(len(surface.face_size), -1)
+    inside = np.zeros(len(of_face), dtype=bool)
+    inside[surface.triangle_face[there]] = True
+    for number, island in enumerate(uv_islands(dataclasses.replace(surface, selected=inside), layer)):
+        of_face[island.faces] = number
+    own, new = of_face[surface.triangle_face[there]], new[there]
+    corners = layer[surface.triangle_corners[there]]
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    for t in np.unique(np.linspace(0, len(own) - 1, SAMPLES, dtype=np.int64)):
+        middle = corners[t].mean(axis=0)
+        near = np.flatnonzero((own != own[t]) & ((low < middle) & (middle < high)).all(axis=1) & (new | new[t]))
+        to = corners[near] - middle
+        sides = np.stack([to[:, k, 0] * to[:, k - 2, 1] - to[:, k, 1] * to[:, k - 2, 0] for k in range(3)])
+        if ((sides > 0.0).all(axis=0) | (sides < 0.0).all(axis=0)).any():
+            return True
+    return False

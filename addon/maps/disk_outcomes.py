@@ -38,6 +38,7 @@ class IslandOutcome:
     places      the requested vertices, by the solver's names: center, point
     opening     the cuts that made this piece, with others, or None
     symmetry    the island made symmetric, or None
+    pins        places of the sheet's pinned vertices, which its placement has brought there
     remark      why a requested step was not done, or empty
     has_circles whether its loops are held on circles
     """
@@ -55,6 +56,7 @@ class IslandOutcome:
     places: dict[str, Any] = dataclasses.field(default_factory=dict)
     opening: Opening | None = None
     symmetry: Symmetry | None = None
+    pins: dict[int, tuple[float, float]] = dataclasses.field(default_factory=dict)
     remark: str = ""
     has_circles: bool = True
 
@@ -88,7 +90,10 @@ class IslandOutcome:
 
     @functools.cached_property
     def _rounded(self) -> tuple[np.ndarray, np.ndarray]:
-        return rounded(self.placement.apply(self.flat), self.sheet.triangles)
+        points = self.placement.apply(self.flat)
+        for vertex, place in self.pins.items():
+            points[vertex] = place
+        return rounded(points, self.sheet.triangles, self.pins)
 
     @property
     def uv(self) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from .option_table import ROWS, Row, rows_of
 
-WRITTEN = ("layer", "checker", "checker_size", "checker_even", "weld")  # read and written alike by all maps
+WRITTEN = ("layer", "checker", "checker_size", "checker_even", "weld", "deformed")  # read and written alike by all maps
 OF_RUNS = (*WRITTEN, "threads")  # in the `Options` of every run
 
 # Blender keeps names of UV layers in 64 bytes, the last of them zero (3.4; 68 later).

@@ -20,7 +20,7 @@ from .uniformize import UV_OT_koebe_uniformize
 MAPS = {"DISK": "uniformize", "PARTS": "parts", **{domain.shape: name for name, domain in DOMAINS.items()}}
 SHAPE_OF = {of: shape for shape, of in MAPS.items()}
 ROWS = {
-    "AUTO": ("evenness", "keep_angles", "even", "margin", "seams", "checker", "checker_size"),
+    "AUTO": ("evenness", "keep_angles", "even", "margin", "cut_hard", "seams", "checker"),
     "DISK": ("even", "loops", "outer", "tube", "placement", "checker", "checker_size"),
     "PARTS": ("evenness", "keep_angles", "even", "margin", "cut_hard", "seams", "checker"),
     **{domain.shape: domain.redo for domain in DOMAINS.values()},

@@ -6,6 +6,7 @@ unit square, but an island that is turned and shrunk is rounded anew.
 """
 
 import itertools
+from collections.abc import Container
 
 import numpy as np
 
@@ -19,11 +20,13 @@ REACH = 3  # units in the last place that a coordinate may move
 STEPS = sorted(itertools.product(range(-REACH, REACH + 1), repeat=2), key=lambda step: step[0] ** 2 + step[1] ** 2)
 
 
-def rounded(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def rounded(
+    points: np.ndarray, triangles: np.ndarray, held: Container[int] = ()
+) -> tuple[np.ndarray, np.ndarray]:
     """Points (n, 2) in 32 bits, and which triangles (m, 3) are then flipped.
 
     If rounding turns a triangle over, one of its vertices moves to the nearest neighbour in the grid of 32-bit numbers
-    where all triangles around it are right.
+    where all triangles around it are right. The vertices `held` do not move.
     """
     uv = points.astype(np.float32)
     flipped = flipped_triangles(triangles, uv)
@@ -38,7 +41,7 @@ def rounded(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.n
         for vertex in corners:
             around.setdefault(vertex, []).append(corners)
     for t in turned:
-        _turn_back(uv, triangles[t].tolist(), around)
+        _turn_back(uv, triangles[t].tolist(), around, held)
     return uv, flipped_triangles(triangles, uv)
 
 
@@ -47,12 +50,14 @@ def _worth_it(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     return (signed_areas(points, triangles) > 0.0) & (longest_edges(points[triangles]) >= RESOLUTION)
 
 
-def _turn_back(uv: np.ndarray, corners: list[int], around: dict[int, list[list[int]]]) -> None:
+def _turn_back(
+    uv: np.ndarray, corners: list[int], around: dict[int, list[list[int]]], held: Container[int]
+) -> None:
     """Move one corner of a triangle by the fewest units in the last place that turn it back."""
     if _area(uv, corners) > 0.0:
         return
     for step in STEPS[1:]:
-        for vertex in corners:
+        for vertex in (one for one in corners if one not in held):
             before = uv[vertex].copy()
             uv[vertex] = before + np.array(step, dtype=np.float32) * np.spacing(np.abs(before))
             if all(_area(uv, triangle) > 0.0 for triangle in around[vertex]):

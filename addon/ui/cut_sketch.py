@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws where a model will be cut into parts over the 3D Views, while an operator computes."""
 
-from typing import Any
-
 import bpy
 from mathutils import Matrix
 
+from ..blender import compat
 from ..operators.run_operator import MapOperator
 from . import drawing
 
@@ -21,7 +20,7 @@ def draw() -> None:
     if MapOperator.sketch is None:
         return
     points = MapOperator.sketch[1].reshape(-1, 3)
-    seams: Any = bpy.context.preferences.themes[0].view_3d.edge_seam
+    seams = compat.seam_color()
     width = WIDTH * bpy.context.preferences.system.ui_scale
     drawing.segments(points, None, (*seams, BEHIND), width)
     nearer = Matrix.Identity(4)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The parts of the panel that are closed at first: options of the runs, and tools used less often."""
 
-from typing import Any
-
 import bpy
 
 from ..blender.targets import target_objects
@@ -14,7 +12,7 @@ from ..operators.flat_copy import OBJECT_OT_koebe_flat_copy, UV_OT_koebe_flat_sv
 from ..operators.hole_rings import MESH_OT_koebe_loops_around_holes
 from ..operators.live import live
 from ..operators.option_presets import UV_OT_koebe_reset
-from ..operators.run_operator import draw_option, is_used
+from ..operators.run_operator import draw_option
 from ..operators.sequence import UV_OT_koebe_sequence
 from ..operators.symmetrize import UV_OT_koebe_symmetrize
 from ..state.option_properties import (
@@ -26,7 +24,7 @@ from ..state.option_properties import (
     option_names,
     settings_of,
 )
-from .panel_parts import ClosedPanel, draw_map_button, draw_message, draw_sew, draw_unwrap
+from .panel_parts import ClosedPanel, draw_map_button, draw_message, draw_sew, draw_unwrap, draw_weights
 
 
 class DiskPanel(ClosedPanel):
@@ -41,7 +39,6 @@ class DiskPanel(ClosedPanel):
         draw_long(column, settings, "outer")
         for name in ("center", "point", "balance"):
             draw_option(column, settings, name, context)
-        draw_weights(column, settings, "importance", context)
         for name in ("loops", "tube", "upright", "symmetry", "polish"):
             draw_option(column, settings, name, context)
 
@@ -57,26 +54,6 @@ def draw_long(column: bpy.types.UILayout, settings: KoebeSettings, option: str) 
     split.prop(settings, option, text="")
 
 
-def draw_weights(column: bpy.types.UILayout, settings: KoebeSettings, option: str, context: bpy.types.Context) -> None:
-    """Draw the vertex group of an option, and under it the button to Weight Paint, or back."""
-    obj: Any = context.active_object
-    row = column.row()
-    row.use_property_split = False
-    row.active = is_used(settings, option)
-    split = row.split(factor=0.44)  # a little more room than Blender gives to names, as Importance needs it
-    name = split.row()
-    name.alignment = "RIGHT"
-    name.label(text=ROWS[option].blender["label"])
-    if obj is None or obj.type != "MESH":
-        split.prop(settings, option, text="")
-        return
-    value = split.column(align=True)
-    value.prop_search(settings, option, obj, "vertex_groups", text="")
-    painting = obj.mode == "WEIGHT_PAINT"
-    text = "Stop Painting" if painting else "Paint It"
-    value.operator("paint.weight_paint_toggle", text=text, depress=painting)
-
-
 class PartsPanel(ClosedPanel):
     """Where parts are cut."""
 
@@ -87,7 +64,6 @@ class PartsPanel(ClosedPanel):
         column, settings = self.aligned_layout().column(), settings_of(context)
         column.prop(settings, "darts")
         draw_weights(column, settings, "show", context)
-        draw_weights(column, settings, "importance", context)
         for name in ("seams", "write_seams", "cut_at", "hard_angle"):
             draw_option(column, settings, name, context)
         whole = column.column()

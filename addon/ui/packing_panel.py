@@ -11,7 +11,7 @@ from ..operators.texel_density import (
 )
 from ..state.density_report import density_of, density_words
 from ..state.option_properties import KoebeSettings, settings_of
-from .panel_parts import ClosedPanel, draw_pack
+from .panel_parts import ClosedPanel, draw_pack, draw_weights
 
 NAMES = 0.4  # of a row's width, as Blender gives to names
 
@@ -67,6 +67,7 @@ def draw_density(column: bpy.types.UILayout, context: bpy.types.Context, setting
     column.operator(UV_OT_koebe_copy_density.bl_idname, text="Copy from Active")
     for name in ("texels", *(("like",) if settings.texels == "layer" else ())):
         draw_option(column, settings, name, context)
+    draw_weights(column, settings, "importance", context)
 
 
 def draw_line(column: bpy.types.UILayout, name: str, value: str) -> None:

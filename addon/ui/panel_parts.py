@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..maps.domain_table import DOMAINS
+from ..maps.option_table import ROWS
 from ..operators.pack import UV_OT_koebe_pack
+from ..operators.run_operator import is_used
 from ..operators.sew import UV_OT_koebe_sew
 from ..operators.unwrap import SHAPE_OF, UV_OT_koebe_unwrap
 from ..state.option_properties import KoebeSettings, copy_options
@@ -96,3 +98,23 @@ def draw_message(layout: bpy.types.UILayout, message: str, most: int = 0) -> int
     for line in wrapped[: most or None]:
         lines.label(text=line)
     return len(wrapped)
+
+
+def draw_weights(column: bpy.types.UILayout, settings: KoebeSettings, option: str, context: bpy.types.Context) -> None:
+    """Draw the vertex group of an option, and under it the button to Weight Paint, or back."""
+    obj: Any = context.active_object
+    row = column.row()
+    row.use_property_split = False
+    row.active = is_used(settings, option)
+    split = row.split(factor=0.44)  # a little more room than Blender gives to names, as More Texels needs it
+    name = split.row()
+    name.alignment = "RIGHT"
+    name.label(text=ROWS[option].blender["label"])
+    if obj is None or obj.type != "MESH":
+        split.prop(settings, option, text="")
+        return
+    value = split.column(align=True)
+    value.prop_search(settings, option, obj, "vertex_groups", text="")
+    painting = obj.mode == "WEIGHT_PAINT"
+    text = "Stop Painting" if painting else "Paint It"
+    value.operator("paint.weight_paint_toggle", text=text, depress=painting)

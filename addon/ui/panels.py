@@ -72,15 +72,19 @@ def draw_dials(column: bpy.types.UILayout, settings: KoebeSettings) -> None:
 
 
 def draw_modifiers(column: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """What of an object with modifiers is unwrapped."""
-    if any(map(makes_faces, target_objects(context))):
+    """What of an object with modifiers or shape keys is unwrapped."""
+    objects = target_objects(context)
+    if any(map(makes_faces, objects)):
         draw_message(column, "The mesh before its modifiers is unwrapped: apply them to unwrap what they make")
+    elif any(obj.data.shape_keys or any(one.show_viewport for one in obj.modifiers) for obj in objects):
+        column.prop(settings_of(context), "deformed")
 
 
 def draw_pins(column: bpy.types.UILayout, context: bpy.types.Context, settings: KoebeSettings) -> None:
     """Before a run that would move pinned UVs: the button of the map that keeps them."""
     if settings.shape not in OF_PARTS and any(shows_pins(obj, settings.layer) for obj in target_objects(context)):
-        draw_message(column, "This shape cannot keep pinned UVs. Parts do")
+        most = "A disk keeps two pinned UVs" if settings.shape == "DISK" else "This shape keeps no pinned UVs"
+        draw_message(column, f"{most}. Parts keep all")
         draw_map_button(column, settings, "parts")
 
 

@@ -167,7 +167,7 @@ def pin_one(obj, layer="Koebe"):
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-@pytest.mark.parametrize("operator", ["uniformize", "ring", "sequence"])
+@pytest.mark.parametrize("operator", ["torus", "ring", "sequence"])
 def test_pinned_uvs_never_move(addon, mode, operator):
     obj = scenes.add_panel()
     assert bpy.ops.uv.koebe_uniformize() == {"FINISHED"}

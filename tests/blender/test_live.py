@@ -291,3 +291,26 @@ def test_no_handler_is_left(live):
     assert [len(handlers) for handlers, _ in live.HANDLERS] == [count + 1 for count in counts]
     bpy.context.window_manager.koebe_live = False
     assert [len(handlers) for handlers, _ in live.HANDLERS] == counts
+
+
+def test_it_gives_up_and_says_so(live, addon, monkeypatch):
+    obj = live_sheet(live)
+    job = addon("jobs.live_job")
+    compute = job.LiveJob._compute
+
+    def slow(self, progress):
+        while not self._late:
+            sum(range(1000))
+        compute(self, progress)
+
+    monkeypatch.setattr(job, "LONGEST", 0.05)
+    monkeypatch.setattr(job.LiveJob, "_compute", slow)
+    before = uv_of(obj)
+    mark(obj, 3, True)
+    follow(live)
+    assert "its islands did not follow within 0 s: go in smaller steps" in live.live.message
+    assert np.array_equal(uv_of(obj), before)
+    monkeypatch.undo()
+    mark(obj, 9, True)
+    follow(live)
+    assert live.live.message == ""

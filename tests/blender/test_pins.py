@@ -94,3 +94,53 @@ def test_two_pins_of_one_vertex_need_a_cut():
     obj.data.edges.foreach_set("use_seam", [False] * len(obj.data.edges))
     with pytest.raises(RuntimeError, match="vertex 80 is pinned at two places, and no cut parts them"):
         bpy.ops.uv.koebe_parts(seams="only")
+
+
+def placed(count):
+    """A mapped panel, and so many of its vertices pinned where they were after a turn, at half the size."""
+    obj = scenes.add_panel()
+    assert bpy.ops.uv.koebe_uniformize(checker=False) == {"FINISHED"}
+    uv, vertex = scenes.vertex_uv(obj), [3, 200, 400][:count]
+    turned = 0.3 + 0.5 * (uv[vertex] - 0.5) @ np.array([[0.6, 0.8], [-0.8, 0.6]])
+    return obj, put(obj, dict(zip(vertex, turned.tolist(), strict=True)))
+
+
+@pytest.mark.parametrize("shape", ["DISK", ""])
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_disk_moves_and_turns_to_two_pins_and_its_circles_stay(shape, mode, count):
+    obj, pinned = placed(count)
+    before = scenes.corner_uv(obj.data, "Koebe")
+    scenes.edit_all(mode)
+    call = bpy.ops.uv.koebe_unwrap if shape else bpy.ops.uv.koebe_uniformize
+    assert call(checker=False, **({"shape": shape} if shape else {})) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    after = scenes.corner_uv(obj.data, "Koebe")
+    assert np.array_equal(after[pinned], before[pinned]) and not np.array_equal(after, before)
+    assert (scenes.signed_areas(obj.data, "Koebe") > 0).all()
+    for loop in scenes.boundary_loops(obj.data):
+        _, radius, off = scenes.fit_circle(scenes.loop_uv(obj.data, "Koebe", loop))
+        assert off < 1e-4 * radius
+
+
+def test_a_disk_with_three_pins_offers_parts_and_nothing_changes():
+    obj, _ = placed(3)
+    before = scenes.corner_uv(obj.data, "Koebe")
+    with pytest.raises(RuntimeError, match="3 UVs are pinned: vertices 3, 200, 400. With round holes two can be kept"):
+        bpy.ops.uv.koebe_uniformize()
+    assert np.array_equal(scenes.corner_uv(obj.data, "Koebe"), before)
+    assert bpy.context.window_manager.koebe_uv.islands[0].offer == "parts"
+    for options in ({"placement": "together"}, {"symmetry": "auto"}):
+        with pytest.raises(RuntimeError, match="pinned UVs cannot be kept with Placement: Together"):
+            bpy.ops.uv.koebe_uniformize(**options)
+
+
+def test_disks_without_pins_go_beside_those_with_pins():
+    obj = scenes.add_sheet(seams=(4, 8))
+    assert bpy.ops.uv.koebe_uniformize(checker=False) == {"FINISHED"}
+    pinned = put(obj, {0: (0.3, 0.3), 12: (0.3, 0.7)})
+    before = scenes.corner_uv(obj.data, "Koebe")
+    assert bpy.ops.uv.koebe_uniformize(checker=False) == {"FINISHED"}
+    after = scenes.corner_uv(obj.data, "Koebe")
+    assert np.array_equal(after[pinned], before[pinned])
+    assert covered(obj, "Koebe", 400).max() == 1
