@@ -184,6 +184,14 @@ def test_too_near_is_refused_or_said():
         assert found.converged or found.error > 1e-10
 
 
+def test_a_thin_slit_is_refused_early():
+    stages = []
+    with pytest.raises(koebe.SolverError) as refused:
+        koebe.planar([3 * SQUARE, [-1, 1, 1 + 0.005j, -1 + 0.005j]], progress=lambda _, stage: stages.append(stage))
+    assert refused.value.elements == [1]
+    assert stages and "resolution 2" not in stages
+
+
 def test_options_are_the_tables():
     row = _option_table.rows("planar")
     native = _koebe.PlanarOptions()

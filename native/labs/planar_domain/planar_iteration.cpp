@@ -21,7 +21,6 @@ constexpr double mirror_share = 0.9;           // of another rim's radius, for p
 constexpr double densest = 0.1, growth = 1.2;  // of samples in a gap: the first one's place, ratio of their places
 constexpr double least_gap = 1e-9;             // of the radius
 constexpr double share_of_residual = 1e-3;     // of the first maps: what the iteration may leave beside it
-constexpr double unresolved = 0.1;             // residual of a first map: more poles would not be enough
 
 /// Twice as many points as a layout's samples, between them and nearer to corners, to judge a map by.
 RimLayout check_layout(const PlanarRim& rim, const RimPolygon& polygon, bool is_outer, RimResolution resolution)
@@ -148,7 +147,7 @@ std::size_t KoebeIteration::most_work() const
     return most;
 }
 
-void KoebeIteration::run(int max_sweeps, ExecutionContext& context)
+bool KoebeIteration::run(int max_sweeps, const std::vector<double>& enough, ExecutionContext& context)
 {
     double last = std::numeric_limits<double>::infinity();
     for (sweeps = 0; sweeps < max_sweeps; ++sweeps) {
@@ -157,13 +156,14 @@ void KoebeIteration::run(int max_sweeps, ExecutionContext& context)
             context.advance(static_cast<double>(sweeps * layouts_.size() + k) /
                             static_cast<double>((sweeps + 3) * layouts_.size()));
             most = std::max(most, turn(k));
-            if (sweeps == 0 && !(first_residuals.back() < unresolved)) return;
+            if (sweeps == 0 && !(first_residuals.back() < enough[k])) return false;
         }
-        const double enough = std::max(round_enough, share_of_residual * *std::ranges::max_element(first_residuals));
-        if (sweeps > 0 && (most < enough || (most < 1e-9 && most > 0.5 * last) || layouts_.size() == 1)) break;
+        const double still = std::max(round_enough, share_of_residual * *std::ranges::max_element(first_residuals));
+        if (sweeps > 0 && (most < still || (most < 1e-9 && most > 0.5 * last) || layouts_.size() == 1)) break;
         if (!std::isfinite(most)) break;
         last = most;
     }
+    return true;
 }
 
 std::vector<double> KoebeIteration::residuals() const

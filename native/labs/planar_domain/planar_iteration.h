@@ -20,14 +20,16 @@ public:
 
     /// The entries of the largest system.
     std::size_t most_work() const;
-    void run(int max_sweeps, ExecutionContext& context);
+    /// @param enough for each rim the residual that its own map has to be below
+    /// @return false: a map is not, and the run ended at it
+    bool run(int max_sweeps, const std::vector<double>& enough, ExecutionContext& context);
     /// Distances of the rims' images from circles, the outer one of radius 1.
     std::vector<double> residuals() const;
     std::vector<Circle> circles() const;
     Circle outer() const;
 
     std::vector<RimMap> maps;
-    std::vector<double> first_residuals;  ///< of the rims' own maps. The run ends at one that resolves nothing
+    std::vector<double> first_residuals;  ///< of the rims' own maps
     int sweeps = 0;
     Eigen::Index unknowns = 0;
 

@@ -17,10 +17,12 @@
 namespace koebe {
 namespace {
 
+constexpr RimResolution first_look{6, 3, 64};  // a tenth of the next one's time
 constexpr std::array resolutions{RimResolution{14, 6, 128}, RimResolution{20, 9, 192}, RimResolution{28, 12, 256},
                                  RimResolution{38, 16, 384}, RimResolution{50, 20, 512}};
 constexpr std::size_t most_entries = 40000000;  // of a system: 320 MB
 constexpr double useless = 1e-3;                // residual: no circles
+constexpr double unresolved = 0.1;              // residual of a rim's own map: more poles would not be enough
 constexpr int mean_places = 48;                 // round a pole
 constexpr double mean_share = 0.25;             // of the room round a pole
 constexpr double off_domain = 1e-8;             // disk units: images so far off the circle domain are refused
@@ -51,15 +53,16 @@ double change(const std::vector<Circle>& a, const std::vector<Circle>& b)
     return most;
 }
 
-/// Whether the finest resolution would not resolve the rims, if residuals go on to fall as they did.
-/// @param last of the next coarser resolution, or empty @param left finer resolutions
-bool is_hopeless(const std::vector<double>& now, const std::vector<double>& last, std::size_t left)
+/// The residuals that the rims' own maps have to be below at a resolution. With a greater one the finest resolution
+/// would not resolve the rim, if residuals go on to fall as they did.
+/// @param last residuals of the next coarser resolution, or empty @param left finer resolutions
+std::vector<double> enough_for(std::size_t rims, const std::vector<double>& last, std::size_t left)
 {
-    for (std::size_t k = 0; k < now.size(); ++k)
-        if (k < last.size() && now[k] > useless &&
-            !(now[k] * std::pow(now[k] / last[k], static_cast<double>(left)) < useless))
-            return true;
-    return false;
+    std::vector<double> all(rims, unresolved);
+    const double share = 1.0 / static_cast<double>(left + 1);  // now (now / last)^left < useless
+    for (std::size_t k = 0; k < last.size(); ++k)
+        all[k] = std::max(useless, std::pow(useless, share) * std::pow(last[k], 1.0 - share));
+    return all;
 }
 
 /// The middle of a rim's box, and half of its diagonal.
@@ -285,10 +288,15 @@ PlanarResult planar_map(const std::vector<PlanarRim>& rims, const PlanarOptions&
             if (levels > 0) break;
             throw InputError("a rim has too many corners for a dense system");
         }
-        iteration.run(options.max_sweeps, context);
+        const std::size_t left = resolutions.size() - static_cast<std::size_t>(levels) - 1;
+        const std::vector<double> enough = enough_for(rims.size(), residuals_of_rims, left);
+        if (levels == 0) {
+            KoebeIteration look(unit, first_look);
+            if (!look.run(1, enough, context)) refuse(look.first_residuals, domain.order);
+        }
+        const bool is_resolved = iteration.run(options.max_sweeps, enough, context);
         ++levels;
-        if (iteration.maps.size() < rims.size() ||
-            is_hopeless(iteration.first_residuals, residuals_of_rims, resolutions.size() - levels)) {
+        if (!is_resolved) {
             if (best.circles.empty()) residuals = iteration.first_residuals;
             break;
         }
