@@ -9,13 +9,10 @@ namespace {
 
 constexpr std::size_t columns_at_a_time = 32768;  // columns per thread
 
-/// K on the interior, the unit matrix on cut vertices, nothing between them; 1 more on the diagonal of kept vertices.
-/// The pattern does not depend on the values.
-SparseMatrix shifted_and_cut(const SparseMatrix& laplacian, const std::vector<char>& is_cut,
-                             const std::vector<Index>& kept)
+/// K on the other vertices, the unit matrix on cut vertices, nothing between them. The pattern does not depend on the
+/// values.
+SparseMatrix with_cut_vertices(const SparseMatrix& laplacian, const std::vector<char>& is_cut)
 {
-    std::vector<char> is_kept(laplacian.rows(), 0);
-    for (const Index v : kept) is_kept[v] = 1;
     SparseMatrix result(laplacian.rows(), laplacian.cols());
     Index* const begin = result.outerIndexPtr();
     const auto each_column = [&](const auto& work) {
@@ -43,7 +40,7 @@ SparseMatrix shifted_and_cut(const SparseMatrix& laplacian, const std::vector<ch
         for (SparseMatrix::InnerIterator it(laplacian, column); it; ++it)
             if (!is_cut[it.row()]) {
                 *row++ = static_cast<Index>(it.row());
-                *value++ = it.value() + (is_kept[column] && it.row() == column ? 1.0 : 0.0);
+                *value++ = it.value();
             }
     });
     return result;
@@ -63,22 +60,26 @@ CondensedLaplacian::CondensedLaplacian(const SparseMatrix& laplacian, const std:
                                        Index grounded)
     : ground_(laplacian, {boundary.begin(), boundary.begin() + grounded}),
       kept_(boundary.begin() + grounded, boundary.end()),
-      cholesky_(shifted(laplacian), kept_)
+      cholesky_(grounded ? SparseCholesky(cut(laplacian), kept_, SparseCholesky::most_in_one_piece, 1.0)
+                         : SparseCholesky(laplacian, kept_, SparseCholesky::most_in_one_piece, 1.0))
 {
 }
 
-/// The matrix that is factored.
-SparseMatrix CondensedLaplacian::shifted(const SparseMatrix& laplacian) const
+/// K without the grounded vertices.
+SparseMatrix CondensedLaplacian::cut(const SparseMatrix& laplacian) const
 {
     std::vector<char> is_cut(laplacian.rows(), 0);
     for (const Index v : ground_.vertices()) is_cut[v] = 1;
-    return shifted_and_cut(laplacian, is_cut, kept_);
+    return with_cut_vertices(laplacian, is_cut);
 }
 
 void CondensedLaplacian::renew(const SparseMatrix& laplacian)
 {
     ground_.renew(laplacian);
-    cholesky_.refactorize(shifted(laplacian));
+    if (grounded())
+        cholesky_.refactorize(cut(laplacian));
+    else
+        cholesky_.refactorize(laplacian);
 }
 
 bool CondensedLaplacian::reorder_boundary(const std::vector<Index>& boundary)

@@ -46,7 +46,7 @@ public:
     VectorXd flux_to_grounded(const VectorXd& values) const;
 
 private:
-    SparseMatrix shifted(const SparseMatrix& laplacian) const;
+    SparseMatrix cut(const SparseMatrix& laplacian) const;
 
     GroundColumns ground_;
     std::vector<Index> kept_;  // the boundary that is not grounded, in the factor's order

@@ -145,24 +145,28 @@ const SparseMatrix& both_triangles(const SparseMatrix& matrix, SparseMatrix& roo
 }  // namespace
 
 struct SparseCholesky::Impl {
-    Impl(Analysis analysis, const std::vector<Index>& rows_kept_last) : l(std::move(analysis)), last(rows_kept_last) {}
+    Impl(Analysis analysis, const std::vector<Index>& rows_kept_last, double added_to_last)
+        : l(std::move(analysis)), last(rows_kept_last), shift{inner_count(), added_to_last}
+    {
+    }
 
     SupernodalFactor l;
     std::vector<Index> last;
+    DiagonalShift shift;
     MatrixXd trailing;                           // L_BB in the factor's own order
     std::unique_ptr<MultifrontalFactor> fronts;  // for a matrix that changes in a few rows
 
     /// @throws OutOfMemory where the factor would not fit
-    static std::unique_ptr<Impl> of(Analysis analysis, const std::vector<Index>& last)
+    static std::unique_ptr<Impl> of(Analysis analysis, const std::vector<Index>& last, double shift = 0.0)
     {
         const double trailing_and_schur = 2.0 * sizeof(double) * std::pow(last.size(), 2);
         require_memory(analysis.memory() + trailing_and_schur, "the factorization");
-        return std::make_unique<Impl>(std::move(analysis), last);
+        return std::make_unique<Impl>(std::move(analysis), last, shift);
     }
 
     void take(const SparseMatrix& matrix)
     {
-        l.factorize(matrix);
+        l.factorize(matrix, shift);
         take_trailing();
     }
     void take_trailing() { trailing = l.trailing_block(static_cast<Index>(last.size())); }
@@ -175,7 +179,8 @@ struct SparseCholesky::Impl {
     MatrixXd back_substitution_to(const std::vector<Index>& wanted, MatrixXd y) const;
 };
 
-SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last, Index split_rows)
+SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last, Index split_rows,
+                               double shift)
 {
     const Index size = static_cast<Index>(matrix.rows());
     const bool large = size > split_rows;
@@ -183,7 +188,7 @@ SparseCholesky::SparseCholesky(const SparseMatrix& matrix, const std::vector<Ind
     const SparseMatrix& given = large ? both_triangles(matrix, room) : matrix;
     std::optional<Analysis> pieces;
     if (large) pieces = analyze_in_pieces(given, last, std::max(split_rows, size / pieces_of_large));
-    impl_ = Impl::of(pieces ? *std::move(pieces) : analyze(given, last), last);
+    impl_ = Impl::of(pieces ? *std::move(pieces) : analyze(given, last), last, shift);
     impl_->take(given);
 }
 

@@ -15,10 +15,14 @@ namespace koebe {
 /// L_BB L_BB', and the leading part is the factor of A_II. I are all other rows.
 class SparseCholesky {
 public:
+    static constexpr Index most_in_one_piece = 50000;  ///< rows
+
     /// @param matrix symmetric: the lower triangle, or both triangles @param last the rows B
     /// @param split_rows a matrix with more rows is cut into pieces that are factored side by side (factor/analysis.h)
-    /// @throws SolverError if the matrix is not positive definite
-    explicit SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last = {}, Index split_rows = 50000);
+    /// @param shift is added to the diagonal of B, so that no copy of the matrix is needed
+    /// @throws SolverError if the sum is not positive definite
+    explicit SparseCholesky(const SparseMatrix& matrix, const std::vector<Index>& last = {},
+                            Index split_rows = most_in_one_piece, double shift = 0.0);
 
     /// Prepares factors of A + blocks on some sets of rows, A = matrix. refactorize(blocks) makes the first factor.
     /// @param changing the sets; A has an entry, if only an explicit 0, between any two rows of a set
@@ -29,7 +33,8 @@ public:
     SparseCholesky(SparseCholesky&&) noexcept;
     SparseCholesky& operator=(SparseCholesky&&) noexcept;
 
-    /// Factors another matrix with the same pattern. With changing blocks there is no factor until refactorize(blocks).
+    /// Factors another matrix with the same pattern and the same shift. With changing blocks there is no factor until
+    /// refactorize(blocks).
     void refactorize(const SparseMatrix& matrix);
 
     /// Factors A + symmetric blocks, one for each set that changes. Only the supernodes that depend on the blocks are

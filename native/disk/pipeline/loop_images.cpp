@@ -39,10 +39,8 @@ KoebeOutcome run_engine(const MapInput& input, const AssembledInput& assembled, 
     if (options.engine == Engine::mesh)
         return koebe_mesh(input.vertices, input.surface, input.loops, options, context, options.mesh).outcome;
     if (!assembled.factored) return {};
-    const IntrinsicMetric& metric = assembled.metric;
-    return koebe_condensed(assembled.laplacian, assembled.boundary, input.loops, input.edges,
-                           vertex_areas(metric.triangles, metric.lengths, input.surface.vertex_count), options, context,
-                           last);
+    return koebe_condensed(assembled.laplacian, assembled.boundary, input.loops, input.edges, assembled.areas, options,
+                           context, last);
 }
 
 bool finite(const KoebeOutcome& outcome)
@@ -79,6 +77,8 @@ void AssembledInput::take_metric(const MapInput& input)
     uses = 1;
     metric = intrinsic_metric(input.vertices, input.surface);
     take_laplacian(curvature_weights(metric, input.surface.vertex_count), input);
+    areas = vertex_areas(metric.triangles, metric.lengths, input.surface.vertex_count);
+    if (!moves) metric = {};
 }
 
 void AssembledInput::take_laplacian(const EdgeLengths& halves, const MapInput& input)
@@ -95,6 +95,7 @@ bool AssembledInput::move_metric(const MapInput& input)
     metric = *std::move(kept);
     factored = false;
     moved = true;
+    areas = vertex_areas(metric.triangles, metric.lengths, input.surface.vertex_count);
     correct_for_curvature(metric, input.surface.vertex_count, halves);
     if (uses > 1) {
         if (!places) places.emplace(metric.triangles, laplacian);

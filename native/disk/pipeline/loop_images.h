@@ -12,7 +12,9 @@ namespace koebe {
 
 /// The matrices of a surface, assembled in two steps, and again when its vertices have moved.
 struct AssembledInput {
-    IntrinsicMetric metric;
+    bool moves = false;                     ///< whether the metric is kept for move_metric
+    IntrinsicMetric metric;                 ///< empty if it is not kept
+    VectorXd areas;                         ///< of the metric, of each vertex
     SparseMatrix laplacian;                 ///< curvature_weights of the metric
     int uses = 0;                           ///< metrics so far on its triangles, counted up to two
     std::optional<LaplacianPlaces> places;  ///< of these triangles, from the third metric on them

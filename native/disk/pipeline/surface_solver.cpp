@@ -35,6 +35,7 @@ SurfaceSolver::SurfaceSolver(const Vertices& vertices, const Triangles& triangle
     impl_->options = options;
     impl_->vertex_count = static_cast<Index>(vertices.rows());
     auto problem = std::make_shared<Problem>(prepare_problem(vertices, triangles, options));
+    problem->assembled.moves = true;
     if (chooses_outer_loop(options, problem->whole))
         impl_->kept = std::move(problem);
     else
@@ -61,6 +62,7 @@ UniformizeResult SurfaceSolver::uniformize(const Vertices& vertices, ExecutionCo
                           places = impl_->first_places](ExecutionContext& own) {
         const auto prepare = [&]() -> Problem& {
             if (!begun || !move_problem(*problem, vertices)) *problem = prepare_problem(vertices, *triangles, options);
+            problem->assembled.moves = true;
             problem->first_places = places;
             return *problem;
         };

@@ -11,9 +11,11 @@ namespace {
 
 class PieceFactorization {
 public:
-    PieceFactorization(const SparseMatrix& matrix, const Supernodes& l, const FactorPart& part, Index tops,
-                       double* values, const LowerMatrix& rest, const MatrixPlaces* places)
+    PieceFactorization(const SparseMatrix& matrix, const DiagonalShift& shift, const Supernodes& l,
+                       const FactorPart& part, Index tops, double* values, const LowerMatrix& rest,
+                       const MatrixPlaces* places)
         : matrix_(matrix),
+          shift_(shift),
           places_(places),
           l_(l),
           part_(part),
@@ -81,12 +83,14 @@ private:
         if (places_) {
             for (Index e = places_->begin[s]; e < places_->begin[s + 1]; ++e)
                 to[places_->place[e]] = matrix_.valuePtr()[places_->entry[e]];
-            return;
+        } else {
+            for (Index c = 0; c < w; ++c)
+                for (SparseMatrix::InnerIterator it(matrix_, l_.order[first(s) + c]); it; ++it)
+                    if (const Index row = l_.rank[it.row()]; row >= first(s) + c)
+                        to[place(row) + static_cast<std::ptrdiff_t>(c) * h] = it.value();
         }
-        for (Index c = 0; c < w; ++c)
-            for (SparseMatrix::InnerIterator it(matrix_, l_.order[first(s) + c]); it; ++it)
-                if (const Index row = l_.rank[it.row()]; row >= first(s) + c)
-                    to[place(row) + static_cast<std::ptrdiff_t>(c) * h] = it.value();
+        for (Index c = std::max(shift_.first - first(s), 0); c < w; ++c)
+            to[c + static_cast<std::ptrdiff_t>(c) * h] += shift_.number;
     }
 
     /// Subtracts the contribution of an earlier supernode to these columns.
@@ -165,6 +169,7 @@ private:
     }
 
     const SparseMatrix& matrix_;
+    const DiagonalShift& shift_;
     const MatrixPlaces* places_;
     const Supernodes& l_;
     const FactorPart& part_;
@@ -184,10 +189,11 @@ private:
 
 }  // namespace
 
-void factorize_piece(const SparseMatrix& matrix, const Supernodes& l, const FactorPart& part, Index tops,
-                     double* values, const LowerMatrix& rest, const MatrixPlaces* places)
+void factorize_piece(const SparseMatrix& matrix, const DiagonalShift& shift, const Supernodes& l,
+                     const FactorPart& part, Index tops, double* values, const LowerMatrix& rest,
+                     const MatrixPlaces* places)
 {
-    PieceFactorization(matrix, l, part, tops, values, rest, places).run();
+    PieceFactorization(matrix, shift, l, part, tops, values, rest, places).run();
 }
 
 }  // namespace koebe::detail

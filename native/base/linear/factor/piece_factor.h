@@ -13,7 +13,8 @@ namespace koebe::detail {
 /// @param rest of the size of the interface: the update of the piece is subtracted from it
 /// @param places of the matrix, if known; then the piece is the whole matrix
 /// @throws SolverError if the matrix is not positive definite
-void factorize_piece(const SparseMatrix& matrix, const Supernodes& l, const FactorPart& part, Index tops,
-                     double* values, const LowerMatrix& rest, const MatrixPlaces* places = nullptr);
+void factorize_piece(const SparseMatrix& matrix, const DiagonalShift& shift, const Supernodes& l,
+                     const FactorPart& part, Index tops, double* values, const LowerMatrix& rest,
+                     const MatrixPlaces* places = nullptr);
 
 }  // namespace koebe::detail

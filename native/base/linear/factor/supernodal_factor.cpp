@@ -96,7 +96,7 @@ SupernodalFactor::SupernodalFactor(Analysis analysis)
 {
 }
 
-void SupernodalFactor::factorize(const SparseMatrix& matrix)
+void SupernodalFactor::factorize(const SparseMatrix& matrix, const DiagonalShift& shift)
 {
     const ProfiledStage profiled("eliminate");
     const MatrixPlaces* const places = is_in_pieces() ? nullptr : pattern_.places(matrix, *this);
@@ -104,19 +104,19 @@ void SupernodalFactor::factorize(const SparseMatrix& matrix)
     std::vector<LowerMatrix> rests(parts_.size());
     each_beside(piece_count_, [&](std::size_t p) {
         rests[p] = pool.take(static_cast<Index>(parts_[p].interface.size()));
-        factorize_piece(matrix, *this, parts_[p], tops_, numbers_.data(), rests[p], places);
+        factorize_piece(matrix, shift, *this, parts_[p], tops_, numbers_.data(), rests[p], places);
     });
     constexpr std::size_t few = 2;  // so few are done one after the other, each on all threads
     for (const std::vector<std::size_t>& round : rounds_)
         if (round.size() > few)
             each_beside(round.size(),
-                        [&](std::size_t i) { factorize_separator(matrix, parts_[round[i]], rests, pool); });
+                        [&](std::size_t i) { factorize_separator(matrix, shift, parts_[round[i]], rests, pool); });
         else
-            for (const std::size_t p : round) factorize_separator(matrix, parts_[p], rests, pool);
+            for (const std::size_t p : round) factorize_separator(matrix, shift, parts_[p], rests, pool);
 }
 
-void SupernodalFactor::factorize_separator(const SparseMatrix& matrix, const FactorPart& part,
-                                           std::vector<LowerMatrix>& rests, RestPool& pool)
+void SupernodalFactor::factorize_separator(const SparseMatrix& matrix, const DiagonalShift& shift,
+                                           const FactorPart& part, std::vector<LowerMatrix>& rests, RestPool& pool)
 {
     const Index columns = part.end - part.begin, others = static_cast<Index>(part.interface.size());
     const Index rows = columns + others;
@@ -131,6 +131,8 @@ void SupernodalFactor::factorize_separator(const SparseMatrix& matrix, const Fac
         for (SparseMatrix::InnerIterator it(matrix, order[part.begin + c]); it; ++it)
             if (const Index r = rank[it.row()]; r >= part.begin + c)
                 block[place[r - tops_] + static_cast<std::ptrdiff_t>(c) * rows] = it.value();
+    for (Index c = std::max(shift.first - part.begin, 0); c < columns; ++c)
+        block[c + static_cast<std::ptrdiff_t>(c) * rows] += shift.number;
     // Extend-add: what each child leaves on its interface.
     for (const std::size_t child : part.children) {
         LowerMatrix from = std::exchange(rests[child], {});

@@ -18,8 +18,9 @@ public:
     explicit SupernodalFactor(Analysis analysis);
 
     /// @param matrix has the analyzed pattern; with more than one piece: both triangles
-    /// @throws SolverError if the matrix is not positive definite; then there is no factor
-    void factorize(const SparseMatrix& matrix);
+    /// @param shift is added to it
+    /// @throws SolverError if the sum is not positive definite; then there is no factor
+    void factorize(const SparseMatrix& matrix, const DiagonalShift& shift);
 
     bool is_in_pieces() const { return parts_.size() > 1; }
     double* values(Index s) { return numbers_.data() + value_begin[s]; }
@@ -34,8 +35,8 @@ public:
     void solve_upper(MatrixXd& x) const;
 
 private:
-    void factorize_separator(const SparseMatrix& matrix, const FactorPart& part, std::vector<LowerMatrix>& rests,
-                             RestPool& pool);
+    void factorize_separator(const SparseMatrix& matrix, const DiagonalShift& shift, const FactorPart& part,
+                             std::vector<LowerMatrix>& rests, RestPool& pool);
     void solve_lower(const FactorPart& part, MatrixXd& x, MatrixXd& interface) const;
     void solve_upper(const FactorPart& part, MatrixXd& x) const;
 

@@ -27,4 +27,10 @@ struct Supernodes {
     Index parent(Index s) const { return height(s) == width(s) ? s : supernode[rows_of(s)[width(s)]]; }
 };
 
+/// A number that is added to the diagonal of A, from one row of L on.
+struct DiagonalShift {
+    Index first = 0;
+    double number = 0.0;
+};
+
 }  // namespace koebe::detail
