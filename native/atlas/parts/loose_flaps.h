@@ -1,0 +1,19 @@
+// Flaps: long straight strips, such as chamfers, that would leave their plates and follow each other round corners.
+#pragma once
+
+#include "part_maps/part_mesh.h"
+#include "parts/regions.h"
+
+#include <vector>
+
+namespace koebe {
+
+/// Half-edges of a chart, one each, between flaps and what they hang on in the chart. A flap is a planar piece that
+/// has a straight border with a larger planar region outside, is joined with its chart along short edges only, and is
+/// much longer than the pieces there, or turned against them. Flaps in charts that run straight on are none: the rim
+/// of a lid is a strip.
+/// @param chart of a net that has faces of the surface as its faces @param at (3F of the surface) the chart as laid
+std::vector<Index> edges_of_flaps(const CutSurface& surface, const PlanarRegions& regions, const SeamedMesh& chart,
+                                  const std::vector<Complex>& at);
+
+}  // namespace koebe
