@@ -24,7 +24,7 @@ constexpr double worth_bending = 0.005;  // of the flap's area: so large are the
 struct Strip {
     double area = 0.0, outline = 0.0, inner = 0.0;  ///< length of the outline, of the edges to other pieces
     double longest = 0.0;
-    Complex direction = 0.0;  ///< of the longest border or edge, as laid, squared: sides count alike
+    Complex direction = 0.0;  ///< of the longest border or edge, as laid, by twice its angle
     bool at_plate = false;
 };
 
@@ -33,7 +33,7 @@ bool runs_along(const Strip& a, const Strip& b, double cosine)
     return std::real(a.direction * std::conj(b.direction)) > 2.0 * cosine * cosine - 1.0;
 }
 
-Complex squared(Complex edge)
+Complex twice_turned(Complex edge)
 {
     const double length = std::abs(edge);
     return length > 0.0 ? edge / length * (edge / length) : Complex(0.0);
@@ -60,7 +60,7 @@ std::vector<Index> edges_of_flaps(const CutSurface& surface, const PlanarRegions
         own.outline += length;
         if (length > own.longest) {
             own.longest = length;
-            own.direction = squared(edge);
+            own.direction = twice_turned(edge);
         }
         if (t != no_twin) {
             own.inner += length;
@@ -78,7 +78,7 @@ std::vector<Index> edges_of_flaps(const CutSurface& surface, const PlanarRegions
             if (border.first >= longest && regions.planes[region].area > plate_to_flap * own.area) {
                 own.at_plate = true;
                 own.longest = longest = border.first;
-                own.direction = squared(border.second);
+                own.direction = twice_turned(border.second);
             }
     }
     // A flap that the chart goes on straight from is none.
