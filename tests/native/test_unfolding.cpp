@@ -436,6 +436,41 @@ TEST(Unfolding, AConeIsSlitToItsTip)
     EXPECT_NEAR(darts, std::sqrt(2.0 / area), 1e-12);  // the cone's side is as long as the root of 2
 }
 
+/// A lid: a square plate, and round it strips bent down by an eighth of a right angle, with triangles at the corners.
+Solid bevelled_lid(double width)
+{
+    Solid solid;
+    const double low = -width * std::tan(std::numbers::pi / 8.0);
+    const std::pair<int, int> corners[] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    for (const auto& [x, y] : corners) solid.points.emplace_back(x, y, 0.0);
+    for (Index k = 0; k < 4; ++k) {  // of each side the ends of its strip
+        const auto [x, y] = corners[k];
+        const bool along_y = k % 2 == 0;
+        solid.points.emplace_back(along_y ? x : x * (1.0 + width), along_y ? y * (1.0 + width) : y, low);
+        const auto [next_x, next_y] = corners[(k + 1) % 4];
+        solid.points.emplace_back(along_y ? next_x : next_x * (1.0 + width), along_y ? next_y * (1.0 + width) : next_y,
+                                  low);
+    }
+    solid.polygons.push_back({0, 1, 2, 3});
+    for (Index k = 0; k < 4; ++k) {
+        const Index next = (k + 1) % 4;
+        solid.polygons.push_back({next, k, 4 + 2 * k, 5 + 2 * k});
+        solid.polygons.push_back({next, 5 + 2 * k, 4 + 2 * next});
+    }
+    return solid;
+}
+
+TEST(Unfolding, StripsOfABevelStayAtTheirPlate)
+{
+    const CutSurface surface = surface_of(bevelled_lid(0.05));
+    const auto parts = unfold_hard(surface);
+    ASSERT_TRUE(parts);
+    EXPECT_TRUE(parts->rest.empty());
+    ASSERT_EQ(parts->parts.size(), 1u);  // before, the strips left the plate, and followed each other
+    EXPECT_TRUE(lies_one_to_one(parts->parts.front(), parts->parts.front().points));
+    EXPECT_LT(parts->cut_length, 0.25 * surface.lengths.maxCoeff());  // the corners, no side of the plate
+}
+
 TEST(Unfolding, WhatIsCurvedBothWaysIsLeft)
 {
     Solid ball = box(1.0, 1.0, 1.0, 8);

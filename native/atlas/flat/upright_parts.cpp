@@ -86,26 +86,31 @@ std::vector<StraightRun> longest_together(const std::vector<StraightRun>& runs, 
 /// The turn that lays most straight edges along the axes; 0: there are too few.
 Complex straightening(const FlatPart& part)
 {
-    double outline = 0.0;
-    for (const VertexLoop& loop : part.surface.loops)
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            outline += (part.points.row(loop[i]) - part.points.row(loop[(i + 1) % loop.size()])).norm();
+    // Along the straight edges that are longest together.
     const double least = long_edge * std::sqrt(face_areas(part.vertices, part.surface.triangles).sum());
     std::vector<StraightRun> runs;
     for (const VertexLoop& loop : part.surface.loops) straight_runs(part, loop, least, runs);
+    if (runs.empty()) return 0.0;
     std::ranges::sort(runs, {}, &StraightRun::angle);
-    const std::vector<StraightRun> alike = longest_together(runs, tolerance::off_axis);
-    double length = 0.0;
-    for (const StraightRun& run : alike) length += run.length;
-    if (!(length > tolerance::along_axes * outline)) return 0.0;
-    const std::vector<StraightRun> same = longest_together(alike, exactly_same);
+    const std::vector<StraightRun> same = longest_together(longest_together(runs, tolerance::off_axis), exactly_same);
     const StraightRun& longest = *std::ranges::max_element(same, {}, &StraightRun::length);
     const Complex turn = std::conj(longest.chord) / longest.length;
+    // The share of the outline that then lies along the axes, with its short edges.
+    double outline = 0.0, straight = 0.0;
+    for (const VertexLoop& loop : part.surface.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Eigen::RowVector2d edge = part.points.row(loop[(i + 1) % loop.size()]) - part.points.row(loop[i]);
+            const Complex turned = turn * Complex(edge[0], edge[1]);
+            outline += edge.norm();
+            if (std::min(std::abs(turned.real()), std::abs(turned.imag())) < tolerance::off_axis * edge.norm())
+                straight += edge.norm();
+        }
+    if (straight > tolerance::majority * outline) return turn;
+    if (!(straight > tolerance::along_axes * outline)) return 0.0;
     // Where straight edges are the smaller part of the outline, the part must not need more room.
     const double smallest = box_size(upright_island({part.points, part.surface.loops}).points).prod();
-    const bool has_room =
-        box_size(place_island(part.points, {turn}, 1.0)).prod() <= (1.0 + tuning::noticeable) * smallest;
-    return length > tolerance::majority * outline || has_room ? turn : 0.0;
+    const double own = box_size(place_island(part.points, {turn}, 1.0)).prod();
+    return own <= (1.0 + tuning::noticeable) * smallest ? turn : 0.0;
 }
 
 /// The mean gradient of the height, as a direction of length 1; 0: the part has no clear up.

@@ -8,6 +8,7 @@
 #include "darts/tension.h"
 #include "flat/noise_level.h"
 #include "hard/laid_part.h"
+#include "hard/loose_strips.h"
 #include "mesh/connected_pieces.h"
 #include "planar/rigid_fit.h"
 #include "surface/face_vectors.h"
@@ -52,16 +53,18 @@ public:
 
     FlatCharts run()
     {
-        for (Index h = 0; h < net_.halfedge_count(); ++h) charts_.crease.push_back(is_crease(h));
+        for (Index h = 0; h < net_.halfedge_count(); ++h) charts_.crease.push_back(is_crease(h) ? bent_edge : 0);
         for (Index h = 0; h < net_.halfedge_count(); ++h)
             if (charts_.crease[h]) net_.cut(h);
         number_fans(net_);
         find_plates();
         for (const SeamedMesh& chart : connected_parts(net_)) {
-            if (is_curved(chart))
+            if (is_curved(chart)) {
                 settle_plates(chart);
-            else if (!settle(chart, most_tips_))
-                settle_mixed(chart);
+                continue;
+            }
+            for (const SeamedMesh& piece : without_loose_strips(chart))
+                if (!settle(piece, most_tips_)) settle_mixed(piece);
         }
         join_rest();
         return std::move(charts_);
@@ -287,6 +290,19 @@ private:
         return true;
     }
 
+    /// Cuts loose strips off, each a piece by itself. @return the pieces of the chart
+    std::vector<SeamedMesh> without_loose_strips(SeamedMesh chart)
+    {
+        lay(chart);
+        const std::vector<Index> edges = edges_of_loose_strips(surface_, regions_, chart, charts_.at);
+        for (const Index h : edges) {
+            for (const Index own : {in_net(chart, h), in_net(chart, chart.twin[h])}) charts_.crease[own] = loose_edge;
+            net_.cut(in_net(chart, h));
+            chart.cut(h);
+        }
+        return edges.empty() ? std::vector{std::move(chart)} : connected_parts(chart);
+    }
+
     /// Cuts a chart between faces of different groups. @return its pieces
     std::vector<SeamedMesh> cut_between_groups(SeamedMesh chart)
     {
@@ -345,19 +361,20 @@ private:
                 changes = true;
             }
         }
-        for (const SeamedMesh& piece : cut_between_groups(chart)) {
-            if (settle(piece, 0) || settle_core(piece)) continue;
-            for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
-            for (const SeamedMesh& strip : cut_between_groups(piece)) {
-                if (looseness(strip, piece) <= tolerance::rolled_outline && settle(strip, 0)) continue;
-                // Large facets between flat vertices are no ball, and stay flat: a cylinder beside faces of any kind.
-                const bool is_flat = curved_share(strip, chart, curved) <= tolerance::rolled_outline;
-                for (const Index f : strip.face) group_[f] = is_flat && plane(f).area >= small ? planar_[f] : -1;
-                for (const SeamedMesh& facet : cut_between_groups(strip))
-                    if (group_[facet.face.front()] < 0 || !settle(facet, 0))
-                        charts_.rest.insert(charts_.rest.end(), facet.face.begin(), facet.face.end());
+        for (const SeamedMesh& group : cut_between_groups(chart))
+            for (const SeamedMesh& piece : without_loose_strips(group)) {
+                if (settle(piece, 0) || settle_core(piece)) continue;
+                for (const Index f : piece.face) group_[f] = rolled.find(planar_[f]);
+                for (const SeamedMesh& strip : cut_between_groups(piece)) {
+                    if (looseness(strip, piece) <= tolerance::rolled_outline && settle(strip, 0)) continue;
+                    // Large facets between flat vertices are no ball, and stay flat: a cylinder beside any faces.
+                    const bool is_flat = curved_share(strip, chart, curved) <= tolerance::rolled_outline;
+                    for (const Index f : strip.face) group_[f] = is_flat && plane(f).area >= small ? planar_[f] : -1;
+                    for (const SeamedMesh& facet : cut_between_groups(strip))
+                        if (group_[facet.face.front()] < 0 || !settle(facet, 0))
+                            charts_.rest.insert(charts_.rest.end(), facet.face.begin(), facet.face.end());
+                }
             }
-        }
     }
 
     /// (fans of the chart) 1 for inner vertices round which the chart is not flat.
@@ -404,7 +421,8 @@ private:
         for (const Index f : charts_.rest) is_rest[f] = 1;
         for (const Index f : charts_.rest)
             for (Index h = 3 * f; h < 3 * f + 3; ++h)
-                if (twin(h) != no_twin && is_rest[face_of(twin(h))] && !charts_.crease[h]) net_.twin[h] = twin(h);
+                if (twin(h) != no_twin && is_rest[face_of(twin(h))] && charts_.crease[h] != bent_edge)
+                    net_.twin[h] = twin(h);
     }
 
     const CutSurface& surface_;

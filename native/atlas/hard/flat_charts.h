@@ -16,10 +16,12 @@ struct PlaneMotion {
     Complex operator()(Complex z) const { return turn * z + shift; }
 };
 
+inline constexpr char bent_edge = 1, loose_edge = 2;
+
 struct FlatCharts {
-    SeamedMesh net;                         ///< the surface, cut into charts. Edges count as longer where it is shown
-    std::vector<Complex> at;                ///< (3F) places of the corners, true to size
-    std::vector<char> crease;               ///< (3F) 1 where the surface is bent
+    SeamedMesh net;            ///< the surface, cut into charts. Edges count as longer where it is shown
+    std::vector<Complex> at;   ///< (3F) places of the corners, true to size
+    std::vector<char> crease;  ///< (3F) bent_edge where the surface is bent, loose_edge beside loose strips
     std::vector<std::vector<Index>> faces;  ///< of each chart, ascending
     std::vector<FlatPart> parts;            ///< each chart by itself
     std::vector<Index> rest;                ///< faces in no chart, because they are curved in both directions

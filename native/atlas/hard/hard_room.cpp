@@ -17,7 +17,7 @@
 namespace koebe {
 namespace {
 
-constexpr std::size_t fewest_parts = 4;  // fewer, such as the cross of a box, stay as they are
+constexpr std::size_t fewest_parts = 4;  // fewer, such as the cross of a box, stay unless cuts bring much
 constexpr double usual_margin = 0.004;   // of the square, with which islands are compared
 
 }  // namespace
@@ -54,9 +54,10 @@ std::vector<FlatPart> cut_between_planes(const CutSurface& surface, const FlatCh
 
 bool are_worth_their_number(const std::vector<FlatPart>& roomier, const std::vector<FlatPart>& parts)
 {
-    if (roomier.size() == parts.size() || parts.size() < fewest_parts) return false;
+    if (roomier.size() <= parts.size()) return false;
     const double count = static_cast<double>(roomier.size()) / static_cast<double>(parts.size());
-    return quickly_packed_scale(roomier) > std::pow(count, tuning::larger_by_count) * quickly_packed_scale(parts);
+    const double larger = quickly_packed_scale(roomier) / quickly_packed_scale(parts);
+    return larger > (parts.size() < fewest_parts ? tuning::worth_apart : std::pow(count, tuning::larger_by_count));
 }
 
 double quickly_packed_scale(const std::vector<FlatPart>& parts)

@@ -21,6 +21,8 @@ namespace koebe {
 namespace {
 
 constexpr double least_border = 0.12;     // of a chart's boundary: a shorter common border is not worth joining
+constexpr double strip_border = 0.4;      // of the boundary of a chart, with one so many times larger:
+constexpr double strip_plate = 5.0;       // it is a strip of that, such as a chamfer, and joined with it first
 constexpr std::size_t most_tips = 64;     // of one chart,
 constexpr std::size_t most_charts = 300;  // of a surface: else it is smooth, or rough
 constexpr std::size_t cone_tips = 2;      // of a chart of a hard surface
@@ -59,7 +61,7 @@ public:
             for (const Index f : faces) {
                 if (is_planar(f)) planar += surface_.areas[f];
                 for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                    if (charts_.net.twin[h] != no_twin || !charts_.crease[h]) continue;
+                    if (charts_.net.twin[h] != no_twin || charts_.crease[h] != bent_edge) continue;
                     outline += surface_.lengths[h];
                     if (is_planar(face_of(twin(h)))) at_planar += surface_.lengths[h];
                 }
@@ -94,7 +96,7 @@ public:
     {
         for (const Index h : borders()) {
             context.checkpoint();
-            if (smooth_only && charts_.crease[h]) continue;
+            if (smooth_only && charts_.crease[h] == bent_edge) continue;
             const Index a = island_of(h), b = island_of(twin(h));
             if (a == b) continue;
             islands_[a].size() < islands_[b].size() ? join(twin(h)) : join(h);
@@ -172,12 +174,13 @@ private:
     }
 
     /// For each pair of charts the crease at which they are best joined, if their straight common border is long
-    /// enough. Smooth borders first, then the longest.
+    /// enough. Smooth borders and those of strips first, then the longest.
     std::vector<Index> borders() const
     {
         // Borders of each pair of charts, and the whole boundary of each chart.
         std::map<std::pair<Index, Index>, std::vector<Index>> common;
-        std::vector<double> boundary(islands_.size(), 0.0);
+        std::vector<double> boundary(islands_.size(), 0.0), area(boundary);
+        for (std::size_t k = 0; k < area.size(); ++k) area[k] = surface_.areas(islands_[k]).sum();
         for (Index h = 0; h < halfedges(); ++h) {
             if (charts_.net.twin[h] != no_twin) continue;
             const Index a = chart_[face_of(h)];
@@ -198,8 +201,12 @@ private:
                     length += surface_.lengths[h];
                     price += charts_.net.length[h];
                 }
-            if (length >= least_border * std::min(boundary[charts.first], boundary[charts.second]))
-                found.emplace_back(charts_.crease[longest], -price, longest);
+            const auto [a, b] = charts;
+            if (length < least_border * std::min(boundary[a], boundary[b])) continue;
+            const auto [smaller, larger] = area[a] < area[b] ? std::pair(a, b) : std::pair(b, a);
+            const bool is_strip =
+                length >= strip_border * boundary[smaller] && area[larger] > strip_plate * area[smaller];
+            found.emplace_back(is_strip ? 0 : charts_.crease[longest], -price, longest);
         }
         std::ranges::sort(found);
         std::vector<Index> order;
@@ -249,19 +256,22 @@ private:
     const double longest_;  // extent of an island
 };
 
-/// A mesh that became one island which leaves most of the square empty, such as the cross of a cube, becomes several
-/// islands if they are much larger there. @param unfold does it with other options
+/// A mesh that leaves most of the square empty, such as the cross of a cube, gets shorter islands if they are much
+/// larger there. @param unfold does it with other options
 template <class Unfold>
 std::optional<UnfoldedParts> larger_when_packed(const CutSurface& surface, UnfoldOptions options, const Unfold& unfold)
 {
     std::optional<UnfoldedParts> whole = unfold(options);
     const double area = surface.areas.sum();
-    if (!whole || !options.roomy || whole->parts.size() != 1 || !whole->rest.empty() || area < whole_mesh) return whole;
-    const double scale = quickly_packed_scale(whole->parts);
+    if (!whole || !options.roomy || !whole->rest.empty() || area < whole_mesh) return whole;
+    const auto scale_of = [](const UnfoldedParts& found) {
+        return quickly_packed_scale(are_worth_their_number(found.roomier, found.parts) ? found.roomier : found.parts);
+    };
+    const double scale = scale_of(*whole);
     if (area * scale * scale >= tuning::packed_badly) return whole;
     options.compact = true;
     std::optional<UnfoldedParts> apart = unfold(options);
-    return apart && quickly_packed_scale(apart->parts) > tuning::worth_apart * scale ? apart : whole;
+    return apart && scale_of(*apart) > tuning::worth_apart * scale ? apart : whole;
 }
 
 std::optional<UnfoldedParts> unfolded_once(const CutSurface& surface, ExecutionContext& context,
