@@ -7,7 +7,8 @@ import bpy
 
 from ..jobs.map_job import Job
 from .modal_run import listen
-from .run_operator import MapOperator, Waiting, forget_waiting
+from .run_operator import MapOperator
+from .waiting_run import Waiting, forget_waiting
 
 
 class UV_OT_koebe_redo(MapOperator, bpy.types.Operator):

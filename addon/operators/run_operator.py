@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The common part of operators that map objects: their objects, their options, their messages."""
 
-import dataclasses
 import time
 from typing import Any, ClassVar
 
@@ -20,6 +19,7 @@ from ..surfaces.errors import KnownError
 from .answers import finished, refused
 from .modal_run import ModalRun, redraw
 from .select_from_report import select_offenders
+from .waiting_run import Waiting, go_on
 
 
 def takes_parts(options: Any) -> bool:
@@ -84,48 +84,6 @@ def can_map(cls: type[bpy.types.Operator], context: bpy.types.Context) -> bool:
 
 
 AT_ONCE = 0.3  # seconds for a run from the redo panel, before it goes on beside the window
-
-
-@dataclasses.dataclass
-class Waiting:
-    """A run from the redo panel that goes on.
-
-    label    of its operator, as of its undo step
-    preview  has written the last map, which is seen meanwhile
-    settled  the redo panel has ended: changes after that are the user's
-    last     the run that goes on now
-    done     the last map: the label of its operator, and its job
-    """
-
-    label: str
-    job: Job
-    worker: Worker
-    preview: Transaction
-    settled: bool = False
-
-    last: ClassVar["Waiting | None"] = None
-    done: ClassVar[tuple[str, Job] | None] = None
-
-
-def go_on(window: bpy.types.Window, run: Waiting) -> None:
-    """Look after a run once the redo panel has ended. It takes the place of the last one."""
-    forget_waiting()
-    Waiting.last = run
-
-    def begin() -> None:
-        if Waiting.last is run:
-            with bpy.context.temp_override(window=window):
-                operators: Any = bpy.ops.uv
-                operators.koebe_redo("INVOKE_DEFAULT")
-
-    bpy.app.timers.register(begin, first_interval=0.0)
-
-
-def forget_waiting() -> None:
-    """End the run that goes on."""
-    if Waiting.last is not None:
-        Waiting.last.job.cancel_token.cancel()
-        Waiting.last = None
 
 
 class MapOperator(ModalRun):

@@ -11,7 +11,7 @@ from ..jobs.map_job import Job
 from ..maps.domain import Domain
 from ..maps.domain_table import DOMAINS
 from ..state.option_properties import UNWRAP_OPTION_NAMES, choice_of, mixin, options_of
-from .domain_table import OPERATORS
+from .domains import OPERATORS
 from .parts import UV_OT_koebe_parts
 from .run_operator import MapOperator
 from .uniformize import UV_OT_koebe_uniformize

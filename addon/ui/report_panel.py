@@ -74,12 +74,17 @@ def island_icon(entry: KoebeIslandReport) -> Literal["CANCEL", "CHECKMARK", "ERR
     return "CHECKMARK" if is_good(entry) else "ERROR"
 
 
-def shared_coverage(context: bpy.types.Context, entry: KoebeIslandReport) -> float:
-    """How much of the UV square the islands cover that share it with this one."""
+def shared_coverage(
+    context: bpy.types.Context, entry: KoebeIslandReport, of_object: list[KoebeIslandReport]
+) -> float:
+    """How much of the UV square the islands cover that share it with this one.
+
+    of_object    the islands of its object
+    """
     if entry.parts:
         return entry.coverage  # of all parts
     islands = [one for one in report_of(context).islands if one.together and one.run == entry.run] if (
-        entry.together) else entries_of_object(context)
+        entry.together) else of_object
     return sum(one.coverage for one in islands if one.shape == entry.shape)
 
 
@@ -101,9 +106,10 @@ class ReportPanel(KoebePanel):
             nothing = "no report on its UVs" if known else "no map yet"  # of a duplicate, for example
             layout.label(text="No map yet: press Unwrap" if obj is None else f"{obj.name}: {nothing}")
             return
-        if len(entries_of_object(context)) > 1:
+        of_object = entries_of_object(context)
+        if len(of_object) > 1:
             layout.template_list("KOEBE_UL_islands", "", report, "islands", report, "active", rows=3)
-        several = len([one for one in entries_of_object(context) if one.shape == entry.shape]) > 1
+        several = len([one for one in of_object if one.shape == entry.shape]) > 1
         which = f", island {entry.island + 1}" if several else ""
         if entry.shape:
             which = f", {entry.shape}{which if entry.island else ''}"
@@ -112,9 +118,9 @@ class ReportPanel(KoebePanel):
         draw_message(layout, old)
         if entry.mapped:
             column = layout.column(align=True)
-            for figure in figures(entry, shared_coverage(context, entry)):
+            for figure in figures(entry, shared_coverage(context, entry, of_object)):
                 draw_figure(column, figure)
-            draw_selections(layout.column(), entry)
+            draw_selections(layout.column(), entry, of_object)
             if entry.uneven:
                 draw_map_button(layout.column(align=True), settings_of(context), "parts")
             draw_unroll(layout, context, entry)
@@ -158,9 +164,11 @@ def draw_warning(column: bpy.types.UILayout, number: int, warning: KoebeWarningR
         button.warning = number
 
 
-def draw_selections(column: bpy.types.UILayout, entry: KoebeIslandReport) -> None:
+def draw_selections(
+    column: bpy.types.UILayout, entry: KoebeIslandReport, of_object: list[KoebeIslandReport]
+) -> None:
     """Buttons that select cuts, flipped and torn faces, where there are any."""
-    if any(one.cuts or one.cut_edges for one in entries_of_object(bpy.context)):
+    if any(one.cuts or one.cut_edges for one in of_object):
         column.operator(UV_OT_koebe_select_cuts.bl_idname, icon="RESTRICT_SELECT_OFF")
     if entry.flipped:
         column.operator(UV_OT_koebe_select_flipped.bl_idname, icon="RESTRICT_SELECT_OFF")

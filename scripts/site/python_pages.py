@@ -12,6 +12,7 @@ import koebe
 from docstrings import linked, parts, plain
 from koebe import _report_entries
 from koebe.labs import fit as _fit
+from koebe.maps import figures as _figures
 from koebe.maps import result as _result
 from markup import escaped, indented, title, toctree
 
@@ -72,8 +73,8 @@ PAGES = {
     },
 }  # fmt: skip
 ENTRIES = [
-    _result.AngleError, _result.Beltrami, _result.LogAreaRatio, _result.AreaDistortion, _result.Step,
-    _result.MeanOverLoops, _result.MeanRoundness, _result.Seconds, _fit.Distortion, _fit.Fit,
+    _figures.AngleError, _figures.Beltrami, _figures.LogAreaRatio, _figures.AreaDistortion, _figures.Step,
+    _figures.MeanOverLoops, _figures.MeanRoundness, _figures.Seconds, _fit.Distortion, _fit.Fit,
 ]  # fmt: skip
 CALLED = {"Surface", "EvenDial", "CancelToken", "CutSketch"}  # classes that a program makes itself
 PUBLIC = set(koebe.__all__)

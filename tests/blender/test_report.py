@@ -62,7 +62,7 @@ def test_the_report_is_that_of_the_active_object(addon):
         assert shown == [report.islands[index] for index in expected] == state.entries_of_object(bpy.context)
         if obj is not bad:  # islands of one run share the square, and no other ones
             coverage = sum(report.islands[index].coverage for index in expected)
-            assert shared(bpy.context, shown[0]) == pytest.approx(coverage)
+            assert shared(bpy.context, shown[0], shown) == pytest.approx(coverage)
     assert state.failed_beside(bpy.context) == []
     scenes.select(second)
     report.active = 1
@@ -444,7 +444,7 @@ def test_islands_that_share_the_square_are_judged_together_whatever_is_chosen_la
     assert bpy.ops.uv.koebe_uniformize(placement=placement) == {"FINISHED"}
     bpy.context.scene.koebe_uv.placement = "together" if placement == "pack" else "pack"
     islands = bpy.context.window_manager.koebe_uv.islands
-    shared = addon("ui.report_panel").shared_coverage(bpy.context, islands[0])
+    shared = addon("ui.report_panel").shared_coverage(bpy.context, islands[0], islands[:1])
     expected = islands[0].coverage + (islands[1].coverage if placement == "together" else 0.0)
     assert shared == pytest.approx(expected) and 0.0 < shared <= 1.0
 
@@ -454,7 +454,7 @@ def test_an_atlas_has_one_coverage(addon):
     scenes.select(*objects)
     assert bpy.ops.uv.koebe_parts(atlas=True, darts=0.0) == {"FINISHED"}
     islands = bpy.context.window_manager.koebe_uv.islands
-    assert addon("ui.report_panel").shared_coverage(bpy.context, islands[0]) == islands[0].coverage < 1.0
+    assert addon("ui.report_panel").shared_coverage(bpy.context, islands[0], islands[:1]) == islands[0].coverage < 1.0
 
 
 def test_a_report_says_when_it_is_of_another_mesh_or_of_no_layer(addon, tmp_path):

@@ -128,7 +128,7 @@ def test_flipped_triangles_are_counted_with_their_direction():
     (0, 0, "schottky", "sphere"), (0, 1, "schottky", "uniformize"), (0, 3, "schottky", "uniformize"),
 ])  # fmt: skip
 def test_what_is_no_such_domain_is_offered_another(handles, loops, domain, offer):
-    domains = named_module("domains")
+    domains = named_module("domain_table")
     with pytest.raises(named_module("domain").DomainError, match="this surface has") as caught:
         domains.DOMAINS[domain].check(handles, loops)
     assert caught.value.offer == tuple(offer.split())

@@ -15,7 +15,7 @@
 namespace koebe {
 namespace {
 
-constexpr double upright = 0.1;  // least cosine between a face's normal and its plane's
+constexpr double least_facing = 0.1;  // least cosine between a face's normal and its plane's
 constexpr int most_fits = 8;
 constexpr double much_larger = 20.0;  // times larger regions have faces beside them that are off by more
 constexpr int absorbing_rounds = 8;
@@ -72,8 +72,8 @@ private:
         const double longest = surface_.lengths.segment<3>(3 * static_cast<Eigen::Index>(f)).maxCoeff();
         const double angle =
             tolerance::coplanar + 2.0 * tolerance * longest / std::max(2.0 * surface_.areas[f], 1e-300);
-        if (angle < 0.5 * std::numbers::pi) return std::max(std::cos(angle), upright);
-        return regions_.noise > 0.0 ? -1.0 : upright;  // noise may turn a sliver over
+        if (angle < 0.5 * std::numbers::pi) return std::max(std::cos(angle), least_facing);
+        return regions_.noise > 0.0 ? -1.0 : least_facing;  // noise may turn a sliver over
     }
 
     /// The plane of least squares for faces weighted by area, with their common vector area as its normal.

@@ -256,22 +256,29 @@ private:
     const double longest_;  // extent of an island
 };
 
+/// The parts that are packed in the end.
+const std::vector<FlatPart>& packed_parts_of(const UnfoldedParts& found)
+{
+    return are_worth_their_number(found.roomier, found.parts) ? found.roomier : found.parts;
+}
+
 /// A mesh that leaves most of the square empty, such as the cross of a cube, gets shorter islands if they are much
-/// larger there. @param unfold does it with other options
+/// larger there, or about as large as more islands. @param unfold does it with other options
 template <class Unfold>
 std::optional<UnfoldedParts> larger_when_packed(const CutSurface& surface, UnfoldOptions options, const Unfold& unfold)
 {
     std::optional<UnfoldedParts> whole = unfold(options);
     const double area = surface.areas.sum();
     if (!whole || !options.roomy || !whole->rest.empty() || area < whole_mesh) return whole;
-    const auto scale_of = [](const UnfoldedParts& found) {
-        return quickly_packed_scale(are_worth_their_number(found.roomier, found.parts) ? found.roomier : found.parts);
-    };
-    const double scale = scale_of(*whole);
-    if (area * scale * scale >= tuning::packed_badly) return whole;
+    const double uncut = quickly_packed_scale(whole->parts);
+    if (area * uncut * uncut >= tuning::packed_badly) return whole;
     options.compact = true;
     std::optional<UnfoldedParts> apart = unfold(options);
-    return apart && scale_of(*apart) > tuning::worth_apart * scale ? apart : whole;
+    if (!apart) return whole;
+    const std::vector<FlatPart>&own = packed_parts_of(*whole), &other = packed_parts_of(*apart);
+    const double larger = quickly_packed_scale(other) / quickly_packed_scale(own);
+    const bool is_as_large = larger > 1.0 - tuning::noticeable && other.size() < own.size();
+    return larger > tuning::worth_apart || is_as_large ? apart : whole;
 }
 
 std::optional<UnfoldedParts> unfolded_once(const CutSurface& surface, ExecutionContext& context,

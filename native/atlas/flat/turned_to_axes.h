@@ -11,6 +11,6 @@ namespace koebe {
 /// runs, up to quarter turns, lies along an axis to rounding, and `along_axes` is set. Other parts stay as they are.
 /// Sets `up` of all parts.
 /// @param up upwards in space, a direction of length 1
-void stand_upright(std::vector<FlatPart>& parts, const Eigen::RowVector3d& up);
+void turn_to_axes(std::vector<FlatPart>& parts, const Eigen::RowVector3d& up);
 
 }  // namespace koebe

@@ -1,4 +1,4 @@
-#include "flat/upright_parts.h"
+#include "flat/turned_to_axes.h"
 
 #include "cost/tolerances.h"
 #include "cost/tuning.h"
@@ -135,7 +135,7 @@ Complex up_in_plane(const FlatPart& part, const Eigen::RowVector3d& up)
 
 }  // namespace
 
-void stand_upright(std::vector<FlatPart>& parts, const Eigen::RowVector3d& up)
+void turn_to_axes(std::vector<FlatPart>& parts, const Eigen::RowVector3d& up)
 {
     for (FlatPart& part : parts) {
         const Complex turn = part.kind == PartKind::tube ? Complex(0.0) : straightening(part);
