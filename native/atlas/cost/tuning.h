@@ -103,8 +103,6 @@ inline constexpr double stuck = 0.25;
 inline constexpr double cut_reach = 0.25;
 /// length | between tips of darts, or through cuts, opened together; from round loops to other darts | chosen
 inline constexpr double dart_spacing = 0.12;
-/// length | round the tip of a dart that did not pay: no new tips there | chosen
-inline constexpr double refused_reach = 0.06;
 /// length | of the longest dart | chosen
 inline constexpr double longest_dart = 0.5;
 /// length | of the longest through cut | a crumpled body of needles: angles 22 degrees, 43 without

@@ -226,11 +226,12 @@ private:
         if (trial.opened) parts_[k] = std::move(*trial.opened);
     }
 
+    /// No dart begins again within half the spacing of a tip that did not pay.
     void refuse(std::size_t k, Index tip)
     {
         const Vertices& vertices = parts_[k].flat.vertices;
         for (std::size_t v = 0; v < refused_[k].size(); ++v)
-            if ((vertices.row(static_cast<Eigen::Index>(v)) - vertices.row(tip)).norm() < tuning::refused_reach)
+            if ((vertices.row(static_cast<Eigen::Index>(v)) - vertices.row(tip)).norm() < 0.5 * tuning::dart_spacing)
                 refused_[k][v] = 1;
     }
 
